@@ -97,10 +97,13 @@ double GroundRelief::waves_at(double x) const {
   return sum;
 }
 
-double GroundRelief::height(double x, double y) const {
-  if (flat_) return 0.0;
+double GroundRelief::map_height(double x, double y) const {
+  return parameters_.heightmap ? parameters_.heightmap->height(x, y) : 0.0;
+}
+
+double GroundRelief::profile(double x) const {
   const ReliefParameters& p = parameters_;
-  double height = p.heightmap ? p.heightmap->height(x, y) : 0.0;
+  double height = 0.0;
   if (p.trapezoid) {
     const Eigen::Vector4d& shape = *p.trapezoid;
     const double from_foot = 0.5 * shape[3] - std::abs(x - shape[0]);
@@ -164,7 +167,7 @@ void declare_relief(Schema& schema) {
       .optional();
 }
 
-GroundRelief relief_from(const Options& options, std::optional<Heightmap> heightmap) {
+GroundRelief relief_from(const Options& options, std::shared_ptr<const Heightmap> heightmap) {
   ReliefParameters relief;
   relief.heightmap = std::move(heightmap);
   const auto numbers = [&](const char* key) { return options.numbers(key).data(); };

@@ -3,6 +3,7 @@
 /// The initial surface of ground that is not flat: heights above its level.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,8 +36,8 @@ struct Roughness {
 };
 
 struct ReliefParameters {
-  std::optional<Heightmap> heightmap = {};
-  std::optional<Vector2> washboard = {};  ///< wavelength, amplitude [m]
+  std::shared_ptr<const Heightmap> heightmap = {};  ///< may be large
+  std::optional<Vector2> washboard = {};            ///< wavelength, amplitude [m]
   std::optional<Roughness> roughness = {};
   std::optional<Eigen::Vector4d> trapezoid =
       {};  ///< x of the middle, height, length of top, of base [m]
@@ -52,7 +53,10 @@ class GroundRelief {
   GroundRelief(ReliefParameters parameters, const std::string& where);
 
   bool flat() const { return flat_; }
-  double height(double x, double y) const;  ///< [m] @throws InputError outside of a heightmap
+  /// [m] @throws InputError outside of a heightmap
+  double height(double x, double y) const { return profile(x) + map_height(x, y); }
+  double profile(double x) const;               ///< of all shapes but the heightmap [m]
+  double map_height(double x, double y) const;  ///< [m] @throws InputError outside of it
   /// A run that continues must have the same heightmap. Keywords are compared by the fix.
   void match(Checkpoint& state) const;
 
@@ -72,6 +76,6 @@ class GroundRelief {
 /// The keys of a relief but for those of its heightmap's file, which are read by io.
 void declare_relief(Schema& schema);
 /// The same from a line. @param heightmap  of the file that the line names
-GroundRelief relief_from(const Options& options, std::optional<Heightmap> heightmap);
+GroundRelief relief_from(const Options& options, std::shared_ptr<const Heightmap> heightmap);
 
 }  // namespace furrow

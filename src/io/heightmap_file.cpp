@@ -3,18 +3,20 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "io/input_text.h"
+#include "io/text_lines.h"
 
 namespace furrow {
 
@@ -28,77 +30,37 @@ constexpr const char* kind = "a heightmap";
 constexpr const char* formats = "an ESRI ASCII grid, or lines of x y z";
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-struct Words {
-  int line = 0;
-  std::vector<std::string_view> words;
-};
+double number(const TextLines& lines, std::size_t word) {
+  double value = none;
+  if (!parse(lines.words()[word], value))
+    lines.refuse(lines.line(), fmt::format("has '{}'", short_word(lines.words()[word])),
+                 "a number");
+  return value;
+}
 
-class Reader {
- public:
-  explicit Reader(const std::string& path) : path_(path) {
-    const std::string bytes = read_input_bytes(path, kind, largest_file).substr(0, 4);
-    if (bytes == std::string("II*\0", 4) || bytes == std::string("MM\0*", 4) ||
-        bytes == std::string("II+\0", 4) || bytes == std::string("MM\0+", 4))
-      throw InputError(path, "is a GeoTIFF", formats,
-                       "convert it: gdal_translate -of AAIGrid in.tif out.asc");
-    text_ = read_input_text(path, kind, largest_file);
-    rest_ = text_;
-  }
-  /// The next line that has words; none at the end.
-  bool next(Words& line) {
-    line.words.clear();
-    while (!rest_.empty() && line.words.empty()) {
-      line.line = ++number_;
-      const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-      split(rest_.substr(0, end), line.words);
-      rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    }
-    return !line.words.empty();
-  }
-  double number(const Words& line, std::size_t word) const {
-    const std::string_view text = line.words[word];
-    double value = none;
-    const auto [stop, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (status != std::errc() || stop != text.data() + text.size())
-      refuse(line.line, fmt::format("has '{}'", text.substr(0, 20)), "a number");
-    return value;
-  }
-  [[noreturn]] void refuse(int line, const std::string& problem, const std::string& allowed,
-                           const std::string& remedy = "") const {
-    throw InputError(line > 0 ? fmt::format("{}, line {}", path_, line) : path_, problem, allowed,
-                     remedy);
-  }
+std::string read_text(const std::string& path) {
+  std::string bytes = read_input_bytes(path, kind, largest_file);
+  const std::string head = bytes.substr(0, 4);
+  if (head == std::string("II*\0", 4) || head == std::string("MM\0*", 4) ||
+      head == std::string("II+\0", 4) || head == std::string("MM\0+", 4))
+    throw InputError(path, "is a GeoTIFF", formats,
+                     "convert it: gdal_translate -of AAIGrid in.tif out.asc");
+  return text_of_bytes(std::move(bytes), path, kind);
+}
 
- private:
-  static void split(std::string_view line, std::vector<std::string_view>& words) {
-    constexpr const char* blanks = " \t\r,;";
-    line = line.substr(0, line.find('#'));
-    for (std::size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;
-         at = line.find_first_not_of(blanks, at)) {
-      const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
-      words.push_back(line.substr(at, end - at));
-      at = end;
-    }
-  }
-
-  std::string path_, text_;
-  std::string_view rest_;
-  int number_ = 0;
-};
-
-void check_count(const Reader& reader, double columns, double rows) {
+void check_count(const TextLines& lines, double columns, double rows) {
   if (columns >= 1.0 && rows >= 1.0 && columns * rows <= most_nodes &&
       columns == std::floor(columns) && rows == std::floor(rows))
     return;
-  reader.refuse(0, fmt::format("has {:g} columns and {:g} rows", columns, rows),
-                fmt::format("whole numbers, at most {:g} heights", most_nodes));
+  lines.refuse(0, fmt::format("has {:g} columns and {:g} rows", columns, rows),
+               fmt::format("whole numbers, at most {:g} heights", most_nodes));
 }
 
-void check_height(const Reader& reader, int line, double height, double x, double y) {
+void check_height(const TextLines& lines, int line, double height, double x, double y) {
   if (std::abs(height) <= largest_height) return;
-  reader.refuse(line, fmt::format("has no height at x = {:.10g}, y = {:.10g} m", x, y),
-                fmt::format("a height up to {:g} m at every point", largest_height),
-                "fill the gaps: gdal_fillnodata, or cut the map: gdal_translate -projwin");
+  lines.refuse(line, fmt::format("has no height at x = {:.10g}, y = {:.10g} m", x, y),
+               fmt::format("a height up to {:g} m at every point", largest_height),
+               "fill the gaps: gdal_fillnodata, or cut the map: gdal_translate -projwin");
 }
 
 std::string lower_case(std::string_view word) {
@@ -108,29 +70,29 @@ std::string lower_case(std::string_view word) {
 }
 
 /// From the north down; the header gives the corner or the centre of the cell in the south-west.
-Heightmap read_grid(Reader& reader, Words line) {
+Heightmap read_grid(TextLines& lines) {
   std::map<std::string, double> header;
-  while (std::isalpha(static_cast<unsigned char>(line.words.front().front())) != 0 &&
-         lower_case(line.words.front()) != "nan") {
-    if (line.words.size() != 2)
-      reader.refuse(line.line, "is no line of a header", "a key and a number");
-    header[lower_case(line.words.front())] = reader.number(line, 1);
-    if (!reader.next(line)) reader.refuse(0, "has no heights", formats);
+  while (std::isalpha(static_cast<unsigned char>(lines.words().front().front())) != 0 &&
+         lower_case(lines.words().front()) != "nan") {
+    if (lines.words().size() != 2)
+      lines.refuse(lines.line(), "is no line of a header", "a key and a number");
+    header[lower_case(lines.words().front())] = number(lines, 1);
+    if (!lines.next()) lines.refuse(0, "has no heights", formats);
   }
   const auto need = [&](const char* key, const char* other) {
     const auto found = header.count(key) ? header.find(key) : header.find(other);
     if (found == header.end())
-      reader.refuse(0, fmt::format("has no '{}' in its header", key),
-                    "ncols, nrows, xllcorner, yllcorner, cellsize",
-                    "gdal_translate -of AAIGrid writes them");
+      lines.refuse(0, fmt::format("has no '{}' in its header", key),
+                   "ncols, nrows, xllcorner, yllcorner, cellsize",
+                   "gdal_translate -of AAIGrid writes them");
     return found->second;
   };
-  check_count(reader, need("ncols", "ncols"), need("nrows", "nrows"));
+  check_count(lines, need("ncols", "ncols"), need("nrows", "nrows"));
   Heightmap map;
   map.columns = static_cast<int>(need("ncols", "ncols"));
   map.rows = static_cast<int>(need("nrows", "nrows"));
   map.spacing = {need("cellsize", "dx"), need("cellsize", "dy")};
-  if (!(map.spacing.minCoeff() > 0.0)) reader.refuse(0, "has a cellsize <= 0", "a number > 0 [m]");
+  if (!(map.spacing.minCoeff() > 0.0)) lines.refuse(0, "has a cellsize <= 0", "a number > 0 [m]");
   map.lower = {
       need("xllcorner", "xllcenter") + (header.count("xllcorner") ? 0.5 : 0.0) * map.spacing.x(),
       need("yllcorner", "yllcenter") + (header.count("yllcorner") ? 0.5 : 0.0) * map.spacing.y()};
@@ -139,21 +101,21 @@ Heightmap read_grid(Reader& reader, Words line) {
   map.heights.assign(columns * static_cast<std::size_t>(map.rows), 0.0);
   std::size_t count = 0;
   do
-    for (std::size_t word = 0; word < line.words.size(); ++word, ++count) {
+    for (std::size_t word = 0; word < lines.words().size(); ++word, ++count) {
       if (count >= map.heights.size())
-        reader.refuse(line.line, "has more heights than ncols x nrows", formats);
+        lines.refuse(lines.line(), "has more heights than ncols x nrows", formats);
       const std::size_t row = static_cast<std::size_t>(map.rows) - 1 - count / columns;
-      double height = reader.number(line, word);
+      double height = number(lines, word);
       if (height == no_data) height = none;
-      check_height(reader, line.line, height,
+      check_height(lines, lines.line(), height,
                    map.lower.x() + static_cast<double>(count % columns) * map.spacing.x(),
                    map.lower.y() + static_cast<double>(row) * map.spacing.y());
       map.heights[row * columns + count % columns] = height;
     }
-  while (reader.next(line));
+  while (lines.next());
   if (count < map.heights.size())
-    reader.refuse(0, fmt::format("has {} heights", count),
-                  fmt::format("{}: ncols x nrows", map.heights.size()), "the file is cut short");
+    lines.refuse(0, fmt::format("has {} heights", count),
+                 fmt::format("{}: ncols x nrows", map.heights.size()), "the file is cut short");
   return map;
 }
 
@@ -163,7 +125,8 @@ struct RegularAxis {
   int count;
 };
 
-RegularAxis regular_axis(const Reader& reader, std::vector<double> coordinates, const char* name) {
+RegularAxis regular_axis(const TextLines& lines, std::vector<double> coordinates,
+                         const char* name) {
   std::sort(coordinates.begin(), coordinates.end());
   const double lower = coordinates.front(), length = coordinates.back() - lower;
   double spacing = 0.0;
@@ -172,30 +135,30 @@ RegularAxis regular_axis(const Reader& reader, std::vector<double> coordinates, 
         gap > 1e-9 * length && (spacing == 0.0 || gap < spacing))
       spacing = gap;
   if (spacing == 0.0)
-    reader.refuse(0, fmt::format("has a single {}", name), "at least two along x and along y");
+    lines.refuse(0, fmt::format("has a single {}", name), "at least two along x and along y");
   const double intervals = std::round(length / spacing);
   if (!(intervals < most_nodes))
-    reader.refuse(0, fmt::format("has points {:.3g} m apart along {}", spacing, name),
-                  "points of a regular grid");
+    lines.refuse(0, fmt::format("has points {:.3g} m apart along {}", spacing, name),
+                 "points of a regular grid");
   return {lower, length / intervals, static_cast<int>(intervals) + 1};
 }
 
-Heightmap read_points(Reader& reader, Words line) {
+Heightmap read_points(TextLines& lines) {
   std::vector<double> x, y, z;
-  std::vector<int> lines;
+  std::vector<int> line_of;
   do {
-    if (line.words.size() != 3)
-      reader.refuse(line.line, fmt::format("has {} words", line.words.size()), "x y z");
-    x.push_back(reader.number(line, 0));
-    y.push_back(reader.number(line, 1));
-    z.push_back(reader.number(line, 2));
-    lines.push_back(line.line);
-    check_height(reader, line.line, z.back(), x.back(), y.back());
+    if (lines.words().size() != 3)
+      lines.refuse(lines.line(), fmt::format("has {} words", lines.words().size()), "x y z");
+    x.push_back(number(lines, 0));
+    y.push_back(number(lines, 1));
+    z.push_back(number(lines, 2));
+    line_of.push_back(lines.line());
+    check_height(lines, lines.line(), z.back(), x.back(), y.back());
     if (!std::isfinite(x.back()) || !std::isfinite(y.back()))
-      reader.refuse(line.line, "has a coordinate that is not finite", "x y z");
-  } while (reader.next(line));
-  const RegularAxis along_x = regular_axis(reader, x, "x"), along_y = regular_axis(reader, y, "y");
-  check_count(reader, along_x.count, along_y.count);
+      lines.refuse(lines.line(), "has a coordinate that is not finite", "x y z");
+  } while (lines.next());
+  const RegularAxis along_x = regular_axis(lines, x, "x"), along_y = regular_axis(lines, y, "y");
+  check_count(lines, along_x.count, along_y.count);
   Heightmap map;
   map.columns = along_x.count;
   map.rows = along_y.count;
@@ -207,18 +170,18 @@ Heightmap read_points(Reader& reader, Words line) {
     const double i = (x[n] - map.lower.x()) / map.spacing.x(),
                  j = (y[n] - map.lower.y()) / map.spacing.y();
     if (std::abs(i - std::round(i)) > regular || std::abs(j - std::round(j)) > regular)
-      reader.refuse(
-          lines[n], "has a point that is not on a regular grid",
+      lines.refuse(
+          line_of[n], "has a point that is not on a regular grid",
           fmt::format("x and y in steps of {:.6g} and {:.6g} m", map.spacing.x(), map.spacing.y()),
           "interpolate the points on a grid: gdal_grid");
     double& height = map.heights[static_cast<std::size_t>(std::lround(j)) *
                                      static_cast<std::size_t>(map.columns) +
                                  static_cast<std::size_t>(std::lround(i))];
-    if (!std::isnan(height)) reader.refuse(lines[n], "repeats a point", "every point once");
+    if (!std::isnan(height)) lines.refuse(line_of[n], "repeats a point", "every point once");
     height = z[n];
   }
   for (std::size_t n = 0; n < map.heights.size(); ++n)
-    check_height(reader, 0, map.heights[n],
+    check_height(lines, 0, map.heights[n],
                  map.lower.x() + static_cast<double>(n % static_cast<std::size_t>(map.columns)) *
                                      map.spacing.x(),
                  map.lower.y() + static_cast<double>(n / static_cast<std::size_t>(map.columns)) *
@@ -229,12 +192,11 @@ Heightmap read_points(Reader& reader, Words line) {
 }  // namespace
 
 Heightmap read_heightmap(const std::string& path, const Vector3& origin) {
-  Reader reader(path);
-  Words line;
-  if (!reader.next(line)) reader.refuse(0, "is empty", formats);
-  const bool has_header =
-      lower_case(line.words.front()) == "ncols" || lower_case(line.words.front()) == "nrows";
-  Heightmap map = has_header ? read_grid(reader, line) : read_points(reader, line);
+  const std::string text = read_text(path);
+  TextLines lines(path, text, " \t\r,;", '#');
+  if (!lines.next()) lines.refuse(0, "is empty", formats);
+  const std::string first = lower_case(lines.words().front());
+  Heightmap map = first == "ncols" || first == "nrows" ? read_grid(lines) : read_points(lines);
   map.name = path;
   map.lower -= origin.head<2>();
   for (double& height : map.heights) height -= origin.z();
@@ -245,8 +207,8 @@ GroundRelief read_relief(const Options& options, const std::string& folder) {
   if (!options.given("heightmap")) return relief_from(options, {});
   const std::filesystem::path path = std::filesystem::path(folder) / options.text("heightmap");
   const std::vector<double>& origin = options.numbers("heightmap_origin");
-  return relief_from(options,
-                     read_heightmap(path.string(), Eigen::Map<const Vector3>(origin.data())));
+  return relief_from(options, std::make_shared<const Heightmap>(read_heightmap(
+                                  path.string(), Eigen::Map<const Vector3>(origin.data()))));
 }
 
 }  // namespace furrow

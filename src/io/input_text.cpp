@@ -101,10 +101,13 @@ std::string read_input_bytes(const std::string& path, const std::string& kind,
 
 std::string read_input_text(const std::string& path, const std::string& kind,
                             std::uintmax_t largest) {
-  std::string text = read_input_bytes(path, kind, largest);
-  if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
-  check_text(path, text, kind);
-  return text;
+  return text_of_bytes(read_input_bytes(path, kind, largest), path, kind);
+}
+
+std::string text_of_bytes(std::string bytes, const std::string& path, const std::string& kind) {
+  if (bytes.compare(0, 3, "\xEF\xBB\xBF") == 0) bytes.erase(0, 3);
+  check_text(path, bytes, kind);
+  return bytes;
 }
 
 }  // namespace furrow

@@ -21,6 +21,10 @@ std::string read_input_text(const std::string& path, const std::string& kind,
 std::string read_input_bytes(const std::string& path, const std::string& kind,
                              std::uintmax_t largest);
 
+/// The text in such bytes, without a byte order mark.
+/// @throws InputError where they are not text in UTF-8 (with the line)
+std::string text_of_bytes(std::string bytes, const std::string& path, const std::string& kind);
+
 /// Whether a text has a control character other than tabulators and line ends.
 bool has_control_character(const std::string& text);
 

@@ -3,18 +3,19 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <numeric>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "geometry/weld.h"
 #include "io/input_text.h"
+#include "io/text_lines.h"
 
 namespace furrow {
 
@@ -27,9 +28,6 @@ constexpr const char* kind = "a mesh file, STL or OBJ";
 
 bool is_coordinate(double x) { return std::abs(x) <= largest_coordinate; }
 
-/// A word as a message has it.
-std::string short_word(std::string_view word) { return std::string(word.substr(0, 20)); }
-
 /// Corners of the facets as the file has them.
 struct Facets {
   std::vector<Vector3> points;
@@ -37,61 +35,30 @@ struct Facets {
   std::vector<int> facets;          // of each triangle, from 1
 };
 
-/// The words of a text, line by line.
-class Lines {
+class MeshLines : public TextLines {
  public:
-  Lines(const std::string& path, std::string_view text) : path_(path), rest_(text) {}
-
-  /// Goes to the next line that has words. @return whether there is one
-  bool next() {
-    words_.clear();
-    while (!rest_.empty() && words_.empty()) {
-      ++number_;
-      const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-      split(rest_.substr(0, end));
-      rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    }
-    return !words_.empty();
-  }
-  const std::vector<std::string_view>& words() const { return words_; }
+  using TextLines::TextLines;
 
   /// The three numbers after the first word.
   Vector3 point() const {
-    if (words_.size() < 4) refuse("has fewer than three coordinates", "three numbers");
+    if (words().size() < 4) refuse("has fewer than three coordinates", "three numbers");
     Vector3 point;
     for (int k = 0; k < 3; ++k) {
-      const std::string_view word = words_[static_cast<std::size_t>(k) + 1];
-      const auto [stop, status] = std::from_chars(word.data(), word.data() + word.size(), point[k]);
-      if (status != std::errc() || stop != word.data() + word.size() || !is_coordinate(point[k]))
+      const std::string_view word = words()[static_cast<std::size_t>(k) + 1];
+      if (!parse(word, point[k]) || !is_coordinate(point[k]))
         refuse(fmt::format("has '{}' as a coordinate", short_word(word)),
                fmt::format("a number up to {:g}", largest_coordinate));
     }
     return point;
   }
   [[noreturn]] void refuse(const std::string& problem, const std::string& allowed) const {
-    throw InputError(fmt::format("{}, line {}", path_, number_), problem, allowed,
-                     "export the mesh again");
+    TextLines::refuse(line(), problem, allowed, "export the mesh again");
   }
-
- private:
-  void split(std::string_view line) {
-    constexpr std::string_view blanks = " \t\r";
-    for (std::size_t from = line.find_first_not_of(blanks); from != std::string_view::npos;) {
-      const std::size_t to = std::min(line.find_first_of(blanks, from), line.size());
-      words_.push_back(line.substr(from, to - from));
-      from = line.find_first_not_of(blanks, to);
-    }
-  }
-
-  const std::string& path_;
-  std::string_view rest_;
-  std::vector<std::string_view> words_;
-  int number_ = 0;
 };
 
 Facets read_ascii_stl(const std::string& path, const std::string& text) {
   Facets read;
-  Lines lines(path, text);
+  MeshLines lines(path, text);
   int corners = -1;  // of the facet so far; -1 outside of one
   while (lines.next()) {
     const std::string_view word = lines.words().front();
@@ -160,13 +127,12 @@ Facets read_binary_stl(const std::string& path, const std::string& bytes) {
 }
 
 /// "7", "7/1/3" or "-1", counted back from the last point, as the number of a point.
-int obj_point(const Lines& lines, std::string_view word, std::size_t points) {
+int obj_point(const MeshLines& lines, std::string_view word, std::size_t points) {
   const std::string_view digits = word.substr(0, word.find('/'));
   long number = 0;
-  const auto [stop, status] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  const bool whole = parse(digits, number);
   const long index = number < 0 ? static_cast<long>(points) + number : number - 1;
-  if (status != std::errc() || stop != digits.data() + digits.size() || index < 0 ||
-      index >= static_cast<long>(points))
+  if (!whole || index < 0 || index >= static_cast<long>(points))
     lines.refuse(fmt::format("has '{}' as a corner", short_word(word)),
                  fmt::format("the number of a vertex above, 1 to {}", points));
   return static_cast<int>(index);
@@ -174,7 +140,7 @@ int obj_point(const Lines& lines, std::string_view word, std::size_t points) {
 
 Facets read_obj(const std::string& path, const std::string& text) {
   Facets read;
-  Lines lines(path, text);
+  MeshLines lines(path, text);
   for (int facet = 0; lines.next();) {
     const std::vector<std::string_view>& words = lines.words();
     if (words[0] == "v") read.points.push_back(lines.point());
@@ -247,11 +213,11 @@ SolidMesh read_mesh_file(const std::string& path) {
   if (ending == ".obj") {
     read = read_obj(path, read_input_text(path, kind, largest_file));
   } else {
-    const std::string bytes = read_input_bytes(path, kind, largest_file);
+    std::string bytes = read_input_bytes(path, kind, largest_file);
     if (is_binary_stl(bytes)) {
       read = read_binary_stl(path, bytes);
     } else if (bytes.compare(0, 5, "solid") == 0) {
-      read = read_ascii_stl(path, read_input_text(path, kind, largest_file));
+      read = read_ascii_stl(path, text_of_bytes(std::move(bytes), path, kind));
     } else {
       throw InputError(path, "is no STL file",
                        fmt::format("text that begins with 'solid', or {} bytes and {} for each "

@@ -66,11 +66,15 @@ HeightField::HeightField(const HeightFieldParameters& parameters, const std::str
   surface_.assign(size, parameters.level);
   reference_.assign(size, parameters.level);
   if (parameters.relief.flat()) return;
-  for (int row = 0; row < rows_; ++row)
-    for (int column = 0; column < columns_; ++column) {
-      const Vector2 centre = lower_ + parameters.cell * Vector2(column + 0.5, row + 0.5);
-      undisturbed_.push_back(parameters.level + parameters.relief.height(centre.x(), centre.y()));
+  undisturbed_.resize(size);
+  for (int column = 0; column < columns_; ++column) {
+    const double x = lower_.x() + parameters.cell * (column + 0.5);
+    const double height = parameters.level + parameters.relief.profile(x);
+    for (int row = 0; row < rows_; ++row) {
+      const double y = lower_.y() + parameters.cell * (row + 0.5);
+      undisturbed_[index(column, row)] = height + parameters.relief.map_height(x, y);
     }
+  }
   surface_ = reference_ = undisturbed_;
   const auto [lowest, highest] = std::minmax_element(surface_.begin(), surface_.end());
   highest_ = *highest;
