@@ -18,7 +18,6 @@ namespace {
 constexpr double steepest = 1e-6;   // cosine to the vertical of a face that counts as upright
 constexpr double smallest = 1e-12;  // area of a piece over that of a cell
 constexpr double overfull = 1.0 + 1e-9;
-constexpr double highest_piece = 3.0;  // cells above the lowest one of its cell
 
 }  // namespace
 

@@ -16,6 +16,10 @@ namespace furrow {
 /// steps.
 class Footprint {
  public:
+  /// By which a piece may be above the lowest one of its cell [cells]. Of faces with a steeper
+  /// slope over a cell only the foot counts.
+  static constexpr double highest_piece = 3.0;
+
   struct Pieces {
     std::vector<int> slot;             // place of the cell in Cells
     std::vector<int> triangle;         // ascending

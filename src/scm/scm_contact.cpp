@@ -12,8 +12,6 @@ namespace furrow {
 namespace {
 
 constexpr double full = 1.0 - 1e-9;  // of the area of a cell
-// Of a face to the horizontal. Of steeper ones the footprint takes the foot only.
-constexpr double steepest_slope = 3.0;
 
 }  // namespace
 
@@ -152,7 +150,7 @@ void ScmContact::shear_triangle(std::size_t first, std::size_t end, double dt) {
   const Vector3 vector = surface.area_vector(static_cast<std::size_t>(triangle));
   const Vector3 normal = vector.normalized();
   const double slope = 1.0 / std::abs(normal.z());  // area over that seen from above
-  const bool steep = slope > std::hypot(1.0, steepest_slope);
+  const bool steep = slope > std::hypot(1.0, Footprint::highest_piece);
   double area = 0.0;
   Vector3 velocity = Vector3::Zero();
   for (std::size_t p = first; p < end; ++p) {
