@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "material/elasticity/elasticity.h"
 #include "material/hardening/hardening.h"
-#include "simd/dispatch.h"
 
 namespace furrow {
 
@@ -90,21 +88,7 @@ MaterialModel CohesiveCap::model() {
 
 CohesiveCap::CohesiveCap(double density, const CohesiveCapParameters& parameters,
                          double eps_vol_pl_0)
-    : Material("cohesive_cap", density, plastic_strains(eps_vol_pl_0),
-               initial_pressure(parameters.elasticity)),
-      parameters_(parameters) {}
-
-UpdateReport CohesiveCap::update_block(const PointBlock& block) const {
-  return checked(kernels<CohesiveCapKernels>().update(parameters_, density(), block), block);
-}
-
-ElasticModuli CohesiveCap::moduli(const VectorX& state) const {
-  return moduli_at(parameters_.elasticity, invariants(stress_of(state)).p);
-}
-
-double CohesiveCap::largest_wave_speed(const PointBlock& block) const {
-  return largest_elastic_wave_speed(parameters_.elasticity, density(), block);
-}
+    : ElasticKernelLaw("cohesive_cap", density, parameters, plastic_strains(eps_vol_pl_0)) {}
 
 double CohesiveCap::pc(double eps) const { return strength_at(parameters_.hardening, eps); }
 
