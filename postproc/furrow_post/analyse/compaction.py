@@ -285,6 +285,7 @@ def compaction_rows(runs: Sequence[Compaction]) -> list[dict[str, object]]:
     for run in runs:
         contact, z = run.contact, run.distance
         factors = (ELASTIC, *SOEHNE)
+        circle = contact.circle(z)
         formulas = np.array([contact.ellipse(z, factor) for factor in factors])
         errors = np.array([contact.ellipse_error(z, factor) for factor in factors])
         names = ("boussinesq_ellipse", *(f"soehne_{factor:.0f}" for factor in SOEHNE))
@@ -301,7 +302,7 @@ def compaction_rows(runs: Sequence[Compaction]) -> list[dict[str, object]]:
                 "mean_stress_kPa": _kilopascals(run.mean_stress[k]),
                 "mean_stress_error_kPa": _kilopascals(run.mean_stress_error[k]),
                 "boussinesq_surface_kPa": _kilopascals(run.of_surface[k]),
-                "boussinesq_circle_kPa": _kilopascals(contact.circle(z)[k]),
+                "boussinesq_circle_kPa": _kilopascals(circle[k]),
             }
             for name, values, error in zip(names, formulas, errors):
                 row[f"{name}_kPa"] = _kilopascals(values[k])
