@@ -2,14 +2,13 @@
 #pragma once
 /// Base class of Furrow's fixes: what a fix does for LIGGGHTS in addition to its task.
 ///
-/// A fix derives from it (or from FixBody, FixContact, FixHistory) and declares
-///   - its keywords:        static Schema schema(), handed to the constructor
-///   - its outputs f_ID[n]: static const Outputs<Class>& outputs(), and provide(outputs())
-///   - the fixes it needs:  use<Class>(key, kinds) in the constructor; none of them can be removed
-///                          before this one
-///   - what the coupled system calls: contribute(body | contact | controller)
-///   - its state:           checkpoint(), and keep_state()
-/// Its source file adds a row to the table of styles (style_registry.h); its page lies next to it.
+/// A fix derives from it, or from FixBody, FixContact or FixHistory. It declares five things.
+///   - Keywords: static Schema schema(), which its constructor hands over.
+///   - Outputs f_ID[n]: static const Outputs<Class>& outputs(), and provide(outputs()).
+///   - Fixes it needs: use<Class>(key, kinds) in the constructor. They cannot be removed before it.
+///   - What the coupled system calls: contribute(body | contact | controller).
+///   - Its state: checkpoint(), and keep_state().
+/// Its source file adds a row to the table of styles (style_registry.h). Its page lies next to it.
 
 #include <functional>
 #include <string>

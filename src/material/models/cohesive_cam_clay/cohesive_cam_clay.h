@@ -3,14 +3,19 @@
 /// Cohesive Cam clay, the law of compressible snow of [Gaume2018], after modified Cam clay
 /// [Roscoe1968]. Equations: theory: laws, eq. 16; K0 of confined compression: eq. 17.
 ///
-/// beta is the key tension_ratio. The ellipse runs from -beta p0 to p0, with
-///   centre c = (1 - beta) p0/2,  half-width a = (1 + beta) p0/2,  half-height B a,
-///   B = M/sqrt(1 + 2 beta),      yield function f = sqrt( (p - c)^2 + (q/B)^2 ) - a.
-/// Flow is associated: d(eps_q)/d(eps_v) = q/(B^2 (p - c)). At p > c it compacts and hardens, at p
-/// < c it dilates and softens; p = c is the critical state. The hardening gives p0(eps_vol_pl). In
-/// torn material p0 decays below the hardening data without reaching zero. The M of a wanted K0,
-/// with eta = 3 (1 - K0)/(1 + 2 K0) and k = (1 - beta)/(1 + beta), is
-///   M = sqrt( (1 + 2 beta)(S^2 - 9) )/2,   S = eta k + sqrt( (eta k)^2 + 6 eta + 9 ).
+/// The yield surface is an ellipse from -beta p0 to p0, where beta is the key tension_ratio.
+///   f = sqrt( (p - c)^2 + (q/B)^2 ) - a.
+/// Its centre is c = (1 - beta) p0/2, and its half-width a = (1 + beta) p0/2. Its half-height is
+/// B a, with B = M/sqrt(1 + 2 beta).
+///
+/// Flow is associated: d(eps_q)/d(eps_v) = q/(B^2 (p - c)). Above c it compacts and hardens. Below
+/// c it dilates and softens. At p = c is the critical state. The hardening gives p0(eps_vol_pl). In
+/// torn material p0 decays below the hardening data without reaching zero.
+///
+/// A wanted K0 sets the stress ratio eta = 3 (1 - K0)/(1 + 2 K0) of confined compression. With
+/// k = (1 - beta)/(1 + beta) it gives M.
+///   S = eta k + sqrt( (eta k)^2 + 6 eta + 9 ).
+///   M = sqrt( (1 + 2 beta)(S^2 - 9) )/2.
 ///
 /// Frozen energy (theory: laws, eq. 19): back stress c; the dissipation is Lambda' (f + a) >= 0.
 /// beta <= 1 keeps c >= 0. src/material/snow.md shows what the law does with snow.

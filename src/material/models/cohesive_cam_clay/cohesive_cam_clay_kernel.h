@@ -3,14 +3,16 @@
 /// Kernel of the cohesive Cam clay: backward Euler return mapping [Simo1998]. Equations:
 /// cohesive_cam_clay.h.
 ///
-/// If the trial has p >= c, flow compacts; otherwise it dilates. Unknown is the size y of the
-/// volumetric plastic strain of the step, De = +-y. With the distance from the centre D = |p - c|
-/// and r = q/B, associated flow gives
-///   r = r_tr D/(D + (3 G/B^2) y),   p = p_el(dv - De),   c and a of eps_n + De
-///   f(y) = sqrt(D^2 + r^2) - a = 0
-/// D and r fall as y grows. At the y that brings the pressure to the c of the start of the step
+/// If the trial has p >= c, flow compacts; otherwise it dilates. A step has one unknown: y, the
+/// size of its volumetric plastic strain De = +-y. Elasticity gives p = p_el(dv - De), and the
+/// hardening gives c and a at eps_n + De. The stress has the distance D = |p - c| from the centre
+/// along p, and r = q/B along q. Associated flow shrinks r.
+///   r(y) = r_tr D/(D + (3 G/B^2) y).
+/// The step ends on the ellipse.
+///   f(y) = sqrt(D^2 + r^2) - a = 0.
+/// D and r fall as y grows. At the y that brings the pressure to the c of the start of the step,
 /// both are 0 and f < 0, so the root is bracketed. Compaction has one root. Dilation may have
-/// several where p0 softens more steeply than the point is stiff; the search then ends at one of
+/// several where p0 softens more steeply than the point is stiff. The search then ends at one of
 /// them.
 
 #include "material/block_update.h"

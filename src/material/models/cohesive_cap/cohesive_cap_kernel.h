@@ -2,14 +2,17 @@
 #pragma once
 /// Kernel of the cohesive cap law: backward Euler return mapping. Equations: cohesive_cap.h.
 ///
-/// Unknown is the size y of the volumetric plastic strain of the step, De = +-y. Flow on the cap is
-/// along (b^2 p, q), so the deviator shrinks radially. The shear line cuts it where both flow.
-///   p = p_el(dv - y),  q = min( q_tr p/(p + (3 G/b^2) y),  d(eps_n + y) + p tan(beta) )
-/// Corner and cap are thus one equation.
-///   f(y) = sqrt(p^2 + (q/A)^2) - pc(eps_n + y) = 0
-/// Tension has another one.
-///   f(y) = -p_el(dv + y) - tension_ratio d(eps_n - y) = 0
-/// At the y where p = 0 either f is negative, so the root is bracketed. Shear alone leaves p and
+/// A step has one unknown: y, the size of its volumetric plastic strain. Elasticity gives the
+/// pressure.
+///   p(y) = p_el(dv - y).
+/// Flow on the cap is along (b^2 p, q), so the deviator shrinks radially to q_c.
+///   q_c(y) = q_tr p/(p + (3 G/b^2) y).
+/// The shear line cuts what exceeds it, q = min(q_c, d + p tan(beta)). Corner and cap are thus one
+/// equation.
+///   f(y) = sqrt(p^2 + (q/A)^2) - pc(eps_n + y) = 0.
+/// Tension opens the material by y, and has its own equation.
+///   f(y) = -p_el(dv + y) - tension_ratio d(eps_n - y) = 0.
+/// Either f is negative at the y where p = 0, so the root is bracketed. Shear alone leaves p and
 /// cuts q.
 
 #include "material/block_update.h"
