@@ -38,8 +38,8 @@ const std::vector<std::string> followable = {"wheel", "body"};
 /// that it is the same when a run is continued.
 std::optional<GroundSize> size_by_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   if (!options.given("follow") || options.given("follow_last")) return {};
-  const Body& followed = find_fix<FixBody>(lammps, options, "follow", followable).body();
-  const auto* wheel = dynamic_cast<const WheelHub*>(&followed);
+  const auto* wheel = dynamic_cast<const WheelHub*>(
+      &find_fix<FixBody>(lammps, options, "follow", followable).body());
   if (!wheel) return {};
   const double cell = options.number("cell");
   GroundSize size =

@@ -84,7 +84,7 @@ YamlTree read_with_base(const std::vector<std::string>& files) {
   YamlTree file = read_yaml(files.back());
   check_kind(file, InputKind::material);
   if (!file.find("base")) return file;
-  const YamlTree& name = text_of(file, "base", "a file beside this one");
+  const YamlTree name = text_of(file, "base", "a file beside this one");
   std::vector<std::string> more = files;
   more.push_back(base_of(name, files));
   YamlTree merged = with_place(name.origin + ": base", [&] { return read_with_base(more); });
@@ -112,7 +112,7 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
   const std::string one_of = fmt::format("one of: {}", fmt::join(law_names, ", "));
   const YamlTree& law_map =
       file.map("law", "the section 'law' with the law's name as 'type', and its keys");
-  const YamlTree& type = text_of(law_map, "type", one_of);
+  const YamlTree type = text_of(law_map, "type", one_of);
   if (std::find(law_names.begin(), law_names.end(), type.text) == law_names.end()) {
     const std::string near = did_you_mean(law_names, type.text);
     throw InputError(type.origin, fmt::format("has the unknown law '{}'", type.text), one_of,

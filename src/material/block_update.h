@@ -3,6 +3,7 @@
 /// The loop over a block: it loads a few points, calls the kernel of the law, rotates the stress,
 /// stores and counts.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -79,8 +80,9 @@ struct Group {
     if (lanes == lane_count) {
       value.copy_to(array + first, stdx::element_aligned);
     } else {
-      for (int lane = 0; lane < lanes; ++lane)
-        array[first + static_cast<std::size_t>(lane)] = value[lane];
+      alignas(64) double numbers[lane_count];
+      value.copy_to(numbers, stdx::vector_aligned);
+      std::copy_n(numbers, lanes, array + first);
     }
   }
   FURROW_INLINE std::size_t count(const Mask& mask) const {
