@@ -24,8 +24,9 @@ namespace {
 
 constexpr std::uintmax_t largest_file = 400'000'000;  // [bytes]
 constexpr double most_nodes = 5e7;
-constexpr double regular = 1e-3;        // of a spacing: by which a coordinate may be off
-constexpr double largest_height = 1e5;  // [m] what is larger marks a cell without data
+constexpr double regular = 1e-3;            // of a spacing: by which a coordinate may be off
+constexpr double largest_height = 1e5;      // [m] what is larger marks a cell without data
+constexpr double largest_coordinate = 1e9;  // [m]
 constexpr const char* kind = "a heightmap";
 constexpr const char* formats = "an ESRI ASCII grid, or lines of x y z";
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -92,10 +93,13 @@ Heightmap read_grid(TextLines& lines) {
   map.columns = static_cast<int>(need("ncols", "ncols"));
   map.rows = static_cast<int>(need("nrows", "nrows"));
   map.spacing = {need("cellsize", "dx"), need("cellsize", "dy")};
-  if (!(map.spacing.minCoeff() > 0.0)) lines.refuse(0, "has a cellsize <= 0", "a number > 0 [m]");
   map.lower = {
       need("xllcorner", "xllcenter") + (header.count("xllcorner") ? 0.5 : 0.0) * map.spacing.x(),
       need("yllcorner", "yllcenter") + (header.count("yllcorner") ? 0.5 : 0.0) * map.spacing.y()};
+  if (!(map.lower.cwiseAbs().sum() + map.spacing.sum() <= largest_coordinate))
+    lines.refuse(0, "has a corner or a cellsize that is infinite, too large or no number",
+                 fmt::format("numbers up to {:g} m", largest_coordinate));
+  if (!(map.spacing.minCoeff() > 0.0)) lines.refuse(0, "has a cellsize <= 0", "a number > 0 [m]");
   const double no_data = header.count("nodata_value") ? header["nodata_value"] : none;
   const auto columns = static_cast<std::size_t>(map.columns);
   map.heights.assign(columns * static_cast<std::size_t>(map.rows), 0.0);
@@ -154,8 +158,10 @@ Heightmap read_points(TextLines& lines) {
     z.push_back(number(lines, 2));
     line_of.push_back(lines.line());
     check_height(lines, lines.line(), z.back(), x.back(), y.back());
-    if (!std::isfinite(x.back()) || !std::isfinite(y.back()))
-      lines.refuse(lines.line(), "has a coordinate that is not finite", "x y z");
+    if (!(std::abs(x.back()) + std::abs(y.back()) <= largest_coordinate))
+      lines.refuse(lines.line(),
+                   fmt::format("has the point x = {:g}, y = {:g} m", x.back(), y.back()),
+                   fmt::format("coordinates up to {:g} m", largest_coordinate));
   } while (lines.next());
   const RegularAxis along_x = regular_axis(lines, x, "x"), along_y = regular_axis(lines, y, "y");
   check_count(lines, along_x.count, along_y.count);

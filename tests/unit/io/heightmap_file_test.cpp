@@ -67,6 +67,13 @@ TEST_F(HeightmapFile, FaultyFilesAreRefusedWithTheirLine) {
   EXPECT_THAT(refusal(with("1.50", "1.50 1.6")), HasSubstr("more heights"));
   EXPECT_THAT(refusal(with("cellsize 0.5\n", "")), HasSubstr("no 'cellsize'"));
   EXPECT_THAT(refusal(with("ncols 3", "ncols 3e9")), HasSubstr("columns"));
+  for (const char* wrong : {"inf", "nan", "1e300"}) {
+    EXPECT_THAT(refusal(with("9.75", wrong)), HasSubstr("corner or a cellsize"));
+    EXPECT_THAT(refusal(with("cellsize 0.5", std::string("cellsize ") + wrong)),
+                HasSubstr("corner or a cellsize"));
+    EXPECT_THAT(refusal(std::string("0 0 1\n") + wrong + " 0 1\n"),
+                AllOf(HasSubstr("line 2"), HasSubstr("up to 1e+09 m")));
+  }
   EXPECT_THAT(refusal("10 20 1\n10.5 20 1\n10 20.5 1\n"), HasSubstr("no height at x = 10.5"));
   EXPECT_THAT(refusal("0 0 1\n1 0 1\n0 1 1\n1.3 1 1\n"), HasSubstr("regular grid"));
   EXPECT_THAT(refusal("0 0 1\n1 0 1\n0 0 2\n1 1 1\n0 1 1\n"),
