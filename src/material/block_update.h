@@ -3,7 +3,6 @@
 /// The loop over a block: it loads a few points, calls the kernel of the law, rotates the stress,
 /// stores and counts.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -77,12 +76,11 @@ struct Group {
     });
   }
   FURROW_INLINE void store(double* array, const Lanes& value) const {
-    if (lanes == lane_count) {
-      value.copy_to(array + first, stdx::element_aligned);
+    if (lanes < lane_count) {
+      for (int lane = 0; lane < lanes; ++lane)
+        array[first + static_cast<std::size_t>(lane)] = value[lane];
     } else {
-      alignas(64) double numbers[lane_count];
-      value.copy_to(numbers, stdx::vector_aligned);
-      std::copy_n(numbers, lanes, array + first);
+      value.copy_to(array + first, stdx::element_aligned);
     }
   }
   FURROW_INLINE std::size_t count(const Mask& mask) const {
