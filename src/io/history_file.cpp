@@ -82,8 +82,8 @@ void cut_at(const std::string& path, History& history, double time) {
 
 }  // namespace
 
-HistoryFile::HistoryFile(std::string path, History history)
-    : path_(std::move(path)), history_(std::move(history)), last_flush_(Clock::now()) {}
+HistoryFile::HistoryFile(std::string path, const std::vector<Channel>& channels)
+    : path_(std::move(path)), rows_(channels), last_flush_(Clock::now()) {}
 
 HistoryFile HistoryFile::create(const std::string& path, const std::vector<Channel>& channels,
                                 const RunInfo& info) {
@@ -106,7 +106,7 @@ HistoryFile HistoryFile::create(const std::string& path, const std::vector<Chann
     }
     file.close();
   });
-  return HistoryFile(path, History(channels));
+  return HistoryFile(path, channels);
 }
 
 HistoryFile HistoryFile::resume(const std::string& path, const std::vector<Channel>& channels,
@@ -121,10 +121,11 @@ HistoryFile HistoryFile::resume(const std::string& path, const std::vector<Chann
   check_channels(path, history.channels(), channels);
   cut_at(path, history, time);
 
-  HistoryFile file(path, std::move(history));
+  HistoryFile file(path, channels);
   if (before.exists("/grains/final") && before.exists("/grains/final/virial"))
     file.final_ = read_grains(before, "/grains/final");
-  file.flushed_rows_ = file.history_.size();
+  file.flushed_rows_ = history.size();
+  if (history.size() > 0) file.last_time_ = history.at(history.size() - 1, 0);
   file.replace_with([&](Hdf5File& content) {
     for (const Channel& channel : channels)
       content.truncate(dataset_of(channel), file.flushed_rows_);
@@ -136,7 +137,7 @@ HistoryFile HistoryFile::resume(const std::string& path, const std::vector<Chann
 }
 
 HistoryFile::~HistoryFile() {
-  if (flushed_rows_ >= history_.size()) return;
+  if (rows_.size() == 0) return;
   try {
     flush();
   } catch (const std::exception& error) {
@@ -158,31 +159,29 @@ void HistoryFile::replace_with(Change change) {
 }
 
 void HistoryFile::append(const std::vector<double>& row) {
-  const std::vector<Channel>& channels = history_.channels();
+  const std::vector<Channel>& channels = rows_.channels();
   for (std::size_t i = 0; i < std::min(row.size(), channels.size()); ++i)
     if (!std::isfinite(row[i]))
       throw StateError(
           fmt::format("{}: {} is {} at t = {:.9g} s", path_, channels[i].name, row[i], row[0]));
-  if (!row.empty() && history_.size() > 0 && row[0] <= history_.at(history_.size() - 1, 0))
+  if (!row.empty() && last_time_ && row[0] <= *last_time_)
     throw StateError(fmt::format("{}: a row of t = {:.9g} s follows one of t = {:.9g} s", path_,
-                                 row[0], history_.at(history_.size() - 1, 0)));
-  history_.append(row);
+                                 row[0], *last_time_));
+  rows_.append(row);
+  last_time_ = row[0];
   if (seconds_since(last_flush_) >= std::max(flush_interval, least_flush_ratio * flush_duration_))
     flush();
 }
 
 void HistoryFile::flush() {
   const Clock::time_point start = Clock::now();
-  if (flushed_rows_ < history_.size()) {
+  if (rows_.size() > 0) {
     replace_with([&](Hdf5File& file) {
-      std::vector<double> column(history_.size() - flushed_rows_);
-      for (std::size_t j = 0; j < history_.channels().size(); ++j) {
-        for (std::size_t i = 0; i < column.size(); ++i)
-          column[i] = history_.at(flushed_rows_ + i, j);
-        file.append(dataset_of(history_.channels()[j]), column);
-      }
+      for (const Channel& channel : rows_.channels())
+        file.append(dataset_of(channel), rows_.column(channel.name));
     });
-    flushed_rows_ = history_.size();
+    flushed_rows_ += rows_.size();
+    rows_.clear();
     flush_duration_ = seconds_since(start);
   }
   last_flush_ = Clock::now();
@@ -244,12 +243,9 @@ void HistoryFile::write_closing(const RunClosing& closing) {
 }
 
 History read_history(const std::string& path) {
-  const History read = read_rows(Hdf5File(path, Hdf5File::Mode::read));
-  std::vector<Channel> channels = read.channels();
-  for (Channel& channel : channels)
-    for (const auto& [former, name] : former_channels)
-      if (channel.name == former) channel.name = name;
-  return read.renamed(channels);
+  History history = read_rows(Hdf5File(path, Hdf5File::Mode::read));
+  for (const auto& [former, name] : former_channels) history.rename(former, name);
+  return history;
 }
 
 RunInfo read_run_info(const std::string& path) {

@@ -25,6 +25,7 @@
 /// last one, so that files cost less than one per cent of a run.
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,20 +75,21 @@ class HistoryFile {
   void write_terrain(const TerrainSnapshot& terrain, const std::vector<RutPoint>& rut);
   void write_closing(const RunClosing& closing);
 
-  /// all rows, flushed or not, of this run and the parts before
-  const History& history() const { return history_; }
+  /// number of rows, flushed or not, of this run and the parts before
+  std::size_t size() const { return flushed_rows_ + rows_.size(); }
   const std::string& path() const { return path_; }
 
  private:
-  HistoryFile(std::string path, History history);
+  HistoryFile(std::string path, const std::vector<Channel>& channels);
   template <class Change>
   void replace_with(Change change);  // change(Hdf5File&) on a copy that then takes the file's name
 
   std::string path_;
-  History history_;
+  History rows_;  // since the last flush: memory does not grow with the run
   Grains final_;  // of the end before, with a virial; or none
   std::size_t flushed_rows_ = 0;
-  double flush_duration_ = 0.0;  // [s] of the last one
+  std::optional<double> last_time_;  // [s] of the last row
+  double flush_duration_ = 0.0;      // [s] of the last one
   std::chrono::steady_clock::time_point last_flush_;
 };
 

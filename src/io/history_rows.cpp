@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -43,13 +44,7 @@ History read_rows(const Hdf5File& file) {
                               columns.front().size()));
   }
   if (!columns.empty()) check_time(file.path(), columns.front());
-  History history(channels);
-  std::vector<double> row(channels.size());
-  for (std::size_t i = 0; !columns.empty() && i < columns.front().size(); ++i) {
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = columns[j][i];
-    history.append(row);
-  }
-  return history;
+  return History(std::move(channels), std::move(columns));
 }
 
 }  // namespace furrow

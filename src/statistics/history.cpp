@@ -9,20 +9,33 @@
 
 namespace furrow {
 
-History::History(std::vector<Channel> channels) : channels_(std::move(channels)) {}
+History::History(std::vector<Channel> channels)
+    : channels_(std::move(channels)), columns_(channels_.size()) {}
+
+History::History(std::vector<Channel> channels, std::vector<std::vector<double>> columns)
+    : channels_(std::move(channels)), columns_(std::move(columns)) {
+  if (columns_.size() != channels_.size())
+    throw Error(fmt::format("a history of {} channels cannot have {} columns", channels_.size(),
+                            columns_.size()));
+  for (const std::vector<double>& column : columns_)
+    if (column.size() != size())
+      throw Error(
+          fmt::format("a history cannot have columns of {} and {} rows", size(), column.size()));
+}
 
 void History::append(const std::vector<double>& row) {
   if (row.size() != channels_.size())
     throw Error(fmt::format("a history of {} channels cannot take a row of {} numbers",
                             channels_.size(), row.size()));
-  values_.insert(values_.end(), row.begin(), row.end());
+  for (std::size_t channel = 0; channel < row.size(); ++channel)
+    columns_[channel].push_back(row[channel]);
 }
 
 double History::at(std::size_t row, std::size_t channel) const {
   if (row >= size() || channel >= channels_.size())
     throw Error(fmt::format("the history has {} rows and {} channels, none at row {}, channel {}",
                             size(), channels_.size(), row, channel));
-  return values_[row * channels_.size() + channel];
+  return columns_[channel][row];
 }
 
 bool History::has(const std::string& name) const {
@@ -40,27 +53,23 @@ std::size_t History::index(const std::string& name) const {
                           names.empty() ? "none" : names));
 }
 
-std::vector<double> History::column(const std::string& name) const {
-  const std::size_t channel = index(name);
-  std::vector<double> values(size());
-  for (std::size_t row = 0; row < values.size(); ++row)
-    values[row] = values_[row * channels_.size() + channel];
-  return values;
+const std::vector<double>& History::column(const std::string& name) const {
+  return columns_[index(name)];
 }
 
-History History::renamed(std::vector<Channel> channels) const {
-  if (channels.size() != channels_.size())
-    throw Error(fmt::format("{} channels cannot be the names of {} columns", channels.size(),
-                            channels_.size()));
-  History history(std::move(channels));
-  history.values_ = values_;
-  return history;
+void History::rename(const std::string& old_name, const std::string& new_name) {
+  for (Channel& channel : channels_)
+    if (channel.name == old_name) channel.name = new_name;
+}
+
+void History::clear() {
+  for (std::vector<double>& column : columns_) column.clear();
 }
 
 void History::truncate_after(double time) {
   std::size_t rows = size();
-  while (rows > 0 && values_[(rows - 1) * channels_.size()] > time) --rows;
-  values_.resize(rows * channels_.size());
+  while (rows > 0 && columns_.front()[rows - 1] > time) --rows;
+  for (std::vector<double>& column : columns_) column.resize(rows);
 }
 
 }  // namespace furrow

@@ -15,25 +15,29 @@ class History {
  public:
   History() = default;
   explicit History(std::vector<Channel> channels);
+  /// @param columns  of equal length, one for each channel
+  History(std::vector<Channel> channels, std::vector<std::vector<double>> columns);
 
   const std::vector<Channel>& channels() const { return channels_; }
-  std::size_t size() const { return channels_.empty() ? 0 : values_.size() / channels_.size(); }
+  std::size_t size() const { return columns_.empty() ? 0 : columns_.front().size(); }
   /// @throws Error when the length differs from channels()
   void append(const std::vector<double>& row);
   double at(std::size_t row, std::size_t channel) const;
   /// @throws Error for an unknown channel
-  std::vector<double> column(const std::string& name) const;
+  const std::vector<double>& column(const std::string& name) const;
   bool has(const std::string& name) const;
   /// @throws Error for an unknown channel
   std::size_t index(const std::string& name) const;
-  /// The same rows under other channels. @throws Error when their number differs
-  History renamed(std::vector<Channel> channels) const;
+  /// A channel of the old name gets the new one.
+  void rename(const std::string& old_name, const std::string& new_name);
+  /// Drops every row.
+  void clear();
   /// Drops every row later than time (a restart continues from there).
   void truncate_after(double time);
 
  private:
   std::vector<Channel> channels_;
-  std::vector<double> values_;  // row after row
+  std::vector<std::vector<double>> columns_;  // one for each channel
 };
 
 }  // namespace furrow

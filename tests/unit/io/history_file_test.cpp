@@ -2,6 +2,7 @@
 #include "io/history_file.h"
 
 #include <gmock/gmock.h>
+#include <malloc.h>
 #include <sys/wait.h>
 
 #include <cmath>
@@ -184,7 +185,8 @@ TEST(HistoryFile, ContinuesAfterARestartAsIfNotStopped) {
   }
   {
     HistoryFile file = HistoryFile::resume(path, channels, 1.2005);  // between rows 1200 and 1201
-    expect_rows(file.history(), 1201);
+    EXPECT_EQ(file.size(), 1201u);
+    expect_rows(read_history(path), 1201);
     EXPECT_FALSE(has_closing(path));
     EXPECT_EQ(read_reference_grains(path).size(), 1u);
     EXPECT_THAT(error_of([&] { read_final_grains(path); }), HasSubstr("has no /grains/final"));
@@ -200,9 +202,32 @@ TEST(HistoryFile, TheRowOfTheCheckpointsInstantIsKept) {
     HistoryFile file = HistoryFile::create(path, channels, {});
     append_rows(file, 0, 50);
   }
-  EXPECT_EQ(HistoryFile::resume(path, channels, row(30)[0] * (1.0 - 1e-15)).history().size(), 31u);
-  EXPECT_EQ(HistoryFile::resume(path, channels, 0.0).history().size(), 1u);
-  EXPECT_EQ(HistoryFile::resume(path, channels, -1.0).history().size(), 0u);
+  EXPECT_EQ(HistoryFile::resume(path, channels, row(30)[0] * (1.0 - 1e-15)).size(), 31u);
+  EXPECT_EQ(HistoryFile::resume(path, channels, 0.0).size(), 1u);
+  EXPECT_EQ(HistoryFile::resume(path, channels, -1.0).size(), 0u);
+}
+
+/// A long run must not fill the memory with rows that are in the file.
+TEST(HistoryFile, MemoryDoesNotGrowWithTheLengthOfTheRun) {
+  const Scratch scratch;
+  std::vector<Channel> wide = {{"time", "s", ""}};
+  for (int i = 1; i < 50; ++i) wide.push_back({fmt::format("channel_{}", i), "N", ""});
+  HistoryFile file = HistoryFile::create(scratch.path("history.h5"), wide, {});
+  constexpr int rows = 1000;  // between flushes
+  std::vector<double> row(wide.size(), 1.0);
+  const auto part = [&] {
+    for (int i = 0; i < rows; ++i) {
+      row[0] += 1e-3;
+      file.append(row);
+    }
+    file.flush();
+  };
+  part();  // takes the memory of one part, and what HDF5 keeps
+  const std::size_t before = mallinfo2().uordblks;
+  constexpr int parts = 10;
+  for (int i = 0; i < parts; ++i) part();
+  EXPECT_EQ(file.size(), std::size_t{(parts + 1) * rows});
+  EXPECT_LT(mallinfo2().uordblks, before + rows * wide.size() * sizeof(double));
 }
 
 TEST(HistoryFile, RefusesToContinueWithAGapOrOtherChannels) {
@@ -238,7 +263,8 @@ TEST(HistoryFile, RefusesRowsThatAreNotFiniteOrNotLater) {
               }),
               HasSubstr("a row of t = 0.002 s follows one of t = 0.002 s"));
   EXPECT_NE(error_of([&] { file.append({0.003, 0.0}); }), "no error");
-  expect_rows(file.history(), 3);
+  file.flush();
+  expect_rows(read_history(file.path()), 3);
 }
 
 TEST(HistoryFile, TimeThatRunsBackwardsIsNamed) {

@@ -45,6 +45,12 @@ TEST(History, RefusesWrongRowsAndNames) {
               HasSubstr("no channel 'torque'; it has time, force"));
   EXPECT_THAT(error_of([&] { history.at(3, 0); }),
               HasSubstr("has 3 rows and 2 channels, none at row 3, channel 0"));
+  EXPECT_THAT(error_of([&] { History(history.channels(), {{0.0}}); }),
+              HasSubstr("a history of 2 channels cannot have 1 columns"));
+  EXPECT_THAT(error_of([&] {
+                History(history.channels(), {{0.0, 1.0}, {5.0}});
+              }),
+              HasSubstr("columns of 2 and 1 rows"));
   EXPECT_THAT(error_of([] { History().index("time"); }), HasSubstr("it has none"));
 }
 
