@@ -15,6 +15,8 @@ from ..laboratory.report import LaboratoryReport
 from ..read.laboratory import LaboratoryTest, cell_curve
 from .style import CENTIMETRE, KILOPASCAL, MILLIMETRE, annotate_panel, save, use_style
 
+VOLUME_STRAIN = "volume strain [%], compression positive"
+
 
 def draw_laboratory(report: LaboratoryReport, target: Path) -> None:
     """@raises ResultsError for tests of several kinds"""
@@ -25,16 +27,26 @@ def draw_laboratory(report: LaboratoryReport, target: Path) -> None:
             "one test"
         )
     use_style()
-    save(FIGURES[kinds.pop()](report), target)
+    figure = FIGURES[kinds.pop()](report)
+    for axes in figure.axes:
+        if axes.get_legend_handles_labels()[0]:
+            axes.legend(fontsize=8)
+    save(figure, target)
 
 
-def _pair() -> tuple[Figure, Axes, Axes]:
-    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
-    return figure, left, right
+def _pair(titles: tuple[str, str], x: str, y: tuple[str, str]) -> tuple[Figure, Axes, Axes]:
+    """Two panels with these labels of their axes."""
+    figure, panels = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
+    for axes, letter, title, y_label in zip(panels, "ab", titles, y):
+        axes.set(xlabel=x, ylabel=y_label)
+        annotate_panel(axes, letter, title)
+    return figure, panels[0], panels[1]
 
 
 def _draw_oedometers(report: LaboratoryReport) -> Figure:
-    figure, left, right = _pair()
+    titles = "confined compression", "earth pressure at rest"
+    labels = "axial stress [kPa]", "lateral stress [kPa]"
+    figure, left, right = _pair(titles, "axial stress [kPa]", labels)
     largest = 0.0
     for test in report.tests:
         _, stress, density = cell_curve(test.curve())
@@ -54,18 +66,16 @@ def _draw_oedometers(report: LaboratoryReport) -> Figure:
     if report.measured:
         density, stress = np.array(report.measured).T
         left.semilogy(density, KILOPASCAL * stress, "ko", ms=5, label="measured")
-    left.set(xlabel="density [kg/m³]", ylabel="axial stress [kPa]")
-    left.set_ylim(1e-3 * largest, 3 * largest)
+    left.set(xlabel="density [kg/m³]", ylim=(1e-3 * largest, 3 * largest))
     room = (0, 1.05 * largest)
-    right.set(xlabel="axial stress [kPa]", ylabel="lateral stress [kPa]", xlim=room, ylim=room)
-    left.legend(fontsize=8)
-    annotate_panel(left, "a", "confined compression")
-    annotate_panel(right, "b", "earth pressure at rest")
+    right.set(xlim=room, ylim=room)
     return figure
 
 
 def _draw_triaxial(report: LaboratoryReport) -> Figure:
-    figure, left, right = _pair()
+    titles = "triaxial compression", "volume"
+    labels = "axial minus lateral stress [kPa]", VOLUME_STRAIN
+    figure, left, right = _pair(titles, "axial strain [%]", labels)
     for test in report.tests:
         strain, stress, _ = cell_curve(test.curve())
         axial = 100 * strain[:, 2]
@@ -82,17 +92,14 @@ def _draw_triaxial(report: LaboratoryReport) -> Figure:
         q = KILOPASCAL * columns["q"][start:]
         left.plot(axial, q, label=f"continuum: {point.label}", **look)
         right.plot(axial, volume, **look)
-    left.set(xlabel="axial strain [%]", ylabel="axial minus lateral stress [kPa]")
-    right.set(xlabel="axial strain [%]", ylabel="volume strain [%], compression positive")
-    left.legend(fontsize=8)
-    annotate_panel(left, "a", "triaxial compression")
-    annotate_panel(right, "b", "volume")
     return figure
 
 
 def _draw_true_triaxial(report: LaboratoryReport) -> Figure:
     """Extension and plane strain: all three stresses."""
-    figure, left, right = _pair()
+    titles = report.tests[0].kind.replace("_", " "), "volume"
+    labels = "stress along x (dotted), y (dashed), z [kPa]", VOLUME_STRAIN
+    figure, left, right = _pair(titles, "driven strain [%]", labels)
     for number, test in enumerate(report.tests):
         strain, stress, _ = cell_curve(test.curve())
         driven = 100 * strain[:, 0 if test.kind == "extension" else 2]
@@ -101,43 +108,30 @@ def _draw_true_triaxial(report: LaboratoryReport) -> Figure:
             look = {"ls": style, "lw": 1.1, "color": f"C{number}"}
             left.plot(driven, KILOPASCAL * stress[:, axis], label=label, **look)
         right.plot(driven, 100 * strain.sum(axis=1), lw=1.1)
-    left.set(xlabel="driven strain [%]", ylabel="stress along x (dotted), y (dashed), z [kPa]")
-    right.set(xlabel="driven strain [%]", ylabel="volume strain [%], compression positive")
-    left.legend(fontsize=8)
-    annotate_panel(left, "a", report.tests[0].kind.replace("_", " "))
-    annotate_panel(right, "b", "volume")
     return figure
 
 
 def _draw_free_sides(report: LaboratoryReport) -> Figure:
     """Compression and tension of cells without lateral stress."""
-    figure, left, right = _pair()
+    labels = "axial stress [kPa]", "lateral strain, against the axial [%]"
+    figure, left, right = _pair(("free sides", "lateral strain"), "axial strain [%]", labels)
     for test in report.tests:
         strain, stress, _ = cell_curve(test.curve())
         sign = -1 if test.kind == "tension" else 1
         axial = 100 * sign * strain[:, 2]
         left.plot(axial, KILOPASCAL * sign * stress[:, 2], lw=1.1, label=f"grains: {test.label}")
         right.plot(axial, -100 * sign * strain[:, :2].mean(axis=1), lw=1.1)
-    left.set(xlabel="axial strain [%]", ylabel="axial stress [kPa]")
-    right.set(xlabel="axial strain [%]", ylabel="lateral strain, against the axial [%]")
-    left.legend(fontsize=8)
-    annotate_panel(left, "a", "free sides")
-    annotate_panel(right, "b", "lateral strain")
     return figure
 
 
 def _draw_shear(report: LaboratoryReport) -> Figure:
-    figure, left, right = _pair()
+    labels = "shear stress [kPa]", "density of the cell [kg/m³]"
+    figure, left, right = _pair(("direct shear", "density"), "displacement [mm]", labels)
     for test in report.tests:
         rows = test.curve()
         travel = MILLIMETRE * rows[:, 8]
         left.plot(travel, KILOPASCAL * rows[:, 9], lw=1.1, label=f"grains: {test.label}")
         right.plot(travel, rows[:, 7], lw=1.1)
-    left.set(xlabel="displacement [mm]", ylabel="shear stress [kPa]")
-    right.set(xlabel="displacement [mm]", ylabel="density of the cell [kg/m³]")
-    left.legend(fontsize=8)
-    annotate_panel(left, "a", "direct shear")
-    annotate_panel(right, "b", "density")
     return figure
 
 
@@ -148,7 +142,6 @@ def _draw_plates(report: LaboratoryReport) -> Figure:
         label = f"{test.label}, {MILLIMETRE * test.number('size'):g} mm"
         axes.plot(MILLIMETRE * rows[:, 1], KILOPASCAL * rows[:, 3], lw=1.1, label=label)
     axes.set(xlabel="sinkage [mm]", ylabel="mean pressure [kPa]", xlim=(0, None))
-    axes.legend(fontsize=8)
     return figure
 
 
