@@ -29,8 +29,10 @@ Vector3 Surface::total_force() const {
 
 Vector3 Surface::total_moment(const Vector3& about) const {
   Vector3 moment = Vector3::Zero();
-  for (Eigen::Index node = 0; node < x.cols(); ++node)
+  for (Eigen::Index node = 0; node < x.cols(); ++node) {
+    if (f(0, node) == 0.0 && f(1, node) == 0.0 && f(2, node) == 0.0) continue;  // off the ground
     moment += (x.col(node) - about).cross(f.col(node));
+  }
   return moment;
 }
 

@@ -33,8 +33,8 @@ Words with(Words words) {
 }
 
 /// The history of a run, a row for every fifth step.
-History history_of(const Words& words, const Floor& floor, double end) {
-  RigidWheel wheel = make_wheel(0.2003);
+History history_of(const Words& words, const Floor& floor, double end, int segments = 80) {
+  RigidWheel wheel = make_wheel(0.2003, segments);
   WheelRig rig(WheelRig::schema("fix wheel/rig").read(with(words)), wheel);
   History history(WheelRig::channels());
   long step = 0;
@@ -120,7 +120,7 @@ TEST(FreeTravel, OnAnInclinedPlaneAccelerationsAreThoseOfTheClosedForms) {
     SCOPED_TRACE(hill.name);
     Words words = hill.words;
     words.insert(words.end(), {"load_mass", "6", "slope", std::to_string(hill.slope)});
-    const History history = history_of(words, floor_of(hill.friction), 1.4);
+    const History history = history_of(words, floor_of(hill.friction), 1.4, 160);
     EXPECT_NEAR(acceleration(history), hill.a,
                 hill.friction == 0.0 ? 1e-9 : 0.02 * std::abs(hill.a));
     // the ground carries the part of the weight that is square to it

@@ -19,7 +19,7 @@ TEST(ResistanceParts, OfASlidingWheelOnARigidPlaneAreItsFriction) {
   const double dt = 1e-4, mu = 0.5, load = 60.0, v = 1.0;
   for (const double slip : {0.3, -0.5, -1.0}) {
     SCOPED_TRACE(slip);
-    RigidWheel wheel = make_wheel(0.2003);
+    RigidWheel wheel = make_wheel(0.2003, 160);
     WheelRig rig(
         WheelRig::schema().read({"load_force", "60", "speed", "1", "mode", "slip", "slip",
                                  std::to_string(slip), "settle_time", "0.3", "accelerate_time",

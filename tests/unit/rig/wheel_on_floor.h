@@ -13,12 +13,13 @@
 
 namespace furrow {
 
-inline RigidWheel make_wheel(double height = 0.2) {
+/// Segments: a rolling polygon rises and falls, by 0.15 mm with 80 and by 0.04 mm with 160.
+inline RigidWheel make_wheel(double height = 0.2, int segments = 80) {
   RigidWheelParameters wheel;
   wheel.geometry.diameter = 0.4;
   wheel.geometry.width = 0.1;
-  wheel.geometry.segments = 160;
-  wheel.geometry.element_size = 0.05;
+  wheel.geometry.segments = segments;
+  wheel.geometry.element_size = segments > 80 ? 0.05 : 0.1;
   wheel.hub = {{3.0, 0.06, 0.04}, {0.0, 0.0, height}};
   return RigidWheel(wheel);
 }

@@ -181,7 +181,7 @@ TEST(WheelRig, OnAFloorTheWheelCarriesItsLoad) {
 // No axle torque: in steady rolling the moment about the axle, and so the friction, vanishes; the
 // wheel rolls at its own speed.
 TEST(WheelRig, ATowedWheelRollsFreelyOnAFrictionalFloor) {
-  RigidWheel wheel = make_wheel(0.2003);
+  RigidWheel wheel = make_wheel(0.2003, 160);
   const Floor floor;
   WheelRig rig =
       make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "damping", "600"});
@@ -215,7 +215,7 @@ TEST(WheelRig, ASlidingWheelPullsItsFrictionForce) {
 
 // In steady driving the pull times the radius is the torque.
 TEST(WheelRig, ADrivenWheelTurnsItsTorqueIntoPull) {
-  RigidWheel wheel = make_wheel(0.2003);
+  RigidWheel wheel = make_wheel(0.2003, 160);
   const Floor floor;
   WheelRig rig = make_rig(
       wheel, {"load_force", "60", "speed", "1", "mode", "torque", "torque", "2", "damping", "600"});
@@ -228,7 +228,7 @@ TEST(WheelRig, ADrivenWheelTurnsItsTorqueIntoPull) {
 }
 
 TEST(WheelRig, TheEnergyBalanceClosesOverAWholeRun) {
-  RigidWheel wheel = make_wheel(0.2003);
+  RigidWheel wheel = make_wheel(0.2003, 160);
   const Floor floor;
   WheelRig rig = make_rig(wheel, {"load_mass", "6", "speed", "1", "mode", "slip", "slip", "0.3",
                                   "damping", "100", "slip_angle", "10"});
