@@ -37,7 +37,7 @@ COARSE = {
     "two_axles": {"cell": "0.1", "distance": "0.4"},
     "tyre_on_snow": {"cell": "0.1", "distance": "0.25"},
     "wheel_on_sintered_snow": {"diameter": "0.08", "travel": "0.3"},
-    "wheel_on_snow": {"distance": "0.3", "vtk": "600"},
+    "wheel_on_snow": {"cell": "0.1", "distance": "0.3", "vtk": "1200"},
 }
 
 
@@ -117,8 +117,10 @@ class Session:
                 words += ["-v", name, value]
         for name in {"cell", "diameter"} & given.keys():  # a coarser one is quick as well
             place = words.index(given[name], words.index(name))
-            words[place] = max(self.quick(script)[name], given[name], key=float)
-        words[2:3] = [script, "--no-build", *([] if quick else ["--quick"])]
+            smallest = {**self.quick(script), **COARSE.get(scene, {})}[name]
+            words[place] = max(smallest, given[name], key=float)
+        # tests/scenes has the pictures of every scene
+        words[2:3] = [script, "--no-build", "--no-pictures", *([] if quick else ["--quick"])]
         return shlex.join(words)
 
     def quick(self, script: str) -> dict[str, str]:

@@ -89,6 +89,8 @@ def scene(script, ranks, results):
     inputs_run(script, "--quick", "-n", ranks, "-o", folder / BLANKS,
                FURROW_CACHE=str(folder / "cache"))
     check_scene(script, folder / BLANKS)
+    if (folder / BLANKS / "history.h5").is_file() and not (folder / BLANKS / "histories.png").is_file():
+        sys.exit("the run has drawn no picture of its histories")
 
 
 def two_grounds(results):
@@ -193,7 +195,7 @@ def check_command(words, folder):
 def until_steady(results):
     """A short roll is not steady; it goes on until it is, or says why it does not."""
     folder = empty(results)
-    words = ["tyre_on_plane", "--quick", "-o", folder / BLANKS, "--until-steady"]
+    words = ["tyre_on_plane", "--quick", "-o", folder / BLANKS, "--no-pictures", "--until-steady"]
     said = inputs_run(*words, "20%", "--time-limit", "60")
     summary = json.loads((folder / BLANKS / "summary.json").read_text())
     values = [summary["quantities"][name] for name in ("hub_drop", "resistance_coefficient")]
@@ -207,10 +209,12 @@ def until_steady(results):
 def error(results):
     """The run of least error where none reaches the error; sizes of the command line win."""
     folder = empty(results)
-    given = ["-v", "cell", "0.1", "-v", "distance", "0.3", "-o", folder]
+    given = ["-v", "cell", "0.1", "-v", "distance", "0.3", "--no-pictures", "-o", folder]
     said = inputs_run("wheel_on_snow", "--error", "1%", *given)
     if not (folder / "summary.json").is_file():
         sys.exit(f"there is no run:\n{said}")
+    if list(folder.glob("*.png")):
+        sys.exit("--no-pictures: the run has drawn pictures")
     for text in ("reaches 1 %; the best is", "from the best estimate", "The estimate "):
         if text not in said:
             sys.exit(f"it does not say '{text}':\n{said}")

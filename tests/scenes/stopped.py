@@ -47,7 +47,7 @@ def main(scene, signal_name, results, *words):
     folder, number = empty(Path(results).resolve()), signal.Signals[signal_name]
     whole, stopped = folder / "whole", folder / "stopped"
     cache = {"FURROW_CACHE": str(folder / "cache")}
-    inputs_run(scene, *words, "-o", whole, **cache)
+    inputs_run(scene, *words, "--no-pictures", "-o", whole, **cache)
     command = ["bash", PROJECT / "inputs" / "run", "--no-build", scene, *words, "-o", stopped]
     begun = subprocess.Popen([*command, "--checkpoint", "0.5s"], env={**os.environ, **cache},
                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -62,7 +62,7 @@ def main(scene, signal_name, results, *words):
     if number == signal.SIGTERM and programs_of(stopped):
         sys.exit("furrow goes on after inputs/run has ended")
     wait_for("the end of furrow", lambda: not programs_of(stopped))
-    print(said, inputs_run(scene, "-o", stopped, "--continue", **cache))
+    print(said, inputs_run(scene, "--no-pictures", "-o", stopped, "--continue", **cache))
     if not (stopped / "run.json").is_file():
         sys.exit("the continued run did not come to its end")
     same = compare_arrays(whole, stopped, tolerance=0.0)

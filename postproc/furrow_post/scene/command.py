@@ -123,7 +123,7 @@ def _run(request: Request) -> int:
         former = request.former.variables if request.former else []
         variables = [*options.given, *former, *request.preset]
         variables = list({name: (name, value) for name, value in reversed(variables)}.values())[::-1]
-        _run_and_show(_scene_run(request, script, folder, options.scene, variables), runs, options.quick)
+        _run_and_show(_scene_run(request, script, folder, options.scene, variables), runs, options)
     return 0
 
 
@@ -151,14 +151,15 @@ def _run_chosen(request: Request, chosen: Chosen, table: Path) -> int:
         for words, folder in zip(chosen.runs, folders):
             variables = [*request.options.given, *zip(words[2::3], words[3::3])]
             print(f"{called()} {words_of(words[0], variables)}")
-            _run_and_show(_scene_run(request, script_of(words[0]), folder, words[0], variables), runs)
+            _run_and_show(_scene_run(request, script_of(words[0]), folder, words[0], variables), runs, request.options)
     print("\n".join(outcome(table, request.options.error, folders)))
     return 0
 
 
-def _run_and_show(run: SceneRun, runs: Runs, quick: bool = False) -> None:
+def _run_and_show(run: SceneRun, runs: Runs, options: argparse.Namespace) -> None:
     print(f"Running on {run.ranks} rank(s); results in {run.folder}", flush=True)
     run_scene(run, runs)
     if (run.folder / "history.h5").is_file():
-        show(run.folder, quick)
-        print(summary_text(run.folder, quick), end="")
+        if not options.no_pictures:
+            show(run.folder, options.quick)
+        print(summary_text(run.folder, options.quick), end="")

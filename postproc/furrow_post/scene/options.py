@@ -128,6 +128,7 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="continues a stopped run from its last checkpoint, with its variables and ranks",
     )
+    add("--no-pictures", action="store_true", help="draws no pictures of the results")
     add("--no-build", action="store_true", help="runs the programs that were built last")
     sweep = found.add_argument_group("sweeps (inputs/sweep/README.md)")
     add = sweep.add_argument

@@ -10,7 +10,7 @@ import numpy as np
 
 SCENE = Path(__file__).resolve().parents[3] / "scenes" / "wheel_on_snow.lig"
 results = sys.argv[1] if len(sys.argv) > 1 else "results/drive_wheel"
-variables = {"results": results, "cell": 0.05, "distance": 1.2, "motion": "mode slip slip 0.05", "vtk": 0}
+variables = {"results": results, "cell": 0.1, "distance": 1.2, "motion": "mode slip slip 0.05", "vtk": 0}
 
 print("time [s]  slip  pull [N]  hub drop [m]")
 with furrow.Simulation(SCENE, variables=variables) as run:
