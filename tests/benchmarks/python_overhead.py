@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Cost of Python: processor time of a run stepped from Python over that of the executable.
+"""Cost of Python: user processor time of a run stepped from Python over that of the executable.
 
     PYTHONPATH=build/python tests/benchmarks/python_overhead.py build/bin/furrow [PAIRS]
 
 Python takes one step at a time and reads the forces on the wheel and the arrays of the ground after each.
-Runs with and without Python alternate. The start of Python is left out.
+Pairs of runs with equal histories alternate. The start of Python is left out.
 """
 
 import resource
@@ -17,7 +17,7 @@ from pathlib import Path
 
 INPUTS = Path(__file__).resolve().parents[2] / "inputs"
 SCENE = INPUTS / "scenes" / "wheel_on_snow.lig"
-VARIABLES = {"cell": 0.05, "distance": 0.3, "vtk": 0, "motion": "mode slip slip 0.1"}
+VARIABLES = {"cell": 0.08, "distance": 0.1, "vtk": 0, "motion": "mode slip slip 0.1"}
 
 
 def driven(results: str) -> int:
@@ -32,25 +32,40 @@ def driven(results: str) -> int:
     return steps
 
 
-def processor_time(command: list[str]) -> float:
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+def history(folder: Path) -> list[bytes]:
+    """The channels of a run, without its costs."""
+    import h5py
+
+    with h5py.File(folder / "history.h5") as file:
+        return [file["history"][name][:].tobytes() for name in sorted(file["history"])]
+
+
+def user_time(command: list[str]) -> float:
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
 def main() -> None:
-    program, pairs = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 5
+    program, pairs = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 20
     given = [word for name, value in VARIABLES.items() for word in ("-var", name, str(value))]
-    start = processor_time([sys.executable, "-c", "import furrow, numpy"])
     ratios = []
     with tempfile.TemporaryDirectory() as folder:
         for pair in range(pairs):
-            alone = processor_time([program, "-in", str(SCENE), "-log", "none", "-var", "results", f"{folder}/alone", *given])
-            stepped = processor_time([sys.executable, __file__, "--driven", f"{folder}/driven"]) - start
-            ratios.append(stepped / alone)
-            print(f"{alone:8.2f} s alone {stepped:8.2f} s from Python, ratio {ratios[-1]:.4f}", flush=True)
-    print(f"median ratio {statistics.median(ratios):.4f}; start of Python {start:.2f} s, left out")
+            alone_folder, stepped_folder = Path(folder, f"alone{pair}"), Path(folder, f"stepped{pair}")
+            alone_command = [program, "-in", str(SCENE), "-log", "none", "-var", "results", str(alone_folder), *given]
+            stepped_command = [sys.executable, __file__, "--driven", str(stepped_folder)]
+            start = user_time([sys.executable, "-c", "import furrow, numpy"]) - user_time([program, "--version"])
+            if pair % 2:
+                stepped, alone = user_time(stepped_command), user_time(alone_command)
+            else:
+                alone, stepped = user_time(alone_command), user_time(stepped_command)
+            if history(alone_folder) != history(stepped_folder):
+                sys.exit("the two histories differ")
+            ratios.append((stepped - start) / alone)
+            print(f"{alone:8.2f} s alone {stepped - start:8.2f} s from Python, ratio {ratios[-1]:.4f}", flush=True)
+    error = statistics.stdev(ratios) / len(ratios) ** 0.5
+    print(f"overhead {100 * statistics.mean(ratios) - 100:.1f} +- {100 * error:.1f} %, without the start of Python")
 
 
 if __name__ == "__main__":
