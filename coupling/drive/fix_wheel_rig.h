@@ -26,6 +26,7 @@ class FixWheelRig : public FixRig, public MotionController {
   /// The table with the checksum of its numbers.
   std::vector<std::pair<std::string, std::string>> settings() const override;
   const WheelRig& rig() const override { return rig_; }
+  WheelRig& rig_of_chassis() { return rig_; }
   FixWheelHub& wheel_fix() const override { return wheel_fix_; }
 
  private:

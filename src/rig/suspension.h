@@ -27,6 +27,14 @@ class Suspension {
     return force_;
   }
 
+  /// For a mass that is part of a body: the step that this body has computed. @param height s [m];
+  /// @param velocity s' [m/s]; @param force F [N]
+  void follow(double height, double velocity, double force) {
+    height_ = height;
+    velocity_ = velocity;
+    force_ = force;
+  }
+
   double stiffness() const { return stiffness_; }
   double damping() const { return damping_; }
   double mass() const { return mass_; }

@@ -131,20 +131,23 @@ void WheelRig::drive_vertical(double time, double dt) {
     wheel_.prescribe(Coordinate::z, lowering_ * load_ramp_.mean_rate(time, time + dt));
   } else {
     wheel_.release(Coordinate::z);
-    if (suspension_) {
-      const double press = press_by_suspension(load_ramp_.value(time), dt);
-      wheel_.set_load(Vector3(0.0, 0.0, -press));
-      return;
-    }
-    const double across = std::sin(side_slope_), along = std::sin(slope_);
-    wheel_.set_load(
-        load_ * load_ramp_.value(time) *
-        Vector3(-along, -across * std::cos(slope_), -std::cos(side_slope_) * std::cos(slope_)));
+    const double share = load_ramp_.value(time);
+    if (suspension_)
+      press_by_suspension(share, dt);
+    else
+      wheel_.set_load(load_ * share * down());
   }
 }
 
-/// Weight of the wheel and force of the suspension [N], while a share of the weights acts.
-double WheelRig::press_by_suspension(double share, double dt) {
+/// Direction of gravity in the axes of the ground.
+Vector3 WheelRig::down() const {
+  const double across = std::sin(side_slope_), along = std::sin(slope_);
+  return {-along, -across * std::cos(slope_), -std::cos(side_slope_) * std::cos(slope_)};
+}
+
+/// Weight of the wheel and force of the suspension, while a share of the weights acts. Along the
+/// ground the axle carries all of the load.
+void WheelRig::press_by_suspension(double share, double dt) {
   const double least_mass = std::min(suspension_->mass(), wheel_.total_mass());
   if (dt * dt * suspension_->stiffness() > largest_spring_step * least_mass ||
       dt * suspension_->damping() > largest_damper_step * least_mass)
@@ -153,8 +156,29 @@ double WheelRig::press_by_suspension(double share, double dt) {
         "{:.4g} kg; write a smaller timestep",
         dt, suspension_->stiffness(), suspension_->damping(), least_mass));
   const double own = share * wheel_weight_;
-  return own + suspension_->advance(wheel_.position(Coordinate::z) - first_height_,
-                                    wheel_.rate(Coordinate::z), share * load_ - own, dt);
+  sprung_weight_ = (share * load_ - own) * down();
+  Vector3 load = share * load_ * down();
+  load.z() = own * down().z();
+  if (!joined_)
+    load.z() -= suspension_->advance(wheel_.position(Coordinate::z) - first_height_,
+                                     wheel_.rate(Coordinate::z), -sprung_weight_.z(), dt);
+  wheel_.set_load(load);
+}
+
+Strut WheelRig::strut() const {
+  Strut strut;
+  strut.arm = wheel_.centre().head<2>();
+  strut.stiffness = suspension_->stiffness();
+  strut.damping = suspension_->damping();
+  strut.height = wheel_.position(Coordinate::z) - first_height_;
+  strut.velocity = wheel_.rate(Coordinate::z);
+  strut.weight = -sprung_weight_.z();
+  return strut;
+}
+
+void WheelRig::press(const Strut& strut) {
+  suspension_->follow(strut.top_height, strut.top_velocity, strut.force);
+  wheel_.set_load(wheel_.load() - Vector3(0.0, 0.0, strut.force));
 }
 
 void WheelRig::checkpoint(Checkpoint& state) {

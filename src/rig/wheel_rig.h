@@ -15,6 +15,7 @@
 #include "rig/pass_schedule.h"
 #include "rig/ramp.h"
 #include "rig/slip.h"
+#include "rig/sprung_body.h"
 #include "rig/suspension.h"
 
 namespace furrow {
@@ -81,6 +82,20 @@ class WheelRig {
   std::vector<double> measure(double time, const GroundLosses& losses = {}) const;
 
   bool has_suspension() const { return suspension_.has_value(); }
+  /// Null without one.
+  const Suspension* suspension() const { return suspension_ ? &*suspension_ : nullptr; }
+  const WheelHub& wheel() const { return wheel_; }
+
+  // Of a suspension that carries a part of a chassis, which computes its step after apply().
+  void join() { joined_ = true; }
+  void leave() { joined_ = false; }
+  bool joined() const { return joined_; }
+  /// Whether the settling has begun. @param time [s] the middle of a step
+  bool lowered(double time) const { return time >= load_ramp_.start; }
+  /// [N] weight of the sprung mass in the axes of the ground
+  const Vector3& sprung_weight() const { return sprung_weight_; }
+  Strut strut() const;                 ///< its arm is the place of the axle
+  void press(const Strut& strut);      ///< presses the wheel with the results
   void checkpoint(Checkpoint& state);  ///< of the suspension
 
   RigStage stage(double time) const;
@@ -113,7 +128,8 @@ class WheelRig {
   void read_drive(const Options& options);
   void read_passes(const Options& options);
   void read_suspension(const Options& options);
-  double press_by_suspension(double share, double dt);
+  void press_by_suspension(double share, double dt);
+  Vector3 down() const;
   bool has_course(const std::string& key) const { return courses_.count(key) > 0; }
   double slip_angle(double time) const;
   double spin_rate_of(double slip, double slip_angle) const;
@@ -147,11 +163,13 @@ class WheelRig {
   Ramp speed_ramp_;  // begins with the acceleration
   PassSchedule passes_;
   std::optional<Suspension> suspension_;
-  double wheel_weight_ = 0.0;    // [N] with a suspension
-  double first_height_ = 0.0;    // [m] of the axle, likewise
-  double first_x_ = 0.0;         // [m] of the axle, where every pass begins
-  double lifted_z_ = 0.0;        // [m] of the axle on its way back
-  double lowering_speed_ = 0.0;  // [m/s]
+  bool joined_ = false;
+  Vector3 sprung_weight_ = Vector3::Zero();  // [N] in the axes of the ground, of this step
+  double wheel_weight_ = 0.0;                // [N] with a suspension
+  double first_height_ = 0.0;                // [m] of the axle, likewise
+  double first_x_ = 0.0;                     // [m] of the axle, where every pass begins
+  double lifted_z_ = 0.0;                    // [m] of the axle on its way back
+  double lowering_speed_ = 0.0;              // [m/s]
 };
 
 }  // namespace furrow

@@ -497,9 +497,9 @@ void WheelRig::read_suspension(const Options& options) {
     return;
   }
   const std::string where = options.where("suspension_stiffness");
-  if (on_slope() || passes_.passes() > 1 || sinkage_prescribed_)
-    throw InputError(where, "is given with a slope, passes or a prescribed sinkage",
-                     "level ground, one pass and a load", "remove it, or the other keyword");
+  if (passes_.passes() > 1 || sinkage_prescribed_)
+    throw InputError(where, "is given with passes or a prescribed sinkage", "one pass and a load",
+                     "remove it, or the other keyword");
   const double gravity = options.number("gravity"), own = wheel_.total_mass();
   const double sprung = load_ / gravity - own;
   if (!(sprung > 0.0))
