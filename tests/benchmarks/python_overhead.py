@@ -1,75 +1,74 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Cost of Python: user processor time of a run stepped from Python over that of the executable.
+"""Cost of Python: processor time of steps that Python takes one by one, over that of steps in one call.
 
-    PYTHONPATH=build/python tests/benchmarks/python_overhead.py build/bin/furrow [PAIRS]
+    PYTHONPATH=build/python tests/benchmarks/python_overhead.py [CELL [REPETITIONS]]
 
-Python takes one step at a time and reads the forces on the wheel and the arrays of the ground after each.
-Pairs of runs with equal histories alternate. The start of Python is left out.
+One run of wheel_on_snow alternates blocks of three kinds. One call takes all steps of the first. Each step of
+the others has a call. In the third kind Python then reads the force on the wheel and two arrays.
+CELL is the size of a cell [m].
 """
 
-import resource
+import random
 import statistics
-import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
-INPUTS = Path(__file__).resolve().parents[2] / "inputs"
-SCENE = INPUTS / "scenes" / "wheel_on_snow.lig"
-VARIABLES = {"cell": 0.08, "distance": 0.1, "vtk": 0, "motion": "mode slip slip 0.1"}
+import furrow
+import numpy as np
+
+SCENE = Path(__file__).resolve().parents[2] / "inputs" / "scenes" / "wheel_on_snow.lig"
+STEPS = 5  # of a block
+KINDS = ("one call", "steps", "steps and reads")
 
 
-def driven(results: str) -> int:
-    import furrow
+def times_of_run(cell: float) -> dict[str, float]:
+    """Processor time of a step of each kind [s]."""
+    spent = dict.fromkeys(KINDS, 0.0)
+    rounds = 0
+    variables = {"cell": cell, "distance": 0.3, "vtk": 0, "motion": "mode slip slip 0.1"}
+    with tempfile.TemporaryDirectory() as results:
+        with furrow.Simulation(SCENE, variables={**variables, "results": results}) as run:
+            wheel, soil = run.wheels["wheel"], run.terrains["soil"]
 
-    with furrow.Simulation(SCENE, variables={**VARIABLES, "results": results}) as run:
-        wheel, soil, steps = run.wheels["wheel"], run.terrains["soil"], 0
-        while run.step():
-            steps += 1
-            if wheel.force[2] + wheel.nodes[0, 0] > 1e9 or not soil.nodes.flags.c_contiguous:
-                sys.exit("not a wheel on snow")
-    return steps
+            def block(kind: str) -> bool:
+                if kind == "one call":
+                    return run.step(STEPS) == STEPS
+                for _ in range(STEPS):
+                    if not run.step():
+                        return False
+                    if kind == "steps":
+                        continue
+                    if not np.isfinite(wheel.force[2] + wheel.nodes[0, 0] + soil.nodes.size):
+                        sys.exit("the run has numbers that are not finite")
+                return True
 
-
-def history(folder: Path) -> list[bytes]:
-    """The channels of a run, without its costs."""
-    import h5py
-
-    with h5py.File(folder / "history.h5") as file:
-        return [file["history"][name][:].tobytes() for name in sorted(file["history"])]
-
-
-def user_time(command: list[str]) -> float:
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+            while True:
+                new = {}
+                for kind in random.sample(KINDS, len(KINDS)):
+                    before = time.process_time()
+                    if not block(kind):
+                        return {each: total / rounds / STEPS for each, total in spent.items()}
+                    new[kind] = time.process_time() - before
+                rounds += 1
+                for kind, seconds in new.items():
+                    spent[kind] += seconds
 
 
 def main() -> None:
-    program, pairs = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 20
-    given = [word for name, value in VARIABLES.items() for word in ("-var", name, str(value))]
-    ratios = []
-    with tempfile.TemporaryDirectory() as folder:
-        for pair in range(pairs):
-            alone_folder, stepped_folder = Path(folder, f"alone{pair}"), Path(folder, f"stepped{pair}")
-            alone_command = [program, "-in", str(SCENE), "-log", "none", "-var", "results", str(alone_folder), *given]
-            stepped_command = [sys.executable, __file__, "--driven", str(stepped_folder)]
-            start = user_time([sys.executable, "-c", "import furrow, numpy"]) - user_time([program, "--version"])
-            if pair % 2:
-                stepped, alone = user_time(stepped_command), user_time(alone_command)
-            else:
-                alone, stepped = user_time(alone_command), user_time(stepped_command)
-            if history(alone_folder) != history(stepped_folder):
-                sys.exit("the two histories differ")
-            ratios.append((stepped - start) / alone)
-            print(f"{alone:8.2f} s alone {stepped - start:8.2f} s from Python, ratio {ratios[-1]:.4f}", flush=True)
-    error = statistics.stdev(ratios) / len(ratios) ** 0.5
-    print(f"overhead {100 * statistics.mean(ratios) - 100:.1f} +- {100 * error:.1f} %, without the start of Python")
+    cell = float(sys.argv[1]) if len(sys.argv) > 1 else 0.05
+    runs = [times_of_run(cell) for _ in range(int(sys.argv[2]) if len(sys.argv) > 2 else 5)]
+    whole = [run["one call"] for run in runs]
+    print(f"a step in one call takes {1e6 * statistics.mean(whole):.0f} us")
+    for kind in KINDS[1:]:
+        more = [1e6 * (run[kind] - run["one call"]) for run in runs]
+        ratios = [100 * (run[kind] / run["one call"] - 1) for run in runs]
+        root = len(runs) ** 0.5
+        print(f"{kind}: {statistics.mean(more):.0f} +- {statistics.stdev(more) / root:.0f} us more, "
+              f"{statistics.mean(ratios):.1f} +- {statistics.stdev(ratios) / root:.1f} %")
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["--driven"]:
-        driven(sys.argv[2])
-    else:
-        main()
+    main()
