@@ -11,16 +11,18 @@
 
 namespace furrow {
 
-/// The suspensions of the rigs carry the body. Its mass is the sum of their sprung masses, its
-/// centre of mass the mean of the axles, by sprung mass. It rolls if wheels are apart along y and
-/// pitches if wheels are apart along x.
+/// The suspensions of the rigs carry the body. Its mass m is the sum of their sprung masses. Its
+/// centre of mass is the mean of the axles, weighted by sprung mass. It rolls if wheels are apart
+/// along y and pitches if wheels are apart along x.
 ///
-/// Wheels pass horizontal forces to the body at their axles, and the moments of the constraints of
-/// spin and camber. The rigs pull and guide the body at a height e above the axles. With the
-/// centre of mass at the height H, the constraint forces C of the wheels and acceleration a
-///   E = sum C + m a,   m_x = H (m a_y - W_y) - e E_y,   m_y = H (W_x - m a_x) + e E_x
-/// less those constraint moments. W is the weight of the body in the axes of the ground.
-/// Accelerations and constraints are those of the last step.
+/// Besides the suspensions, three moments turn the body:
+///   H (W - m a)  weight W and inertial force along the ground, at the centre of mass. It lies H
+///                above the axles.
+///   e E          force E with which the rigs pull and guide the body, e above the axles
+///   -M           M holds spin and camber of the wheels
+/// The wheels are held by the constraint forces C, so
+///   E = sum C + m a,   m_x = -H (W_y - m a_y) - e E_y - M_x,   m_y = H (W_x - m a_x) + e E_x - M_y
+/// W is in the axes of the ground. The acceleration a, C and M are those of the last step.
 class Chassis {
  public:
   static Schema schema(const std::string& subject);

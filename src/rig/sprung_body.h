@@ -19,8 +19,11 @@ struct Strut {
   double force = 0.0;                           ///< result: F on the axle, downwards [N]
 };
 
-/// Coordinates q = (heave z, roll, pitch), angles small. With b = (1, y, -x) for each strut:
-///   s = b . q,   F = k (h - s) + c (h' - s'),   M q'' = sum b (F - W) + (0, m_x, m_y)
+/// The coordinates are q = (heave z, roll, pitch), with small angles. A strut at the arm (x, y) has
+/// the lever b = (1, y, -x):
+///   s = b . q                          height of its upper end
+///   F = k (h - s) + c (h' - s')        force on the axle
+///   M q'' = sum b (F - W) + (0, m_x, m_y)
 /// The dampers are implicit in the velocity of the body. Velocities are half a step behind
 /// positions. One body on one strut is a Suspension.
 class SprungBody {
