@@ -7,11 +7,11 @@
   compare RECORD.csv MATERIAL.yaml ...                       all values, and the deviations
 
 Laws: cohesive Cam clay, the Drucker-Prager cap, the crushable foam. Two numbers give each its shape
-(--law says which); they are fitted to all tests but shear and triaxial at once, least squares of ln
-of stresses, of densities (0.1 of a logarithm weighs as much as a factor of e in a stress), K0 (0.1)
-and lateral strain over axial strain (0.2), each quantity of each test with the same weight; a value
-where the law has no state counts as a factor of 20. For each shape the hardening is that with which
-the law follows the oedometer. E is the mean of the moduli in tension, nu 0.
+(--law names them). Least squares fits them to all tests but shear and triaxial at once. Each quantity
+of each test has the same weight. Deviations are logarithms of stresses, logarithms of densities over
+0.1, and differences of K0 over 0.1 and of lateral over axial strain over 0.2. Where the law has no
+state, the deviation is that of a factor of 20. For each shape the hardening is that with which the law
+follows the oedometer. E is the mean of the moduli in tension, nu 0.
 """
 
 import argparse
@@ -37,6 +37,16 @@ from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest
 from furrow_post.study.launch import Tools
 from furrow_post.study.tables import markdown
+
+TESTS = (  # of a record
+    "tests of a record: run.py TEST --ground snow_bonded -v slenderness 3 -v rate 2 OPTIONS -o results/snow/TEST",
+    "  oedometer -v grains 300 -v stress 1.1e6 -v strain 1.25 --series 86028121,49979687",
+    "  tension -v grains 200 -v rate 0.5 -v compaction C --series 86028121,49979687",
+    "  unconfined -v grains 200 -v strain 0.25 -v compaction C --series 86028121,49979687",
+    "  triaxial -v grains 200 -v strain 0.22 --confinement 2e2,6e2,2e3,6e3,1e4,2e4,3e4",
+    "  shear -v grains 200 -v speed 0.02 -v travel 0.5 -v compaction C --confinement P",
+    "  C: 0, 0.41, 0.70, 0.93; P: 1e2,3e2,1e3 and 1e2,1e3,3e3 and 1e2,5e3,2e4 and 1e2,3e4,1e5",
+)
 
 
 def sections_of(path: Path) -> str:
@@ -115,7 +125,9 @@ def tables(rows: Sequence[Row], laws: dict[str, Values]) -> str:
 
 def parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+        description=__doc__,
+        epilog="\n".join(TESTS),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--build", type=path, help="default: $FURROW_BUILD, or build in the tree")
     commands = parser.add_subparsers(dest="command", required=True)

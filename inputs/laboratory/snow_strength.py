@@ -101,7 +101,7 @@ def of_clusters(record: Sequence[Row]) -> dict[str, Strengths]:
 
 def of_law(ground: str, normal: float, points: Points) -> dict[str, Strengths]:
     """normal: stress [Pa] that shear is under"""
-    sections = sections_of(PROJECT / "inputs" / "materials" / f"{ground}_cam_clay.yaml")
+    sections = sections_of(PROJECT / "inputs" / "materials" / "variants" / f"{ground}_cam_clay.yaml")
     wanted = (
         ("tension", 0.0, "strength"),
         ("shear", normal, "strength"),

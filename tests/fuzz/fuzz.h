@@ -21,7 +21,8 @@ class InputFolder {
       : folder_(std::filesystem::temp_directory_path() /
                 ("furrow_fuzz_" + std::to_string(getpid()))) {
     std::filesystem::create_directories(folder_ / "points");
-    std::filesystem::copy(FURROW_SOURCE_DIR "/inputs/materials", folder_ / "materials");
+    std::filesystem::copy(FURROW_SOURCE_DIR "/inputs/materials", folder_ / "materials",
+                          std::filesystem::copy_options::recursive);
     std::filesystem::copy(FURROW_SOURCE_DIR "/inputs/validation/snow_oedometer", folder_ / "data");
   }
   ~InputFolder() { std::filesystem::remove_all(folder_); }

@@ -259,7 +259,7 @@ TEST_F(MaterialFileTest, CapOfAnotherUnitIsReadWithAWarning) {
 TEST_F(MaterialFileTest, ShippedMaterialsAreReadWithoutAWarning) {
   int count = 0;
   for (const auto& entry :
-       std::filesystem::directory_iterator(FURROW_SOURCE_DIR "/inputs/materials")) {
+       std::filesystem::recursive_directory_iterator(FURROW_SOURCE_DIR "/inputs/materials")) {
     if (entry.path().extension() != ".yaml") continue;
     ++count;
     EXPECT_THAT(read_material_file(entry.path().string()).warnings, ::testing::IsEmpty())
@@ -328,7 +328,7 @@ TEST_F(MaterialFileTest, OtherUnitsAreReadWithAWarning) {
        "give Pa, not kPa"},
       {"fresh_snow", "law: {d: 5}", "d is 5 Pa at 200 kg/m3; snow has at least 20 Pa"},
       // strengths in mPa
-      {"fresh_snow_shoop",
+      {"variants/fresh_snow_shoop",
        "hardening: {p: [113.76e3, 5e7, 1e8, 2e8, 5e8, 1e9, 2e9, 2.8e9, 3.25e9]}",
        "the hardening has p = 113760 Pa at 199.8 kg/m3; ground of that density has a strength of "
        "at most 1e+05 Pa; give Pa, not mPa"},

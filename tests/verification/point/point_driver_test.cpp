@@ -198,7 +198,7 @@ TEST(PointDriver, StepErrorFallsAtFirstOrder) {
 }
 
 TEST(PointDriver, AnUnreachableStressIsAnErrorWithItsCause) {
-  const auto snow = preset("fresh_snow_shoop");
+  const auto snow = preset("variants/fresh_snow_shoop");
   // Uniaxial compression by stress: beyond the shear strength no strain gives 1 MPa without lateral
   // stress.
   const PointPath beyond =

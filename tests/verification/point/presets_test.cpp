@@ -61,7 +61,8 @@ double oedometer_error(const std::string& preset) {
 /// All shipped files are read, hold a law, and survive being written and read.
 TEST(Presets, AllAreRead) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(inputs + "/materials")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(inputs + "/materials")) {
+    if (entry.path().extension() != ".yaml") continue;
     const MaterialFile file = read_material_file(entry.path().string());
     EXPECT_EQ(material_file_text(file.title, file.model, file.sections).find("title: "), 0u);
     EXPECT_GT(file.make()->density(), 0.0);
@@ -96,7 +97,7 @@ TEST(Presets, DrySandFollowsTheOedometerOfItsGrains) {
   const CsvTable grains = CsvTable::read(inputs + "/validation/grains/sand_dry_oedometer.csv");
   const std::vector<double> rho = grains.numbers("rho_kgm3");
   ASSERT_GT(rho.size(), 5u);
-  for (const char* name : {"dry_sand", "dry_sand_triaxial", "dry_sand_smooth"}) {
+  for (const char* name : {"dry_sand", "variants/dry_sand_triaxial", "dry_sand_smooth"}) {
     const auto sand = file_of(name).make();
     const PointHistory history = oedometer(*sand, grains.numbers("sigma1_Pa"));
     for (std::size_t i = 0; i < rho.size(); ++i)
@@ -201,7 +202,7 @@ TEST(Presets, FieldSnowIsTheCurveOfItsGrains) {
 }
 
 TEST(Presets, SnowAsPrintedIsTRTable3) {
-  const MaterialOptions snow = options_of("fresh_snow_as_printed");
+  const MaterialOptions snow = options_of("variants/fresh_snow_as_printed");
   const CsvTable table = reference("snow_tr_table3");
   EXPECT_EQ(snow.at("hardening").options.numbers("p"), table.numbers("p_Pa"));
   EXPECT_EQ(snow.at("hardening").options.numbers("eps_vol_pl"), table.numbers("eps_vol_pl"));
@@ -266,12 +267,12 @@ TEST(Presets, FreshSnowStandsUnderItsOwnWeight) {
 }
 
 TEST(Presets, FreshSnowShoopCountsTable3From200) {
-  const Options hardening = options_of("fresh_snow_shoop").at("hardening").options;
+  const Options hardening = options_of("variants/fresh_snow_shoop").at("hardening").options;
   const CsvTable table = reference("snow_tr_table3");
   const std::vector<double>&p = hardening.numbers("p"), &eps = hardening.numbers("eps_vol_pl");
   const std::vector<double> printed_p = table.numbers("p_Pa"), rho = table.numbers("rho_kgm3");
   ASSERT_EQ(p.size(), 9u);
-  EXPECT_EQ(options_of("fresh_snow_shoop").at("law").options.number("density"), 200.0);
+  EXPECT_EQ(options_of("variants/fresh_snow_shoop").at("law").options.number("density"), 200.0);
   for (std::size_t i = 0; i < p.size(); ++i) {
     EXPECT_EQ(p[i], printed_p[i]);
     if (!std::isnan(rho[i])) {
@@ -281,16 +282,17 @@ TEST(Presets, FreshSnowShoopCountsTable3From200) {
   EXPECT_EQ(eps.front(), 0.0);
   EXPECT_NEAR(eps.back(), std::log(ice_density / 200.0),
               5.1e-5);  // never denser than ice by plastic strain
-  EXPECT_EQ(options_of("fresh_snow_shoop_log").at("hardening").options.text("interpolation"),
-            "log");
+  EXPECT_EQ(
+      options_of("variants/fresh_snow_shoop_log").at("hardening").options.text("interpolation"),
+      "log");
   EXPECT_EQ(hardening.text("interpolation"), "linear");
 }
 
 TEST(Presets, OtherReadingsOfTable3) {
   const std::vector<double> sigma1 =
-      options_of("fresh_snow_shoop").at("hardening").options.numbers("p");
-  for (const auto& [name, share] :
-       {std::pair{"fresh_snow_p_third", 1.0 / 3.0}, std::pair{"fresh_snow_p_0413", 0.413}}) {
+      options_of("variants/fresh_snow_shoop").at("hardening").options.numbers("p");
+  for (const auto& [name, share] : {std::pair{"variants/fresh_snow_p_third", 1.0 / 3.0},
+                                    std::pair{"variants/fresh_snow_p_0413", 0.413}}) {
     const std::vector<double> p = options_of(name).at("hardening").options.numbers("p");
     ASSERT_EQ(p.size(), sigma1.size());
     EXPECT_EQ(p.front(), 113.76);
@@ -299,30 +301,31 @@ TEST(Presets, OtherReadingsOfTable3) {
   const double sin_phi =
       std::sin(radians(22.53));  // read as the friction angle, matched in triaxial compression
   EXPECT_NEAR(degrees(std::atan(6.0 * sin_phi / (3.0 - sin_phi))),
-              options_of("fresh_snow_beta_41").at("law").options.number("beta"), 0.05);
-  EXPECT_EQ(options_of("fresh_snow_d_30").at("law").options.number("d"), 30e3);
-  EXPECT_EQ(options_of("fresh_snow_d_30").at("law").options.number("R"), 1.1e-4);
+              options_of("variants/fresh_snow_beta_41").at("law").options.number("beta"), 0.05);
+  EXPECT_EQ(options_of("variants/fresh_snow_d_30").at("law").options.number("d"), 30e3);
+  EXPECT_EQ(options_of("variants/fresh_snow_d_30").at("law").options.number("R"), 1.1e-4);
 }
 
 /// The inverted table follows the measured densities to 0.1 %: the closed form neglects only
 /// elastic flow on the cap.
 TEST(Presets, InvertedTableFollowsTheOedometer) {
-  EXPECT_LT(oedometer_error("fresh_snow_abele_gow"), 1e-3);
-  EXPECT_LT(oedometer_error("fresh_snow_abele_gow_log"), 1e-3);
+  EXPECT_LT(oedometer_error("variants/fresh_snow_abele_gow"), 1e-3);
+  EXPECT_LT(oedometer_error("variants/fresh_snow_abele_gow_log"), 1e-3);
 }
 
 /// Of the readings of [Shoop2001] Table 3, p = sigma_1 is the nearest to the oedometer.
 TEST(Presets, SigmaOneIsTheReadingNearestToTheOedometer) {
-  const double sigma1 = oedometer_error("fresh_snow_shoop");
+  const double sigma1 = oedometer_error("variants/fresh_snow_shoop");
   EXPECT_LT(sigma1, 0.12);
-  EXPECT_GT(oedometer_error("fresh_snow_p_0413"), 2.0 * sigma1);
-  EXPECT_GT(oedometer_error("fresh_snow_p_third"), oedometer_error("fresh_snow_p_0413"));
+  EXPECT_GT(oedometer_error("variants/fresh_snow_p_0413"), 2.0 * sigma1);
+  EXPECT_GT(oedometer_error("variants/fresh_snow_p_third"),
+            oedometer_error("variants/fresh_snow_p_0413"));
 }
 
 /// The inverted table is the closed form of confined compression on the cap, solved for p_b and the
 /// plastic strain.
 TEST(Presets, InvertedTableIsTheClosedForm) {
-  const Options hardening = options_of("fresh_snow_abele_gow").at("hardening").options;
+  const Options hardening = options_of("variants/fresh_snow_abele_gow").at("hardening").options;
   const CsvTable data = reference("snow_oedometer");
   const std::vector<double> sigma1 = data.numbers("sigma1_Pa"), rho = data.numbers("rho_kgm3");
   const double K = 13.79e6 / 1.2, R = 2.2e-2, d = 5e3, tan_beta = std::tan(radians(22.53)),
@@ -344,7 +347,7 @@ TEST(Presets, FoamHasBothReadings) {
     return sigma0 / std::sqrt(pt * pc0 + sigma0 * (pc0 - pt) / 3.0 - sigma0 * sigma0 / 9.0);
   };
   const auto first = file_of("fresh_snow_foam").make(),
-             second = file_of("fresh_snow_foam_sum").make();
+             second = file_of("variants/fresh_snow_foam_sum").make();
   const auto& one = dynamic_cast<const CrushableFoam&>(*first);
   const auto& two = dynamic_cast<const CrushableFoam&>(*second);
   EXPECT_NEAR(one.parameters().M, 5.807, 5e-4);
@@ -364,7 +367,7 @@ TEST(Presets, FoamHasBothReadings) {
 /// densities.
 TEST(Presets, FoamInTheOedometer) {
   EXPECT_NEAR(oedometer_error("fresh_snow_foam"), 0.163, 5e-3);
-  EXPECT_LT(oedometer_error("fresh_snow_foam_oedometer"), 0.04);
+  EXPECT_LT(oedometer_error("variants/fresh_snow_foam_oedometer"), 0.04);
 }
 
 /// The strengths of Cam clay are those of the closed form of confined compression

@@ -21,7 +21,7 @@ namespace furrow {
 namespace {
 
 const std::string root = FURROW_SOURCE_DIR;
-const std::vector<std::string> presets = {"fresh_snow", "fresh_snow_foam_oedometer",
+const std::vector<std::string> presets = {"fresh_snow", "variants/fresh_snow_foam_oedometer",
                                           "fresh_snow_cam_clay"};
 
 /// The cells of the page's table rows, by the first cell.

@@ -25,7 +25,7 @@ from snow_paths import Points, predicted
 from snow_record import Place, Row, read_record, record_of, write_record
 
 RECORDS = SOURCE / "inputs" / "laboratory" / "records"
-MATERIALS = SOURCE / "inputs" / "materials"
+MATERIALS = SOURCE / "inputs" / "materials" / "variants"
 RECORD = RECORDS / "snow_bonded.csv"
 PRESET = MATERIALS / "snow_bonded_cam_clay.yaml"
 
