@@ -9,6 +9,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 
+from furrow_post.analyse.empirical import snow_traction
 from furrow_post.analyse.evaluations import path_states, plate_curve, steady_columns
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_columns, read_rows
@@ -27,7 +28,7 @@ SINKAGES = (25, 50, 100, 228)  # [mm]
 NEAR = 2.5  # [mm] of sinkage around it that is averaged
 MODES = {"towed": "towed", "slip_0": "slip 0", "slip_10": "slip 0.1", "slip_30": "slip 0.3", "slip_60": "slip 0.6"}
 WINDOW = 0.5  # [m] of travel
-LOAD, RADIUS = 6237.0, 0.37  # [N], [m] of the wheel
+LOAD, RADIUS, WIDTH = 6237.0, 0.37, 0.272  # [N], [m] of the wheel
 Key = tuple[str, str, str]  # test, at, quantity
 Values = dict[Key, float]
 
@@ -171,6 +172,25 @@ def matrix(laws: dict[str, Values]) -> list[dict[str, Any]]:
     return rows
 
 
+def traction(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Torque over radius and load, from rows of the matrix, and the formula for the traction of
+    vehicles. Its contact pressure is the load over the arc that touches the snow of the first law."""
+    found: dict[tuple[str, str], dict[str, Any]] = {
+        (row["at"], row["quantity"]): row for row in rows if row["test"] == "wheel"
+    }
+    table = []
+    for at in ("slip 0.1", "slip 0.3", "slip 0.6"):
+        torque, drop = found[at, "torque"], found[at, "hub drop"]
+        arc = RADIUS * math.acos(1 - float(drop[next(iter(LAWS))]) / RADIUS)
+        row: dict[str, Any] = {"at": at, "label": "known"}
+        for name in (*LAWS, "grains"):
+            value = number(str(torque[name]))
+            row[name] = "" if math.isnan(value) else round(value / (LOAD * RADIUS), 3)
+        row["formula"] = round(snow_traction("undisturbed", LOAD, WIDTH * arc).coefficient, 3)
+        table.append(row)
+    return table
+
+
 def reference_points(test: str, quantity: str, column: str) -> tuple[list[float], list[float]]:
     """Where a test was made, as its first number, and the values of a column."""
     rows = [r for r in REFERENCE if (r["test"], r["quantity"]) == (test, quantity) and r[column]]
@@ -225,7 +245,9 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     for stage, evaluation in EVALUATIONS.items():
         for run in runs.done(stage):
             laws[run.name.rpartition("_")[2]].update(evaluation(run))
-    output.table("results.csv", matrix(laws))
+    rows = matrix(laws)
+    output.table("results.csv", rows)
+    output.table("traction.csv", traction(rows))
     output.table("choices.csv", [choice_row(run) for run in runs.done("choices", "towed_snow")])
     draw(laws, runs, output.path("matrix.png"))
     return []

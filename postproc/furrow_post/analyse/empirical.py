@@ -10,11 +10,14 @@ from .sand_formulas import bekker, wong_reece
 from .snow_formula import (
     NRMM_COEFFICIENT_RMS,
     NRMM_SINKAGE_RMS,
+    TRACTION,
+    SnowTraction,
     nrmm,
     nrmm_final_density,
     nrmm_resistance,
     nrmm_sinkage,
     require_pressure,
+    snow_traction,
 )
 from .terrain_values import terrain
 
@@ -23,12 +26,15 @@ __all__ = [
     "NRMM_SINKAGE_RMS",
     "OutOfRange",
     "Prediction",
+    "SnowTraction",
+    "TRACTION",
     "bekker",
     "nrmm",
     "nrmm_final_density",
     "nrmm_resistance",
     "nrmm_sinkage",
     "require_pressure",
+    "snow_traction",
     "terrain",
     "wong_reece",
 ]

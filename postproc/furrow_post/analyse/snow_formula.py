@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""NRMM: a wheel in shallow snow. SI units."""
+"""NRMM: a wheel in shallow snow; gross traction on snow and ice. SI units."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -115,3 +116,56 @@ def nrmm(
         outside,
         (Result("final density", final, "kg/m3"),),
     )
+
+
+# T = a N^b: gross traction over contact area, of the mean contact pressure N, both in kPa. Table A5 of
+# the report prints gross tractions, and empirical_test.py holds them: two on undisturbed snow, which
+# fix a and b, and one each on packed snow and ice.
+TRACTION_SOURCE = "P. W. Richmond, S. A. Shoop, G. L. Blaisdell, CRREL Report 95-1 (1995)"
+TRACTION = {"undisturbed": (0.851, 0.823), "packed": (0.321, 0.97), "ice": (0.127, 1.06)}
+
+
+@dataclass(frozen=True)
+class SnowTraction:
+    """Gross traction of a wheel or track at the slip where it is largest."""
+
+    surface: str
+    load: float  # [N]
+    pressure: float  # load over contact area on hard ground [Pa]
+
+    @property
+    def coefficient(self) -> float:
+        """Gross traction over load."""
+        a, b = TRACTION[self.surface]
+        return float(a * (self.pressure / 1e3) ** (b - 1))
+
+    @property
+    def gross(self) -> float:
+        return self.coefficient * self.load
+
+    def report(self) -> str:
+        """Lines for a person."""
+        return "\n".join(
+            [
+                f"snow_traction, {self.surface}  ({TRACTION_SOURCE})",
+                f"  contact pressure           {self.pressure / 1e3:.4g} kPa",
+                f"  gross traction             {self.gross:.4g} N",
+                f"  gross traction coefficient {self.coefficient:.4f}",
+                "  Subtract the motion resistance, for example of nrmm, for the net traction.",
+            ]
+        )
+
+
+def snow_traction(surface: str, load: float, contact_area: float) -> SnowTraction:
+    """load [N], contact_area [m2] on hard ground. @raises ResultsError"""
+    if surface not in TRACTION:
+        raise ResultsError(f"there is no surface '{surface}'; there are {', '.join(TRACTION)}")
+    require_positive("snow_traction", load=load, contact_area=contact_area)
+    pressure = load / contact_area
+    low, high = NRMM_PRESSURE
+    if not low <= pressure <= high:
+        raise ResultsError(
+            f"snow_traction: a contact pressure of {pressure:g} Pa; allowed: {low:g} to {high:g} Pa. "
+            "Give the load in N and the contact area in m2"
+        )
+    return SnowTraction(surface, load, pressure)

@@ -19,6 +19,7 @@ OPTIONS = {  # option -> unit and meaning
     "sinkage": "m, measured, instead of NRMM's own",
     "slip": "1 - v/(r omega), of a driven wheel",
     "cone_index": "Pa, mean of the first 15 cm; for vti_clay the rating cone index",
+    "contact_area": "m2, of the wheel on hard ground",
     "section_height": "m, of the tyre",
     "deflection": "m, of the tyre on hard ground",
     "weight": "N, of the vehicle",
@@ -45,6 +46,7 @@ NEEDED = {  # method -> what it cannot do without
     "gee_clough": (*ON_CONE, *DEFLECTED),
     "vti_clay": (*ON_CONE, *DEFLECTED),
     "vci": VEHICLE,
+    "snow_traction": ("load", "contact_area", "surface"),
 }
 FURTHER = {  # method -> what it may have besides
     "nrmm": ("sinkage",),
@@ -59,6 +61,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(f"--{name}", type=KINDS.get(name, positive), help=unit)
     terrains = "name in furrow_post/analyse/terrains.csv, e.g. 'LETE sand', or a soil card's file"
     parser.add_argument("--terrain", help=terrains)
+    surface = "of snow_traction; packed: a snow road, or more than four passes"
+    parser.add_argument("--surface", choices=empirical.TRACTION, help=surface)
     for name, meaning in FLAGS.items():
         parser.add_argument(f"--{name}", action="store_true", help=meaning)
     parser.add_argument(
@@ -69,7 +73,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    given = {name for name in (*OPTIONS, "terrain") if getattr(arguments, name) is not None}
+    given = {name for name in (*OPTIONS, "terrain", "surface") if getattr(arguments, name) is not None}
     given |= {name for name in FLAGS if getattr(arguments, name)}
     missing = [name for name in NEEDED[arguments.method] if name not in given]
     if missing:
@@ -98,6 +102,9 @@ def _report(given: argparse.Namespace) -> str:
             given.cone_index, _tyre(given), given.slip, outside
         ).report(),
         "vci": lambda: _vehicle_cone_index(given),
+        "snow_traction": lambda: empirical.snow_traction(
+            given.surface, given.load, given.contact_area
+        ).report(),
     }
     if given.method in ground_formulas:
         return ground_formulas[given.method]()

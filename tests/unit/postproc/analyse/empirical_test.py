@@ -60,6 +60,32 @@ class SnowTest(unittest.TestCase):
         self.assertAlmostEqual(rms(sinkage), known[1], delta=0.00005)
 
 
+class SnowTractionTest(unittest.TestCase):
+    """CRREL Report 95-1, Appendix A: the vehicle file of the M113 and Table A5."""
+
+    WEIGHT = 23401 * 4.4482216  # [N]
+    AREA = 2 * 15 * 105 * 0.0254**2  # [m2] of two tracks, in inches
+
+    def test_gross_traction_is_that_of_table_a5(self) -> None:
+        printed = {"undisturbed": 44134.3, "packed": 29692.1, "ice": 16741.3}
+        for surface, traction in printed.items():
+            found = empirical.snow_traction(surface, self.WEIGHT, self.AREA)
+            self.assertAlmostEqual(found.gross / traction, 1, delta=2e-5, msg=surface)
+            self.assertAlmostEqual(found.coefficient * self.WEIGHT / traction, 1, delta=2e-5)
+
+    def test_on_a_slope_the_load_is_the_part_normal_to_it(self) -> None:
+        # example 2, 30 degrees: the ratio to example 1 depends on the exponent alone
+        load = self.WEIGHT * math.cos(math.radians(30))
+        found = empirical.snow_traction("undisturbed", load, self.AREA)
+        self.assertAlmostEqual(found.gross / 39207.1, 1, delta=2e-5)
+
+    def test_refuses_units_that_no_wheel_has(self) -> None:
+        with self.assertRaisesRegex(ResultsError, "a contact pressure of 6.2 Pa; allowed: 5000 to 2e"):
+            empirical.snow_traction("ice", 6.2, 1.0)
+        with self.assertRaisesRegex(ResultsError, "no surface 'slush'; there are undisturbed, packed, ice"):
+            empirical.snow_traction("slush", 6e3, 0.05)
+
+
 class SandTest(unittest.TestCase):
     def test_bekker_carries_its_load(self) -> None:
         # the sinkage's own equation: W = b k sqrt(D) z^(n + 1/2) (3 - n)/3; and the work of
