@@ -56,7 +56,7 @@ def plan() -> list[Planned]:
 
 
 def make_case(row: Mapping[str, str]) -> Case:
-    """Scripts of this folder are told where it is, for what they include; scenes need not be."""
+    """Scripts of this folder get its path in the variable `here`, for what they include."""
     role = row["role"].replace("=", "_").replace(" ", "_")
     name = f"{row['case']}/{row['ground']}_{role}"
     script = (HERE / f"{row['script']}.lig").resolve()

@@ -27,10 +27,7 @@ ANSWERS = {
     Agreement.UNDECIDED: "inconclusive",
     Agreement.UNKNOWN: "error not known",
 }
-SERIES_HEAD = (
-    "case", "at", "continuum: mm", "grains: mm", "agree?", "continuum: c", "grains: c", "agree?",
-)
-TABLE_HEAD = ("case", "", "at", *GROUNDS, "formulas", "measured", "agree?")
+TABLE_HEAD = ("case", "", *GROUNDS, "measured", "agree, difference (allowed)")
 
 
 def known(number: float) -> str:
@@ -97,26 +94,8 @@ def series_value(line: Mapping[str, str], name: str) -> float | None:
     return float(value) if own == name else None
 
 
-def series_table(lines: Iterable[Mapping[str, str]]) -> list[str]:
-    """A row for each point of the series: its best estimates."""
-    points: dict[tuple[str, str], list[Mapping[str, str]]] = {}
-    for line in lines:
-        if is_point(line) and line["kind"] == BEST:
-            points.setdefault((line["case"], line["place"]), []).append(line)
-    rows = []
-    for (case, place), group in points.items():
-        cells = [case.replace("_", " "), place.replace("=", " ")]
-        for quantity in QUANTITIES:
-            found = [entry_of(line) for line in group if line["quantity"] == quantity.key]
-            own = {entry.source: entry for entry in found}
-            cells += [own[ground].text() if ground in own else "" for ground in GROUNDS[:2]]
-            cells.append("; ".join(answers(own)))
-        rows.append(cells)
-    return markdown(SERIES_HEAD, rows)
-
-
 def table(lines: Iterable[Mapping[str, str]]) -> list[str]:
-    """Two rows for each quantity of a case: at the runs' sizes, and the best estimate."""
+    """A row for each quantity of a case: the best estimates, else the values at the runs' sizes."""
     groups: dict[tuple[str, str, str], list[Mapping[str, str]]] = {}
     for line in lines:
         if is_value(line):
@@ -125,34 +104,19 @@ def table(lines: Iterable[Mapping[str, str]]) -> list[str]:
     rows = []
     for (case, place, _), group in groups.items():
         name = case.replace("_", " ") + ("" if place == "base" else f", {place}")
-        rows += [row for kind in (RUN, BEST) for row in table_row(name, group, kind)]
+        own = entries(group, BEST) or entries(group, RUN)
+        if own:
+            quantity = next(iter(own.values())).quantity
+            cells = [name, quantity.name + in_unit(quantity.unit)]
+            cells += [own[ground].text() if ground in own else "" for ground in GROUNDS]
+            cells.append("; ".join(entry.text() for entry in entries(group, MEASURED).values()))
+            rows.append([*cells, "; ".join(answers(own))])
     return markdown(TABLE_HEAD, rows)
 
 
-def table_row(name: str, group: Sequence[Mapping[str, str]], kind: str) -> list[list[str]]:
-    """One row, or none where no run has come there."""
-    own = {line["source"]: entry_of(line) for line in group if line["kind"] == kind}
-    if not own:
-        return []
-    quantity = next(iter(own.values())).quantity
-    cells = [name, quantity.name + in_unit(quantity.unit), place_text(group, kind)]
-    cells += [own[ground].text() if ground in own else "" for ground in GROUNDS]
-    for other in (FORMULA, MEASURED):
-        beside = [entry_of(line) for line in group if line["kind"] == other and kind == RUN]
-        cells.append("; ".join(beside_text(entry) for entry in beside))
-    return [[*cells, "; ".join(answers(own))]]
-
-
-def place_text(group: Sequence[Mapping[str, str]], kind: str) -> str:
-    """Sizes of cells and grains, or "best estimate"."""
-    if kind == BEST:
-        return kind
-    sizes = [number(line["element"]) for line in group if line["kind"] == RUN]
-    return ", ".join(f"{1e3 * size:.0f}" for size in sizes) + " mm"
-
-
-def beside_text(entry: Entry) -> str:
-    return entry.text() if entry.kind == MEASURED else f"{entry.source} {entry.text()}"
+def entries(group: Iterable[Mapping[str, str]], kind: str) -> dict[str, Entry]:
+    """By source."""
+    return {line["source"]: entry_of(line) for line in group if line["kind"] == kind}
 
 
 def answers(own: Mapping[str, Entry]) -> list[str]:
@@ -164,10 +128,10 @@ def answers(own: Mapping[str, Entry]) -> list[str]:
     found = []
     for other in others:
         allowed = COVERAGE * math.hypot(first.uncertainty, other.uncertainty) / abs(first.value)
-        limit = f", {100 * allowed:.0f} % allowed" if math.isfinite(allowed) else ""
+        limit = f" ({100 * allowed:.0f} %)" if math.isfinite(allowed) else ""
         name = f"{other.source}: " if len(others) > 1 else ""
         verdict = judge(first, other)
-        lacking = f" (not known: {', '.join(verdict.unknown)})" if verdict.unknown else ""
+        lacking = f", not known: {', '.join(verdict.unknown)}" if verdict.unknown else ""
         difference = percent(other.value / first.value - 1)
         found.append(f"{name}{ANSWERS[verdict.agreement]}, {difference}{limit}{lacking}")
     return found

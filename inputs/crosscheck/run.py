@@ -14,7 +14,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postproc"))
 
 from cases import Made, plan
-from lines import HEAD, OutputRow, series_table, table
+from lines import HEAD, OutputRow, table
 from plate_cases import PlateCase
 from series import draw_series, lines_of_series
 from wheel_cases import WheelCase, cited_lines, cited_table
@@ -22,8 +22,6 @@ from wheel_cases import WheelCase, cited_lines, cited_table
 from furrow_post.study.output import Output
 from furrow_post.study.runner import Runner
 from furrow_post.study.study import Study, run_study
-
-SERIES_TEXT = "Series, the base with one condition changed, best estimates:"
 
 
 def evaluate(runner: Runner, output: Output) -> Sequence[str]:
@@ -48,7 +46,7 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
                 lines += plates.lines()
                 plates.draw(output)
     output.table("results.csv", lines, HEAD)
-    output.section([*table(lines), "", SERIES_TEXT, "", *series_table(lines)])
+    output.section(table(lines))
     return []
 
 

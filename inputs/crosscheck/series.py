@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Series: the base of a case with one condition changed, on both grounds.
 
-Points are run at one coarse size. What the size does to the base it is taken to do to them: the
-best estimate of the sinkage is that of the base times the point's over the base's of the same size, the
-resistance coefficient, which changes its sign with slip, that of the base plus their difference.
+Points are run at one coarse size, whose error is taken to be that of the base. The best estimate of
+the hub drop is that of the base, times the ratio of point and base at this size. The resistance
+coefficient changes its sign with slip, so their difference is added to the best estimate of the base.
 """
 
 from collections.abc import Iterator, Mapping, Sequence

@@ -89,7 +89,7 @@ class WheelCase:
         return all((ground, BASE) in self.runs for ground in GROUNDS)
 
     def compared(self, role: str) -> Comparison:
-        """The continuum's run of this role beside the grains' base; its base beside the hybrid's."""
+        """The continuum's run of this role next to the base of the grains; its base next to the hybrid's."""
         runs = [self.runs["continuum", role], self.runs["grains", BASE]]
         if role == BASE and (HYBRID, BASE) in self.runs:
             runs.append(self.runs[HYBRID, BASE])
