@@ -65,7 +65,7 @@ CONTENTS = (
     ("Tutorials", ("inputs/guide/README", "inputs/guide/tutorials/*")),
     ("How to", ("inputs/guide/howto/*", "inputs/sweep/README", "inputs/costs/README",
                 "postproc/README")),
-    ("Look up", ("inputs/guide/glossary", "inputs/guide/*_files", "inputs/scenes/README",
+    ("Look up", ("inputs/guide/which_*", "inputs/guide/glossary", "inputs/guide/*_files", "inputs/scenes/README",
                  "inputs/README", "inputs/environment", "src/programs/*")),
     ("Styles of the script", ("coupling/README", "coupling/[!l]*/*")),
     ("Theory", ("src/theory/README", "src/theory/*")),

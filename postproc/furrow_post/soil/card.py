@@ -121,7 +121,7 @@ def write_card(card: SoilCard, path: Path) -> None:
     }
     head = (
         "# Soil card, SI units and degrees, written by furrow-soil card. value and error: fit and\n"
-        "# standard error. Lists of two numbers: range of the tests. inputs/guide/soil_files.md\n"
+        "# standard error. Lists of two numbers: range of the tests. inputs/soils/README.md\n"
         "# explains every key.\n"
     )
     text = yaml.safe_dump(content, sort_keys=False, default_flow_style=None, width=100)
