@@ -180,8 +180,10 @@ def traction(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     }
     table = []
     for at in ("slip 0.1", "slip 0.3", "slip 0.6"):
-        torque, drop = found[at, "torque"], found[at, "hub drop"]
-        arc = RADIUS * math.acos(1 - float(drop[next(iter(LAWS))]) / RADIUS)
+        torque, drop = found[at, "torque"], found[at, "hub drop"][next(iter(LAWS))]
+        if drop == "":  # not run
+            continue
+        arc = RADIUS * math.acos(1 - float(drop) / RADIUS)
         row: dict[str, Any] = {"at": at, "label": "known"}
         for name in (*LAWS, "grains"):
             value = number(str(torque[name]))
