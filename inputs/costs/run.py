@@ -3,9 +3,11 @@
 """Error against cost: makes the runs of runs.csv that are missing and writes the tables of this
 folder from them. See README.md.
 
-Stages are the tables. A table keeps the comments above its rows.
+Stages are the tables. A table keeps the comments above its rows. The figure compares models of the
+ground: models.csv and the wheel on sand of the cross-check.
 """
 
+import math
 import shlex
 import sys
 from collections.abc import Mapping, Sequence
@@ -15,6 +17,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postproc"))
 
 from furrow_post.analyse import cost, cost_table
 from furrow_post.csv_table import read_rows
+from furrow_post.figures.cost import Answer, draw_models
 from furrow_post.read.wheel_run import read_wheel_run
 from furrow_post.study.case import Case
 from furrow_post.study.furrow_cases import named_values, script_case
@@ -24,6 +27,7 @@ from furrow_post.study.study import Study, run_study
 
 HERE = Path(__file__).resolve().parent
 SCENES = HERE.parent / "scenes"
+SAND = HERE.parent / "crosscheck" / "wheel_on_sand_runs.csv"
 PLANNED = read_rows(HERE / "runs.csv")
 TABLES = tuple(dict.fromkeys(row["table"] for row in PLANNED))
 
@@ -43,6 +47,23 @@ def make_case(row: Mapping[str, str]) -> Case:
     return script_case(name, script, {**named_values(row["variables"]), "vtk": 0}, stage=row["table"])
 
 
+def hub_drops() -> tuple[list[Answer], tuple[float, float]]:
+    """Of the wheel on sand by every model of the ground [m], and the reference with its error: the
+    continuum in the finest cells."""
+    rows, _ = cost_table.read_table(SAND)
+    found = {key.ground: family for key, family in cost_table.families(rows).items()}
+    answers = [
+        Answer(row["model"], "", float(row["cpu_time"]), float(row["sinkage"]), math.nan)
+        for row in read_rows(HERE / "models.csv")
+    ]
+    for ground, family in found.items():
+        for row in family.bases:
+            error = family.components("sinkage", row.size, row.sinkage_error).total
+            label = f"{1000 * row.size:.0f}"
+            answers.append(Answer(ground, label, row.cpu_time, row.sinkage, error))
+    return answers, found["continuum"].reference("sinkage")
+
+
 def evaluate(runner: Runner, output: Output) -> Sequence[str]:
     for table in TABLES:
         planned = [(row, make_case(row)) for row in PLANNED if row["table"] == table]
@@ -57,6 +78,7 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
         cost_table.write_table(output.path(f"{table}.csv"), rows, comments)
         assessed = cost.assess(rows, cost_table.wanted_wheel(comments))
         print(f"{table}\n{cost.cost_report(assessed, 0.1)}\n")
+    draw_models(*hub_drops(), "hub drop", output.path("models.png"))
     return []
 
 

@@ -17,7 +17,7 @@ specification.loader.exec_module(driver)
 
 class CostsTest(unittest.TestCase):
     def test_every_table_is_of_the_listed_runs(self) -> None:
-        tables = {path.stem for path in FOLDER.glob("*.csv")} - {"runs", "provenance"}
+        tables = {path.stem for path in FOLDER.glob("*.csv")} - {"runs", "models", "provenance"}
         self.assertEqual(tables, set(driver.TABLES))
         for table in driver.TABLES:
             with self.subTest(table=table):
@@ -34,6 +34,15 @@ class CostsTest(unittest.TestCase):
                 with self.subTest(table=table, family=key):
                     parts = family.components("sinkage", family.bases[-1].size, 0.0)
                     self.assertEqual(parts.unknown, [])
+
+    def test_models_are_compared_with_the_finest_continuum(self) -> None:
+        answers, (value, error) = driver.hub_drops()
+        self.assertEqual(
+            {a.model for a in answers}, {"formula", "terrain/scm", "continuum", "grains", "hybrid"}
+        )
+        finest = max((a.cpu_time, a.value) for a in answers if a.model == "continuum")
+        self.assertEqual(finest[1], value)
+        self.assertAlmostEqual(error / value, 0.17, places=2)
 
     def test_options_are_those_of_the_run(self) -> None:
         offered = next(row for row in driver.PLANNED if row["offered"] == "yes")

@@ -12,7 +12,7 @@ import numpy as np
 from furrow_post.analyse import cost
 from furrow_post.analyse.comparison import compare
 from furrow_post.figures.comparison import draw_comparison
-from furrow_post.figures.cost import draw_cost
+from furrow_post.figures.cost import Answer, draw_cost, draw_models
 from furrow_post.figures.style import panel_letters
 from furrow_post.read.wheel_run import read_wheel_run
 from support.runs import rig, rigid_wheel, style, write_run
@@ -63,6 +63,17 @@ class CostFigureTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             target = Path(folder) / "cost.png"
             draw_cost(assessed, 0.1, target)
+            self.assertGreater(target.stat().st_size, 10000)
+
+    def test_models_with_and_without_a_numerical_error_are_drawn(self) -> None:
+        answers = [
+            Answer("formula", "", 0.4, 0.05, float("nan")),
+            Answer("continuum", "50 mm", 20.0, 0.07, 0.01),
+            Answer("continuum", "40 mm", 40.0, 0.08, 0.01),
+        ]
+        with tempfile.TemporaryDirectory() as folder:
+            target = Path(folder) / "models.png"
+            draw_models(answers, (0.08, 0.01), "hub drop", target)
             self.assertGreater(target.stat().st_size, 10000)
 
 
