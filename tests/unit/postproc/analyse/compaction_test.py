@@ -9,6 +9,7 @@ import h5py
 import matplotlib.image
 import numpy as np
 from scipy.integrate import simpson
+from scipy.optimize import brentq
 
 from furrow_post.analyse.compaction import read_compaction
 from furrow_post.analyse.half_space import ELASTIC, SOEHNE, below_ellipse, below_point_loads
@@ -55,6 +56,72 @@ class ClosedForms(unittest.TestCase):
             )
             total = simpson(2 * np.pi * radius * stress, x=radius)
             self.assertAlmostEqual(total, 1, delta=1e-3)
+
+
+class OtherPrograms(unittest.TestCase):
+    def test_point_loads_give_the_stress_of_soilphysics(self) -> None:
+        """The example of stressTraffic in [DeLima2021]: 4000 kg on a tyre of 1.8 m x 0.4 m, 200 kPa."""
+        depth, factor = (0.05, 0.1, 0.3, 0.5, 0.7, 1.0), (4, 5, 5, 5, 5, 5)
+        printed = np.array([275, 262, 154, 85, 51, 28])  # [kPa]
+        x, y, load = contact_of_keller(39.24e3, 200.0, 1.8, 0.4)
+        found = [1e-3 * below_point_loads(z, x, y, load, nu) for z, nu in zip(depth, factor)]
+        np.testing.assert_allclose(found, printed, rtol=0.01)
+
+
+class Measured(unittest.TestCase):
+    """[Lamande2018]: largest stress [kPa] at 0.3, 0.6, 0.9 m, and its growth at 0.9 m [kPa/Mg]."""
+
+    MEASURED = np.array([300.0, 100.0, 45.0, 6.6])
+    PRESSURE = 225.0  # [kPa] the middle of its tyres
+    LIGHT, HEAVY = 20.0, 70.0  # [kN] its wheel loads
+
+    def formulas(self, factor: float) -> Floats:
+        def stress(load: float, depth: float) -> float:
+            radius = np.sqrt(load / self.PRESSURE / np.pi)
+            return self.PRESSURE * float(below_ellipse(np.array([depth]), (radius, radius), factor)[0])
+
+        growth = (stress(self.HEAVY, 0.9) - stress(self.LIGHT, 0.9)) / (self.HEAVY - self.LIGHT)
+        return np.array([*(stress(self.HEAVY, z) for z in (0.3, 0.6, 0.9)), 9.81 * growth])
+
+    def test_soehne_4_meets_the_subsoil_and_misses_the_topsoil(self) -> None:
+        error = {factor: self.formulas(factor) / self.MEASURED - 1 for factor in (ELASTIC, *SOEHNE)}
+        rms = {factor: float(np.sqrt(np.mean(found[1:] ** 2))) for factor, found in error.items()}
+        self.assertEqual(min(rms, key=lambda factor: rms[factor]), 4.0)
+        expected = {3.0: 0.27, 4.0: 0.09, 5.0: 0.16}  # as the page has them
+        for factor, value in expected.items():
+            self.assertAlmostEqual(rms[factor], value, delta=0.005)
+            self.assertLess(error[factor][0], -0.3)
+
+
+def contact_of_keller(
+    load: float, pressure: float, diameter: float, width: float, cell: float = 0.01
+) -> tuple[Floats, Floats, Floats]:
+    """x, y [m] and load [N] of the cells of a tyre's contact by [Keller2005], at its recommended
+    pressure [kPa].
+
+    Largest stress 34.4 + 1.13 p + 0.72 P [kPa, kN], length 0.47 + 0.11 D^2, edge a superellipse of
+    the exponent n = 2.1 (b D)^2 + 2. Along the travel 1 - (x/l(y))^a with the a that carries the
+    load, across t exp(-delta t) from the edge, delta = 9.3 - 7.3 b.
+    """
+    largest = 1e3 * (34.4 + 1.13 * pressure + 0.72e-3 * load)
+    length, exponent = 0.47 + 0.11 * diameter**2, 2.1 * (width * diameter) ** 2 + 2
+    lines = [
+        (np.arange(n := round(side / cell)) + 0.5) * side / n - side / 2 for side in (length, width)
+    ]
+    x, y = (axis.ravel() for axis in np.meshgrid(*lines))
+    along = np.abs(x) / (length / 2 * (1 - np.abs(2 * y / width) ** exponent) ** (1 / exponent))
+    inside, inwards = along < 1, width / 2 - np.abs(y)
+    x, y, along, inwards = (of[inside] for of in (x, y, along, inwards))
+    delta = 9.3 - 7.3 * width
+    at = min(1 / delta, width / 2)
+    across = inwards * np.exp(-delta * inwards) / (at * np.exp(-delta * at))
+    area = length / len(lines[0]) * width / len(lines[1])
+
+    def forces(power: float) -> Floats:
+        found: Floats = largest * area * (1 - along**power) * across
+        return found
+
+    return x, y, forces(brentq(lambda power: forces(power).sum() - load, 0.1, 100.0))
 
 
 def footprint(cell: float) -> tuple[Floats, Floats, Floats]:
