@@ -236,20 +236,27 @@ def draw_depths(rows: Sequence[Row], path: Path) -> None:
 
 
 def effects(rows: Sequence[Row]) -> list[Row]:
-    """How far sinkage and resistance move with absorbing faces, with friction [%]."""
+    """How far sinkage and resistance move with absorbing faces, with friction [%], and the error of
+    their averages over time."""
     found = {row["run"]: row for row in rows if not row["error"]}
     return [
-        {
-            "run": run,
-            "of": base,
-            **{
-                f"{quantity}_percent": round(abs(100 * (found[run][key] / found[base][key] - 1)), 1)
-                for quantity, key in (("sinkage", "sinkage_m"), ("resistance", "resistance"))
-            },
-        }
+        {"run": run, "of": base, **_change(found[run], found[base])}
         for run, base in EFFECTS.items()
         if run in found and base in found
     ]
+
+
+def _change(run: Row, base: Row) -> Row:
+    change: Row = {}
+    for quantity, key, error in (
+        ("sinkage", "sinkage_m", "sinkage_change_m"),
+        ("resistance", "resistance", "resistance_change"),
+    ):
+        ratio = float(run[key]) / float(base[key])
+        parts = (float(row[error]) / float(row[key]) for row in (run, base))
+        change[f"{quantity}_percent"] = round(abs(100 * (ratio - 1)), 1)
+        change[f"{quantity}_percent_time"] = round(abs(100 * ratio) * math.hypot(*parts), 1)
+    return change
 
 
 def nrmm_table() -> Iterator[Row]:
