@@ -2,6 +2,7 @@
 """A surrogate of a wheel with a closed form: errors, intervals, file, and what is refused."""
 
 import json
+import os
 import re
 import subprocess
 import tempfile
@@ -76,6 +77,15 @@ class FitTest(unittest.TestCase):
             runs = truth[name] + NOISE * size * random.normal(size=2000)
             inside.append(np.abs(mean - runs) <= Z_95 * deviation)
         self.assertTrue(0.9 <= np.mean(inside) <= 0.98, np.mean(inside))
+
+    def test_band_holds_on_the_stored_runs_on_a_continuum(self) -> None:
+        folder = Path(os.environ["FURROW_SOURCE"]) / "inputs" / "guide" / "howto" / "surrogate"
+        runs = read_training([folder / "snow_strength.csv"])
+        x = runs.inputs - runs.inputs.min(0)
+        for name, error in ((PULL, 0.05), (HUB_DROP, 0.13)):  # rms, of the spread
+            _, held = fit_process(x / x.max(0), runs.quantities[name])
+            require_calibrated(name, held)
+            self.assertLess(held.rms_error, error * held.spread)
 
     def test_predictions_on_the_screen_are_those_of_the_file(self) -> None:
         shown = re.search(r"drawbar_pull \[N\] +(\S+) ± (\S+)", self.done.stdout)

@@ -133,7 +133,11 @@ class MapTest(FolderTest):
         rows = read_numbers(self.folder / "map" / "mobility.csv")
         self.assertEqual({row["soil"] for row in rows}, {1.0, 2.0})
         for row in rows:
+            slope = np.radians(row["slope_degrees"])
             margin, _, energy = closed_form(row["slope_degrees"], PHI[int(row["soil"])])
+            self.assertAlmostEqual(row["traction_coefficient"], margin + np.tan(slope), delta=2e-3)
+            self.assertLess(row["pull_N"], max(margin, 0) * LOAD * np.cos(slope) + 1.5)  # power limits it
+            self.assertEqual(row["go_probability"] > 0.5, margin > 0)
             if margin > 0.01:
                 self.assertAlmostEqual(row["energy_J_per_m"], energy, delta=0.01 * energy)
 
