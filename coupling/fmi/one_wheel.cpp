@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/fmi/one_wheel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "coupling/base/fix_rig.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/liggghts/fixes_of.h"
+#include "atom.h"
 #include "update.h"
 
 namespace furrow::coupling::fmi {
@@ -81,11 +83,15 @@ OneWheel::OneWheel(const std::string& script,
     write_files(folder, state->files);
   }
   const bool continues = !before_.files.empty();
+  const bool on_bed = std::any_of(variables.begin(), variables.end(),
+                                  [](const auto& each) { return each.name == "from"; });
+  const std::string begin = on_bed ? "from" : "begin";
   for (const auto& [name, value] : variables)
-    if (!continues || name != "begin") arguments.insert(arguments.end(), {"-var", name, value});
-  if (continues)
-    arguments.insert(arguments.end(),
-                     {"-var", "begin", "read_restart " + (folder / checkpoint).string()});
+    if (!continues || name != begin) arguments.insert(arguments.end(), {"-var", name, value});
+  if (continues) {
+    const std::string path = folder / checkpoint;
+    arguments.insert(arguments.end(), {"-var", begin, on_bed ? path : "read_restart " + path});
+  }
   session_ = std::make_unique<Session>(arguments, "", MPI_COMM_SELF, [] { return false; });
 
   const LAMMPS_NS::Modify& modify = *session_->liggghts()->modify;
@@ -165,6 +171,10 @@ void OneWheel::read(Values& values) const {
   values.reals[hub_velocity_z] = wheel.rate(Coordinate::z);
   values.reals[hub_spin] = wheel.position(Coordinate::spin);
   values.reals[hub_spin_rate] = wheel.rate(Coordinate::spin);
+}
+
+bool OneWheel::begins_at_state() const {
+  return !moved_ || session_->liggghts()->atom->natoms == 0;
 }
 
 OneWheel::State OneWheel::state() const {

@@ -40,6 +40,9 @@ class OneWheel {
   double advance(double step, Values& values);
   void read(Values& values) const;
   State state() const;
+  /// Whether state() is that from which this wheel began, so that steps from there have the same
+  /// bits. Neighbour lists of grains differ after a step.
+  bool begins_at_state() const;
 
  private:
   WheelHub& hub() const;

@@ -63,7 +63,7 @@ struct Contents {
   };
   std::string guid, script;
   std::vector<ScriptVariable> variables;
-  bool keeps_states = false;  ///< the script has the variable 'begin', for read_restart
+  bool keeps_states = false;  ///< the script has the variable 'begin' or 'from', for checkpoints
 };
 /// @throws Error that names the file
 Contents read_contents(const std::string& file);

@@ -197,13 +197,15 @@ void WheelFmu::set_string(fmi2ValueReference reference, const char* value) {
 
 // ---- states
 
-std::unique_ptr<WheelFmu::Snapshot> WheelFmu::snapshot() const {
+std::unique_ptr<WheelFmu::Snapshot> WheelFmu::snapshot() {
   if (!contents_.keeps_states)
     throw Error(
-        "the script has no variable 'begin' for read_restart, so the FMU has no states to get; see "
+        "the script has no variable 'begin' or 'from' for checkpoints, so the FMU has no states to "
+        "get; see "
         "fmi.md");
   auto snapshot = std::make_unique<Snapshot>(Snapshot{phase_, values_, time_, std::nullopt});
   if (wheel_) snapshot->wheel = wheel_->state();
+  if (wheel_ && !wheel_->begins_at_state()) restore(*snapshot);
   return snapshot;
 }
 
@@ -211,8 +213,9 @@ void WheelFmu::restore(const Snapshot& snapshot) {
   wheel_.reset();
   values_ = snapshot.values;
   time_ = snapshot.time;
-  phase_ = snapshot.phase;
+  phase_ = Phase::failed;  // should the script not open
   if (snapshot.wheel) open(&*snapshot.wheel);
+  phase_ = snapshot.phase;
 }
 
 std::vector<std::uint8_t> pack(const WheelFmu::Snapshot& snapshot) {

@@ -43,7 +43,7 @@ class WheelFmu {
   void set_boolean(fmi2ValueReference reference, bool value);
   void set_string(fmi2ValueReference reference, const char* value);
 
-  std::unique_ptr<Snapshot> snapshot() const;
+  std::unique_ptr<Snapshot> snapshot();
   void restore(const Snapshot& snapshot);
 
   double time() const { return time_; }  ///< of the last step that was complete [s]

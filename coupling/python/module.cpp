@@ -247,7 +247,7 @@ PYBIND11_MODULE(furrow, module) {
       .def("end", &Session::end, py::call_guard<py::gil_scoped_release>(),
            "Ends the run after its next step, writes its results, and skips the rest.")
       .def("write_checkpoint", &Session::write_checkpoint, py::arg("path"),
-           "Of the present step, for read_restart; in scenes without grains.")
+           "Of the present step, for read_restart.")
       .def("close", &Session::close, py::call_guard<py::gil_scoped_release>(),
            "Ends the run and frees the simulation, with the last of its arrays.")
       .def("__enter__", [](const SessionPointer& session) { return session; })

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/session/session.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <iostream>
@@ -18,6 +19,7 @@
 #include "coupling/liggghts/signals.h"
 #include "coupling/run_script.h"
 #include "coupling/session/host_process.h"
+#include "domain.h"
 #include "signal_handling.h"
 #include "update.h"
 #include "write_restart.h"
@@ -47,6 +49,29 @@ void claim_process() {
     throw Error("another copy of Furrow's library runs in this process; use a process for each");
   share_text(variable, own);
 }
+
+/// Grains are inside a periodic box, as in every restart file, while this exists. LIGGGHTS itself
+/// moves them there only when it makes neighbour lists.
+class GrainsInBox {
+ public:
+  explicit GrainsInBox(const LAMMPS_NS::LAMMPS& lammps)
+      : atom_(*lammps.atom), images_(atom_.image, atom_.image + atom_.nlocal) {
+    for (int i = 0; i < atom_.nlocal; ++i)
+      places_.insert(places_.end(), atom_.x[i], atom_.x[i] + 3);
+    lammps.domain->pbc();
+  }
+  ~GrainsInBox() {
+    std::copy(images_.begin(), images_.end(), atom_.image);
+    for (int i = 0; i < atom_.nlocal; ++i) std::copy_n(&places_[3 * std::size_t(i)], 3, atom_.x[i]);
+  }
+  GrainsInBox(const GrainsInBox&) = delete;
+  GrainsInBox& operator=(const GrainsInBox&) = delete;
+
+ private:
+  LAMMPS_NS::Atom& atom_;
+  std::vector<LAMMPS_NS::tagint> images_;
+  std::vector<double> places_;
+};
 
 /// Without MPI nothing can be freed: the process is at its end.
 void free_all(LAMMPS_NS::LAMMPS* lammps) {
@@ -111,10 +136,9 @@ void Session::end() {
 
 void Session::write_checkpoint(const std::string& path) {
   const std::shared_ptr<LAMMPS_NS::LAMMPS> lammps = liggghts();
-  if (lammps->atom->natoms > 0)
-    throw Error("a checkpoint between steps is for scenes without grains; use the line restart");
   if (ended() || lammps->update->whichflag != 1)
     throw Error("a checkpoint between steps needs a run that has begun and has not ended");
+  const GrainsInBox grains(*lammps);
   std::string name = path;
   LAMMPS_NS::WriteRestart(lammps.get()).write(name.data());
 }

@@ -47,8 +47,8 @@ class Session : private Driver {
   void end();
 
   /// Of the step that is complete, also while a run pauses. @param path of a file to write
-  /// @throws Error outside of a run, and with grains: their contacts are written with new
-  /// neighbour lists only
+  /// A run that continues from it makes neighbour lists, and so adds up the forces between grains
+  /// in another order than this one. @throws Error outside of a run
   void write_checkpoint(const std::string& path);
 
   /// LIGGGHTS lives as long as any owner of this pointer. @throws Error after close()

@@ -14,6 +14,7 @@ from ..arguments import path
 from ..errors import ResultsError
 from ..programs import find_program
 from ..read.script import script_variables
+from ..scene.restart import BEGIN, FROM
 
 LIBRARY = "furrow_wheel.so"
 PLATFORMS = {2: "linux64", 3: "x86_64-linux"}  # by version of FMI
@@ -41,7 +42,7 @@ def run(arguments: argparse.Namespace) -> None:
     contents = {
         "script": script.name,
         "variables": variables,
-        "keeps_states": "begin" in known.defaults,
+        "keeps_states": bool({BEGIN, FROM} & set(known.defaults)),
     }
     text = script.read_text(encoding="utf-8")
     fingerprint = json.dumps([contents, text, arguments.fmi, library.stat().st_size])

@@ -2,6 +2,7 @@
 """An FMU of one wheel, through an importer: fmi_test.py <furrow-post>"""
 
 import ctypes
+import os
 import shutil
 import subprocess
 import sys
@@ -17,6 +18,7 @@ from importer import OK, Fmu, FmuError, Instance
 from importer3 import Fmu3, Instance3
 
 SCRIPT = GUIDE / "vehicle" / "wheel.lig"
+SAND = Path(__file__).resolve().with_name("wheel_on_sand.lig")
 POST = ""
 STEP, BEGIN, SPEED = 4e-3, (0.0, 0.0, 0.351), (0.5, 0.1, -0.1)
 OUTPUTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "hub_z", "hub_spin_rate")
@@ -219,8 +221,61 @@ class States(Case):
     def test_script_without_begin_has_no_states(self) -> None:
         fmu = made(self.folder, Path(self.changed("variable        begin index", "variable begin string")))
         self.assertEqual(fmu.flags["canGetAndSetFMUstate"], "false")
-        with self.assertRaisesRegex(FmuError, "GetFMUstate: the script has no variable 'begin'"):
+        with self.assertRaisesRegex(FmuError, "GetFMUstate: the script has no variable 'begin' or 'from'"):
             self.instance(fmu).get_state()
+
+
+class StatesOfGrains(Case):
+    """The bed slides over its periodic boundary, so that grains are outside of it between new neighbour lists."""
+
+    fmu: Fmu
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        super().setUpClass()
+        os.environ["FURROW_CACHE"] = str(Case.folder / "cache")
+        cls.fmu = made(Case.folder, SAND)
+
+    def on_sand(self) -> Instance:
+        wheel = self.instance(self.fmu)
+        wheel.initialize({"variables.here": str(SAND.parent)})
+        return wheel
+
+    @staticmethod
+    def press(wheel: Instance, begin: int, end: int) -> list[list[float]]:
+        rows = []
+        for k in range(begin, end):
+            wheel.set({"position_z": 0.108 - 0.4 * (k * 1e-3), "velocity_z": -0.4, "spin_torque": 0.2})
+            wheel.step(k * 1e-3, 1e-3)
+            rows.append([wheel.get(name) for name in OUTPUTS])
+        return rows
+
+    def test_steps_repeat_from_states_held_together(self) -> None:
+        alone = self.press(self.on_sand(), 0, 24)
+        wheel = self.on_sand()
+        states, rows = {0: wheel.get_state()}, self.press(wheel, 0, 9)
+        self.assertEqual(rows, alone[:9])
+        for k, end in ((9, 10), (10, 18), (18, 24)):
+            states[k] = wheel.get_state()
+            rows += self.press(wheel, k, end)
+        self.assertGreater(rows[9][2], 8.0)
+        # a state makes neighbour lists: afterwards, sums differ by rounding from those without states
+        for row, expected in zip(rows[9:11], alone[9:11]):
+            for value, of_alone in zip(row, expected):
+                self.assertAlmostEqual(value, of_alone, delta=1e-6 * expected[2])
+        for k, end in ((10, 18), (0, 9), (18, 24), (9, 10), (10, 18)):
+            wheel.set_state(states[k])
+            self.assertEqual(self.press(wheel, k, end), rows[k:end])
+        other = self.on_sand()
+        loaded = other.deserialize(wheel.serialize(states[18]))
+        other.set_state(loaded)
+        self.assertEqual([other.get(name) for name in OUTPUTS], rows[17])
+        again = other.get_state()  # before a further step
+        self.assertEqual(self.press(other, 18, 24), rows[18:])
+        other.set_state(again)
+        self.assertEqual(self.press(other, 18, 24), rows[18:])
+        for state in (*states.values(), loaded, again):
+            wheel.free_state(state)
 
 
 class Refusals(Case):
