@@ -55,6 +55,7 @@ IN_BOTH_CELLS = {  # of 5 cm, and of 10 cm, whose names end with COARSE
     "absorbing_30": "d_30",
     "slide_d5": "d_5",
     "slide_d30": "d_30",
+    "d_30_impulse": "d_30",
     **{f"friction_{name}_d5": "d_5" for name in ("0.1", "0.8", "rough")},
     **{f"friction_{name}": "d_30" for name in ("0.1", "0.8", "rough")},
 }
@@ -63,11 +64,11 @@ EFFECTS = {
     "soft": "base",
     "stiff": "base",
     f"soft{COARSE}": "cell_10",
-    "impulse_cell_10": "cell_10",
-    "d_30_impulse_cell_10": "d_30_cell_10",
+    "impulse": "base",
+    f"impulse{COARSE}": "cell_10",
     **{f"{run}{end}": f"{base}{end}" for run, base in IN_BOTH_CELLS.items() for end in ("", COARSE)},
 }
-FIELDS = ("d_5", "d_10", "d_20", "d_30")  # runs whose ground is looked into
+FIELDS = ("d_5", "d_10", "d_20", "d_30", "d_5_cell_4", "d_30_cell_4")  # runs whose ground is looked into
 
 Row = dict[str, Any]
 
