@@ -68,7 +68,9 @@ EFFECTS = {
     f"impulse{COARSE}": "cell_10",
     **{f"{run}{end}": f"{base}{end}" for run, base in IN_BOTH_CELLS.items() for end in ("", COARSE)},
 }
-FIELDS = ("d_5", "d_10", "d_20", "d_30", "d_5_cell_4", "d_30_cell_4")  # runs whose ground is looked into
+FIELDS = (  # runs whose ground is looked into
+    "d_5", "d_10", "d_20", "d_30", *(f"{run}_cell_{size}" for run in ("d_5", "d_30") for size in (4, 10))
+)  # fmt: skip
 
 Row = dict[str, Any]
 
