@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "io/csv_file.h"
 #include "io/input_kind.h"
+#include "material/point/point_driver.h"
 
 namespace furrow {
 
@@ -148,7 +149,7 @@ std::vector<double> column_of(const CsvTable& table, const YamlTree& name) {
   return in_path(name, [&] { return table.numbers(name.text); });
 }
 
-FitCurve read_curve(const std::string& file, const YamlTree& map, PointFit& fit) {
+FitCurve read_curve(const std::string& file, const YamlTree& map, const Material& material) {
   const Options options = read_map(curve_schema(), map, {"path", "drive", "compare"});
   const CsvTable table =
       in_path(map, [&] { return CsvTable::read(beside(file, options.text("data"))); });
@@ -178,12 +179,14 @@ FitCurve read_curve(const std::string& file, const YamlTree& map, PointFit& fit)
             ? "a path with a list of targets: hydrostatic, confined, triaxial, simple_shear"
             : fmt::format("{}", fmt::join(lists, ", ")));
   }
-  std::vector<double> driven = column_of(table, *driving);
+  curve.driven = column_of(table, *driving);
+  curve.driven_by = target;
+  curve.driven_unit = key->unit;
   curve.measured = column_of(table, *measured);
   YamlTree targets;
   targets.kind = YamlTree::Kind::list;
   targets.origin = driving->origin;
-  for (const double value : driven) {
+  for (const double value : curve.driven) {
     if (std::isnan(value))
       throw InputError(driving->origin,
                        fmt::format("takes column '{}', which has an empty cell", driving->text),
@@ -195,14 +198,32 @@ FitCurve read_curve(const std::string& file, const YamlTree& map, PointFit& fit)
   }
   path.keys.emplace_back(target, targets);
   curve.path = read_path(path, nullptr);
-  // Pieces before the driven ones (consolidation) have nothing to compare with.
-  curve.measured.insert(curve.measured.begin(), curve.path.segments.size() - driven.size(),
-                        std::nan(""));
   curve.channel = channel;
-  in_path(*measured, [&] { return find_point_channel(*fit.material.make(), curve.channel); });
-  fit.driven.push_back(driven);
-  fit.driven_names.push_back(fmt::format(key->unit.empty() ? "{}" : "{} [{}]", target, key->unit));
+  in_path(*measured, [&] { return find_point_channel(material, curve.channel); });
+  for (const double value : curve.measured)
+    if (curve.relative && value <= 0.0)
+      throw InputError(measured->origin,
+                       fmt::format("takes column '{}', which has the value {} and is compared in "
+                                   "logarithms",
+                                   measured->text, value),
+                       "values > 0", "use scale: linear");
   return curve;
+}
+
+FitParameter read_parameter(const YamlTree& map, PointFit& fit, const MaterialOptions& values) {
+  const Options options = read_map(parameter_schema(), map);
+  FitParameterInput input;
+  input.name = options.text("name");
+  if (options.given("start")) input.start = options.number("start");
+  if (options.given("lower")) input.lower = options.number("lower");
+  if (options.given("upper")) input.upper = options.number("upper");
+  return in_path(map, [&] {
+    for (const FitParameter& other : fit.parameters)
+      if (other.name() == input.name)
+        throw InputError(fmt::format("parameter '{}'", input.name), "is given twice",
+                         "each parameter once");
+    return FitParameter(fit.material.model, values, fit.sections, input);
+  });
 }
 
 }  // namespace
@@ -226,22 +247,32 @@ PointFit read_point_fit(const std::string& path) {
   PointFit fit;
   fit.title = title_of(path, head);
   fit.material = read_material_file(beside(path, head.text("material")));
-  fit.problem.model = fit.material.model;
-  fit.problem.sections = fit.material.sections;
+  fit.sections = fit.material.sections;
+  const MaterialOptions values = read_sections(fit.material.model, fit.sections);
   for (const YamlTree& map :
-       file.list("parameters", "a list of {name: section.key, start, lower, upper}").items) {
-    const Options options = read_map(parameter_schema(), map);
-    FitParameter parameter;
-    parameter.name = options.text("name");
-    if (options.given("start")) parameter.start = options.number("start");
-    if (options.given("lower")) parameter.lower = options.number("lower");
-    if (options.given("upper")) parameter.upper = options.number("upper");
-    fit.problem.parameters.push_back(parameter);
+       file.list("parameters", "a list of {name: section.key, start, lower, upper}").items)
+    fit.parameters.push_back(read_parameter(map, fit, values));
+  const auto material = fit.material.make();
+  std::size_t data = 0;
+  for (const YamlTree& map :
+       file.list("curves", "a list of curves with data, path, drive, compare").items) {
+    fit.curves.push_back(read_curve(path, map, *material));
+    for (const double value : fit.curves.back().measured) data += std::isnan(value) ? 0 : 1;
   }
-  for (const YamlTree& map :
-       file.list("curves", "a list of curves with data, path, drive, compare").items)
-    fit.problem.curves.push_back(read_curve(path, map, fit));
+  if (data < fit.parameters.size())
+    throw InputError(path + ": fit",
+                     fmt::format("has {} parameters for {} data", fit.parameters.size(), data),
+                     "at least as many data as parameters");
   return fit;
+}
+
+MaterialSections sections_with(const PointFit& fit, const std::vector<std::string>& values) {
+  if (values.size() != fit.parameters.size())
+    throw InputError("line", fmt::format("has {} values", values.size()),
+                     fmt::format("{}, one of each parameter", fit.parameters.size()));
+  MaterialSections sections = fit.sections;
+  for (std::size_t i = 0; i < values.size(); ++i) fit.parameters[i].put(sections, values[i]);
+  return sections;
 }
 
 std::string path_tables() {

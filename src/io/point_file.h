@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "io/material_file.h"
-#include "material/fit/calibration.h"
-#include "material/fit/point_path.h"
+#include "material/point/point_fit.h"
+#include "material/point/point_path.h"
 
 namespace furrow {
 
@@ -37,15 +37,18 @@ struct PointRun {
 struct PointFit {
   std::string title;
   MaterialFile material;
-  FitProblem problem;
-  std::vector<std::vector<double>> driven;  ///< of each curve, what its path was driven by
-  std::vector<std::string> driven_names;    ///< "stress [Pa]"
+  MaterialSections sections;  ///< of the material, with the keys of all parameters
+  std::vector<FitParameter> parameters;
+  std::vector<FitCurve> curves;
 };
 
 /// @throws InputError naming file, line and key
 PointRun read_point_run(const std::string& path);
 /// @throws InputError naming file, line and key
 PointFit read_point_fit(const std::string& path);
+
+/// The material with these values of the parameters. @throws InputError for another number of them
+MaterialSections sections_with(const PointFit& fit, const std::vector<std::string>& values);
 
 /// The keys of all path types, and of a fit, for `furrow-point paths`.
 std::string path_tables();

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "io/csv_file.h"
@@ -158,130 +159,43 @@ std::string run_report(const PointRun& run, const Material& material, const Poin
   return text;
 }
 
-void write_point_fit(const std::string& folder, const PointFit& fit, const FitResult& result) {
-  make_folder(folder);
-  const auto in_folder = [&](const char* name) {
-    return (std::filesystem::path(folder) / name).string();
+std::string fit_description(const PointFit& fit) {
+  const auto finite = [](double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
   };
-  write_text_file(in_folder("material.yaml"),
-                  material_file_text(fit.material.title + ", fitted: " + fit.title,
-                                     fit.material.model, result.sections));
-  write_text_file(in_folder("report.txt"), fit_report(fit, result));
-
-  std::vector<double> number, driven, measured, start, fitted;
-  for (std::size_t c = 0; c < fit.problem.curves.size(); ++c) {
-    const FitCurve& curve = fit.problem.curves[c];
-    const std::size_t first = curve.measured.size() - fit.driven[c].size();
-    for (std::size_t i = 0; i < fit.driven[c].size(); ++i) {
-      number.push_back(double(c));
-      driven.push_back(fit.driven[c][i]);
-      measured.push_back(curve.measured[first + i]);
-      start.push_back(result.model_start[c][first + i]);
-      fitted.push_back(result.model[c][first + i]);
-    }
-  }
-  std::vector<std::string> comments{fmt::format("{} (furrow {})", fit.title, version())};
-  for (std::size_t c = 0; c < fit.problem.curves.size(); ++c)
-    comments.push_back(fmt::format("curve {}: {}; driven: {}; compared: {}", c,
-                                   fit.problem.curves[c].name, fit.driven_names[c],
-                                   fit.problem.curves[c].channel));
-  write_text_file(in_folder("fit.csv"),
-                  csv_text(comments, {"curve", "driven", "measured", "start", "fitted"},
-                           {number, driven, measured, start, fitted}));
-
+  nlohmann::ordered_json json;
+  json["title"] = fit.title;
+  json["material"] = fit.material.title;
+  json["law"] = fit.material.model.name;
+  json["warnings"] = fit.material.warnings;
+  for (const FitParameter& parameter : fit.parameters)
+    json["parameters"].push_back({{"name", parameter.name()},
+                                  {"unit", parameter.unit()},
+                                  {"start", parameter.start()},
+                                  {"lower", finite(parameter.lower())},
+                                  {"upper", finite(parameter.upper())}});
   const auto material = fit.material.make();
-  replace_file(in_folder("fit.h5"), [&](const std::string& part) {
-    Hdf5File file(part, Hdf5File::Mode::create);
-    file.create_group("/curves");
-    file.set_attribute("/curves", "title", fit.title);
-    for (std::size_t c = 0; c < fit.problem.curves.size(); ++c) {
-      const FitCurve& curve = fit.problem.curves[c];
-      const std::string group = fmt::format("/curves/{}", c);
-      const auto part_of = [&](const std::vector<double>& all) {
-        return std::vector<double>(all.end() - static_cast<std::ptrdiff_t>(fit.driven[c].size()),
-                                   all.end());
-      };
-      file.write(group + "/driven", fit.driven[c]);
-      file.write(group + "/measured", part_of(curve.measured));
-      file.write(group + "/start", part_of(result.model_start[c]));
-      file.write(group + "/fitted", part_of(result.model[c]));
-      const PointChannel channel = find_point_channel(*material, curve.channel);
-      for (const auto& [name, value] :
-           {std::pair{"name", curve.name}, std::pair{"driven_by", fit.driven_names[c]},
-            std::pair{"compared", with_unit(channel.name, channel.unit)},
-            std::pair{"path", curve.path.type}})
-        file.set_attribute(group, name, value);
-      file.set_attribute(group, "relative", curve.relative ? 1.0 : 0.0);
-      file.set_attribute(group, "deviation", curve.deviation);
-    }
-    file.create_group("/parameters");
-    for (const FittedParameter& p : result.parameters) {
-      const std::string group = "/parameters/" + p.name;
-      file.create_group(group);
-      file.set_attribute(group, "unit", p.unit);
-      file.set_attribute(group, "remark", p.remark);
-      for (const auto& [name, value] :
-           {std::pair{"start", p.start}, std::pair{"value", p.value},
-            std::pair{"deviation", p.deviation}, std::pair{"determined", p.determined ? 1.0 : 0.0}})
-        file.set_attribute(group, name, value);
-    }
-    file.close();
-  });
+  for (const FitCurve& curve : fit.curves) {
+    nlohmann::ordered_json measured;
+    for (const double value : curve.measured) measured.push_back(finite(value));
+    const PointChannel channel = find_point_channel(*material, curve.channel);
+    json["curves"].push_back({{"name", curve.name},
+                              {"path", curve.path.type},
+                              {"driven_by", with_unit(curve.driven_by, curve.driven_unit)},
+                              {"driven", curve.driven},
+                              {"channel", channel.name},
+                              {"compared", with_unit(channel.name, channel.unit)},
+                              {"measured", measured},
+                              {"relative", curve.relative},
+                              {"deviation", curve.deviation}});
+  }
+  return json.dump();
 }
 
-std::string fit_report(const PointFit& fit, const FitResult& result) {
-  std::string text = fmt::format(
-      "{}\n  material      {} ({})\n  data          {} values of {} curve(s), {} parameters\n",
-      fit.title, fit.material.title, fit.problem.model.name, result.data, fit.problem.curves.size(),
-      result.parameters.size());
-  text +=
-      fmt::format("  residual      rms {:.4g} at the start, {:.4g} fitted; {} evaluations; {}\n",
-                  result.rms_start, result.rms, result.evaluations, result.end);
-  if (!result.converged) text += "  WARNING       the fit did not converge\n";
-  text += fmt::format("\n  {:<24} {:>12} {:>12} {:>12} {:>8}\n", "parameter", "start", "fitted",
-                      "deviation", "");
-  for (const FittedParameter& p : result.parameters) {
-    const std::string relative =
-        p.value != 0.0 && std::isfinite(p.deviation)
-            ? fmt::format("{:.2g} %", 100.0 * std::abs(p.deviation / p.value))
-            : "";
-    text += fmt::format(
-        "  {:<24} {:>12.6g} {:>12.6g} {:>12} {:>8}{}\n", with_unit(p.name, p.unit), p.start,
-        p.value,
-        std::isfinite(p.deviation) ? fmt::format("{:.3g}", p.deviation)
-        : std::isnan(p.deviation)  ? "unknown"
-                                   : "infinite",
-        relative,
-        p.determined ? (p.remark.empty() ? "" : "  " + p.remark) : "  NOT DETERMINED: " + p.remark);
-  }
-  const auto n = static_cast<Eigen::Index>(result.parameters.size());
-  text += fmt::format(
-      "\n  deviation: one standard deviation, linearised{}\n",
-      result.scatter == 1.0
-          ? ""
-          : fmt::format("; scatter of the data from the residuals, {:.3g}", result.scatter));
-  std::vector<std::string> values;
-  for (Eigen::Index k = 0; k < result.singular_values.size(); ++k)
-    values.push_back(fmt::format("{:.3g}", result.singular_values[k]));
-  text += fmt::format("  singular values of the scaled Jacobian: {}\n", fmt::join(values, ", "));
-  const VectorX weakest = result.directions.col(n - 1);
-  std::vector<std::string> parts;
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (std::abs(weakest[i]) > 0.1)
-      parts.push_back(
-          fmt::format("{:+.2f} {}", weakest[i], result.parameters[std::size_t(i)].name));
-  if (n > 1)
-    text += fmt::format("  the data say least about the combination {} (of {})\n",
-                        fmt::join(parts, " "), "logarithms, or values over their scale");
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < i; ++j)
-      if (std::abs(result.correlation(i, j)) > 0.95)
-        text += fmt::format(
-            "  {} and {} are correlated by {:.4f}: the data fix them together better than each "
-            "alone\n",
-            result.parameters[std::size_t(j)].name, result.parameters[std::size_t(i)].name,
-            result.correlation(i, j));
-  return text;
+std::string fitted_material(const PointFit& fit, const MaterialSections& sections) {
+  return nlohmann::json(material_file_text(fit.material.title + ", fitted: " + fit.title,
+                                           fit.material.model, sections))
+      .dump();
 }
 
 }  // namespace furrow

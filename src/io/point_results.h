@@ -8,28 +8,27 @@
 ///                       /yield_surface/<n>/p, q after the segment that is its attribute (0: the
 ///                       start)
 ///         material.yaml, run.yaml   the effective input: furrow-point run run.yaml repeats the run
-/// A fit:  fit.csv, fit.h5 (/curves/<n>/driven, measured, start, fitted), material.yaml with the
-/// fitted values, report.txt
 
 #include <string>
 
 #include "io/point_file.h"
-#include "material/fit/calibration.h"
-#include "material/fit/point_driver.h"
+#include "material/point/point_driver.h"
 
 namespace furrow {
 
 /// Writes all files of a run into the folder, which is made. @throws Error naming the file
 void write_point_run(const std::string& folder, const PointRun& run, const Material& material,
                      const PointHistory& history);
-/// @throws Error naming the file
-void write_point_fit(const std::string& folder, const PointFit& fit, const FitResult& result);
 
 /// Report of a run: density, p, q, branches, limits met, cost and the error of the steps.
 /// @param error  null when the path with halved steps could not be followed
 std::string run_report(const PointRun& run, const Material& material, const PointHistory& history,
                        const StepError* error);
-/// Parameters with uncertainties, what is not determined, correlations.
-std::string fit_report(const PointFit& fit, const FitResult& result);
+
+/// Title, material, parameters and curves of a fit on one line of JSON, for `furrow-point curves`;
+/// an infinite bound and an empty cell are null.
+std::string fit_description(const PointFit& fit);
+/// The material file with fitted values, as a text of JSON.
+std::string fitted_material(const PointFit& fit, const MaterialSections& sections);
 
 }  // namespace furrow

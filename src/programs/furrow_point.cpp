@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// furrow-point: drives one material point along a path, lists the laws, fits parameters to
-/// measured curves.
+/// furrow-point: drives one material point along a path, lists the laws, computes the curves of a
+/// fit. furrow-point fit: the fit, by furrow-post.
 
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.h"
 #include "end_output.h"
@@ -56,15 +60,33 @@ void run(const std::string& input, const std::string& output, bool plot) {
   if (plot) furrow::draw_figure("point", folder);
 }
 
-int fit(const std::string& input, const std::string& output, bool plot) {
+/// A line of curves for a line of parameter values; of "material VALUE ..." a material file, as
+/// text of JSON.
+std::string answer(const furrow::PointFit& fit, const std::string& line) {
+  std::istringstream words(line);
+  std::vector<std::string> values{std::istream_iterator<std::string>(words), {}};
+  const bool file = !values.empty() && values.front() == "material";
+  if (file) values.erase(values.begin());
+  const furrow::MaterialSections sections = furrow::sections_with(fit, values);
+  if (file) return furrow::fitted_material(fit, sections);
+  const auto material = furrow::make_material(fit.material.model, sections);
+  std::vector<double> points;
+  for (const furrow::FitCurve& curve : fit.curves)
+    for (const double value : furrow::curve_of(*material, curve)) points.push_back(value);
+  return fmt::format("{:.17g}", fmt::join(points, " "));
+}
+
+/// Parameter values on the input, curves on the output, until the input ends.
+void curves(const std::string& input) {
   const furrow::PointFit fit = furrow::read_point_fit(input);
-  show_warnings(fit.material);
-  const furrow::FitResult result = furrow::fit_material(fit.problem);
-  const std::string folder = folder_for(output, input);
-  furrow::write_point_fit(folder, fit, result);
-  std::cout << furrow::fit_report(fit, result) << "  results       " << folder << '\n';
-  if (plot) furrow::draw_figure("point", folder);
-  return result.converged ? 0 : 1;
+  std::cout << furrow::fit_description(fit) << std::endl;
+  for (std::string line; std::getline(std::cin, line);) {
+    try {
+      std::cout << answer(fit, line) << std::endl;
+    } catch (const furrow::Error& error) {
+      std::cout << "error: " << error.what() << std::endl;
+    }
+  }
 }
 
 void list_laws(const std::string& name) {
@@ -98,36 +120,41 @@ int main(int argc, char** argv) {
   bool no_plot = false;
   CLI::App* run_command =
       app.add_subcommand("run", "drive a point along the path of a file (inputs/points/*.yaml)");
-  CLI::App* fit_command = app.add_subcommand(
-      "fit", "fit parameters of a law to measured curves (inputs/points/fit_*.yaml)");
-  for (CLI::App* command : {run_command, fit_command}) {
+  run_command->add_option("-o,--output", output,
+                          "the results folder; results/<name of the file> unless given");
+  run_command->add_flag("--no-plot", no_plot, "no figure");
+  app.add_subcommand(
+      "fit",
+      "fit parameters of a law to measured curves (inputs/points/fit_*.yaml); see fit --help");
+  CLI::App* curves_command = app.add_subcommand(
+      "curves", "curves of a fit: one line of output for each line of parameter values");
+  for (CLI::App* command : {run_command, curves_command})
     command->add_option("file", input, "a YAML file; furrow-point paths lists its keys")
         ->required();
-    command->add_option("-o,--output", output,
-                        "the results folder; results/<name of the file> unless given");
-    command->add_flag("--no-plot", no_plot, "no figure");
-  }
   CLI::App* laws_command =
       app.add_subcommand("laws", "list the laws with their keys, units, ranges and meanings");
   laws_command->add_option("name", law, "only this law");
   CLI::App* paths_command = app.add_subcommand("paths", "list the paths and the keys of a fit");
-  if (const auto status = furrow::parse_options(app, argc, argv)) return *status;
-  if (app.get_subcommands().empty()) {
-    std::cerr << "furrow-point: needs one of the commands run, fit, laws or paths; see --help\n";
+  const bool fit = argc > 1 && std::string(argv[1]) == "fit";
+  if (!fit)
+    if (const auto status = furrow::parse_options(app, argc, argv)) return *status;
+  if (!fit && app.get_subcommands().empty()) {
+    std::cerr
+        << "furrow-point: needs one of the commands run, fit, curves, laws or paths; see --help\n";
     return 1;
   }
 
   try {
+    if (fit) furrow::become_furrow_post("fit-law", argc - 2, argv + 2);
     if (*run_command) run(input, output, !no_plot);
-    int status = 0;
-    if (*fit_command) status = fit(input, output, !no_plot);
+    if (*curves_command) curves(input);
     if (*laws_command) {
       if (!law.empty()) furrow::find_material_model(law);
       list_laws(law);
     }
     if (*paths_command) std::cout << furrow::path_tables();
     furrow::end_output();
-    return status;
+    return 0;
   } catch (const std::exception& error) {
     std::cout << std::flush;
     std::cerr << "furrow-point: " << error.what() << '\n';

@@ -12,6 +12,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "point": ("results/snow_oedometer",),
     "sidewall": ("results/p235_75r15",),
     "modes": ("results/at_rest",),
+    "fit-law": ("inputs/points/fit_abele_gow.yaml -o results/oedometer",),
     "fit-tyre": ("235/75R15 --rim 6.5 --pressure 241 --point 241 6227 3.1 -o my_tyre.yaml",),
     "empirical": ("nrmm --help",),
     "compare": ("continuum=results/a grains=results/b -o results/both",),

@@ -67,6 +67,11 @@ SUBCOMMANDS = (
     Subcommand("point", "the figure of furrow-point -> point.png or fit.png"),
     Subcommand("sidewall", "the figure of furrow-sidewall -> sidewall.png"),
     Subcommand("modes", "the natural modes of furrow-tyre --modes -> <state>_modes.png"),
+    Subcommand(
+        "fit-law",
+        "parameters of a law from measured curves (furrow-point fit) "
+        "-> material.yaml, report.txt, fit.csv, .h5, .png",
+    ),
     Subcommand("fit-tyre", "a tyre file from size, catalogue and load-deflection points"),
     Subcommand(
         "empirical", "what an empirical formula says: NRMM for snow, Bekker and Wong-Reece for sand"

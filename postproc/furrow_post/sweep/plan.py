@@ -2,13 +2,13 @@
 """What a sweep consists of: sweep.json in its folder, from which every other program takes it."""
 
 import json
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
 from ..errors import ResultsError, content_of
 from ..json_text import parse_json
+from ..whole_file import replaced
 from .values import folder_name
 
 FILE = "sweep.json"
@@ -49,11 +49,8 @@ class Plan:
     def write(self, folder: Path) -> None:
         """In one step: a killed program leaves the former file."""
         folder.mkdir(parents=True, exist_ok=True)
-        part = folder / f"{FILE}.part"
-        part.unlink(missing_ok=True)
-        with open(part, "x", encoding="utf-8") as file:  # follows no link
-            file.write(json.dumps(asdict(self), indent=1) + "\n")
-        os.replace(part, folder / FILE)
+        with replaced(folder / FILE) as part:
+            part.write_text(json.dumps(asdict(self), indent=1) + "\n", encoding="utf-8")
 
 
 def read_plan(folder: Path) -> Plan | None:

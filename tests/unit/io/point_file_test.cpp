@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "io/replace_file.h"
-#include "material/fit/point_driver.h"
+#include "material/point/point_driver.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
@@ -112,7 +112,7 @@ TEST_F(PointFileTest, BadFitsAreRefusedWithTheirPlace) {
   const std::string e = "[{name: elasticity.E}]";
   const std::string curve =
       "data: data.csv, path: {type: confined}, drive: {stress: sigma_Pa}, compare: {density: rho}";
-  EXPECT_EQ(read_point_fit(file("fit.yaml", fit(e, curve))).problem.curves.at(0).measured,
+  EXPECT_EQ(read_point_fit(file("fit.yaml", fit(e, curve))).curves.at(0).measured,
             (std::vector<double>{1008, 1017}));
   const std::vector<std::pair<std::string, std::string>> cases = {
       {fit("[]", curve), "fit.yaml, line 2: 'parameters' is empty"},
@@ -147,6 +147,38 @@ TEST_F(PointFileTest, BadFitsAreRefusedWithTheirPlace) {
   };
   for (const auto& [text, message] : cases)
     EXPECT_THAT(fit_refusal(text), HasSubstr(message)) << text;
+}
+
+TEST_F(PointFileTest, ParametersThatCannotBeFittedAreRefusedWithTheirLine) {
+  file("sand.yaml",
+       "base: " FURROW_SOURCE_DIR "/inputs/materials/mccormick_sand.yaml\nlaw: {beta: 14.56}\n");
+  const auto refusal = [&](const std::string& parameter, const std::string& more = "") {
+    return fit_refusal("material: sand.yaml\nparameters:\n  - {name: " + parameter +
+                       "}\ncurves:\n  - data: data.csv\n    path: {type: confined}\n"
+                       "    drive: {stress: sigma_Pa}\n    compare: {density: rho}\n" +
+                       more);
+  };
+  const std::string line = "fit.yaml, line 3: parameter ";
+  EXPECT_EQ(refusal("law.beta"), "no error");
+  EXPECT_THAT(refusal("law.phi"),
+              HasSubstr(line + "'law.phi' is no number of this material; allowed: "));
+  EXPECT_THAT(refusal("hardening.p"),
+              HasSubstr(line + "'hardening.p' is a list of 9; allowed: hardening.p[1] to "
+                               "hardening.p[9]"));
+  EXPECT_THAT(refusal("'hardening.p[10]'"), HasSubstr("is beyond the list of 9"));
+  EXPECT_THAT(refusal("'hardening.p[0]'"), HasSubstr("has no place in its list"));
+  EXPECT_THAT(refusal("hardening.interpolation"), HasSubstr("is no number"));
+  EXPECT_THAT(refusal("law.beta, start: 85"), HasSubstr("starts at 85; allowed: a start in"));
+  EXPECT_THAT(refusal("law.beta, lower: 90"), HasSubstr("has the bounds 90 and 80"));
+  EXPECT_THAT(refusal("law.beta}\n  - {name: law.beta"),
+              HasSubstr("fit.yaml, line 4: parameter 'law.beta' is given twice"));
+  EXPECT_THAT(refusal("law.beta}\n  - {name: law.d}\n  - {name: law.R"),
+              HasSubstr("fit.yaml: fit has 3 parameters for 2 data"));
+  file("data.csv", "sigma_Pa,rho\n1e4,1008\n2e4,-1\n");
+  EXPECT_THAT(refusal("law.beta", "    scale: log\n"),
+              HasSubstr("fit.yaml, line 8 takes column 'rho', which has the value -1 and is "
+                        "compared in logarithms"));
+  EXPECT_EQ(refusal("law.beta"), "no error");
 }
 
 }  // namespace

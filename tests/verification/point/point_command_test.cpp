@@ -75,41 +75,31 @@ TEST(PointCommand, TheEffectiveInputRepeatsTheRun) {
   EXPECT_FALSE(std::filesystem::exists(scratch.path("a/point.png")));
 }
 
-/// Every shipped path and fit runs to its end.
-TEST(PointCommand, AllShippedInputsRun) {
-  int runs = 0, fits = 0;
+/// Every shipped path runs to its end.
+TEST(PointCommand, AllShippedPathsRun) {
+  int runs = 0;
   for (const auto& entry : std::filesystem::directory_iterator(points)) {
+    if (entry.path().stem().string().rfind("fit_", 0) == 0) continue;
     const Scratch scratch;
-    const bool fit = entry.path().stem().string().rfind("fit_", 0) == 0;
-    const Outcome outcome = furrow_point((fit ? "fit --no-plot " : "run --no-plot ") +
-                                         entry.path().string() + " -o " + scratch.path("r"));
+    const Outcome outcome =
+        furrow_point("run --no-plot " + entry.path().string() + " -o " + scratch.path("r"));
     EXPECT_EQ(outcome.status, 0) << entry.path() << outcome.text;
     EXPECT_THAT(outcome.text, ::testing::Not(HasSubstr("nan")));
-    ++(fit ? fits : runs);
+    ++runs;
   }
   EXPECT_GE(runs, 9);
-  EXPECT_GE(fits, 3);
 }
 
-TEST(PointCommand, FitReportsWhatTheDataDetermine) {
+/// furrow-post makes the fit; tests/unit/postproc/analyse/law_fit_test.py checks its numbers.
+TEST(PointCommand, FitLeavesAMaterialFileAndAFigure) {
   const Scratch scratch;
   const std::string folder = scratch.path("fit");
   const Outcome outcome = furrow_point("fit " + points + "fit_mccormick.yaml -o " + folder);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
-  EXPECT_THAT(outcome.text, AllOf(HasSubstr("NOT DETERMINED: the curves depend only on a "
-                                            "combination of hardening.lambda, hardening.e0"),
-                                  HasSubstr("singular values of the scaled Jacobian"),
-                                  HasSubstr("scatter of the data from the residuals")));
   EXPECT_THAT(outcome.text, HasSubstr(read_text_file(folder + "/report.txt")));
-  EXPECT_EQ(CsvTable::read(folder + "/fit.csv").numbers("measured"),
-            CsvTable::read(points + "../validation/mccormick_ranch_sand/reference.csv")
-                .numbers("eps_vol_pl"));
-  const Hdf5File h5(folder + "/fit.h5", Hdf5File::Mode::read);
-  EXPECT_EQ(h5.read_numbers("/curves/0/fitted"),
-            CsvTable::read(folder + "/fit.csv").numbers("fitted"));
-  // The fitted material is a material file with the fitted values.
   const MaterialFile fitted = read_material_file(folder + "/material.yaml");
   const MaterialOptions options = read_sections(fitted.model, fitted.sections);
+  const Hdf5File h5(folder + "/fit.h5", Hdf5File::Mode::read);
   EXPECT_DOUBLE_EQ(options.at("hardening").options.number("pc0"),
                    h5.number_attribute("/parameters/hardening.pc0", "value"));
   expect_png(folder + "/fit.png");
@@ -145,7 +135,7 @@ TEST(PointCommand, FailuresHaveTheirMessageAndStatus) {
   };
   const std::string snow =
       "material: " + std::string(FURROW_SOURCE_DIR) + "/inputs/materials/fresh_snow.yaml\n";
-  expect_failure("", "needs one of the commands run, fit, laws or paths");
+  expect_failure("", "needs one of the commands run, fit, curves, laws or paths");
   expect_failure("run", "file is required");
   expect_failure("run absent.yaml", "furrow-point: absent.yaml does not exist");
   expect_failure("run " + file("") + out, "bad.yaml is empty");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/fit/point_driver.h"
+#include "material/point/point_driver.h"
 
 #include <cmath>
 

@@ -11,7 +11,7 @@
 #include "io/material_file.h"
 #include "material/models/crushable_foam/crushable_foam.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
-#include "material/fit/point_driver.h"
+#include "material/point/point_driver.h"
 
 namespace furrow {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "core/error.h"
 #include "io/point_file.h"
-#include "material/fit/point_driver.h"
+#include "material/point/point_driver.h"
 
 namespace furrow {
 namespace {

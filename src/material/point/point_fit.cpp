@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/fit/fit_variable.h"
+#include "material/point/point_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "material/point/point_driver.h"
 
 namespace furrow {
 
@@ -55,10 +56,11 @@ std::string names_of(const MaterialOptions& options) {
 
 }  // namespace
 
-FitVariable::FitVariable(const MaterialModel& model, const MaterialOptions& options,
-                         MaterialSections& sections, const FitParameter& parameter) {
-  const std::string where = fmt::format("parameter '{}'", parameter.name);
-  const Place place = place_of(parameter.name, where);
+FitParameter::FitParameter(const MaterialModel& model, const MaterialOptions& options,
+                           MaterialSections& sections, const FitParameterInput& input)
+    : name_(input.name) {
+  const std::string where = fmt::format("parameter '{}'", name_);
+  const Place place = place_of(name_, where);
   const Key* key = key_of(model, options, place);
   if (!key || (key->kind != Key::Kind::number && key->kind != Key::Kind::numbers))
     throw InputError(where, "is no number of this material", names_of(options),
@@ -66,7 +68,7 @@ FitVariable::FitVariable(const MaterialModel& model, const MaterialOptions& opti
   const std::vector<double>& values = options.at(place.section).options.numbers(place.key);
   if (key->kind == Key::Kind::numbers && !place.index)
     throw InputError(where, fmt::format("is a list of {}", values.size()),
-                     fmt::format("{0}[1] to {0}[{1}]", parameter.name, values.size()));
+                     fmt::format("{0}[1] to {0}[{1}]", name_, values.size()));
   place_ = place.index.value_or(0);
   if (place_ >= values.size())
     throw InputError(where, fmt::format("is beyond the list of {}", values.size()),
@@ -75,9 +77,9 @@ FitVariable::FitVariable(const MaterialModel& model, const MaterialOptions& opti
   key_ = place.key;
   unit_ = key->unit;
 
-  start_ = parameter.start.value_or(values[place_]);
-  lower_ = std::max(parameter.lower, key->range.lower);
-  upper_ = std::min(parameter.upper, key->range.upper);
+  start_ = input.start.value_or(values[place_]);
+  lower_ = std::max(input.lower, key->range.lower);
+  upper_ = std::min(input.upper, key->range.upper);
   if (!(lower_ < upper_))
     throw InputError(where, fmt::format("has the bounds {} and {}", lower_, upper_),
                      "lower < upper, within " + key->range.text());
@@ -85,16 +87,9 @@ FitVariable::FitVariable(const MaterialModel& model, const MaterialOptions& opti
     throw InputError(
         where, fmt::format("starts at {}", start_),
         fmt::format("a start in [{}, {}], within {}", lower_, upper_, key->range.text()));
-  logarithmic_ = lower_ >= 0.0 && start_ > 0.0;
-  if (!logarithmic_) {
-    const bool interval = std::isfinite(lower_) && std::isfinite(upper_);
-    if (start_ == 0.0 && !interval)
-      throw InputError(where, "starts at 0 without bounds, so its size is not known",
-                       "a start other than 0, or lower and upper");
-    scale_ = interval ? upper_ - lower_ : std::abs(start_);
-  }
-  low_ = z_of(lower_);
-  high_ = z_of(upper_);
+  if (start_ == 0.0 && !(std::isfinite(lower_) && std::isfinite(upper_)))
+    throw InputError(where, "starts at 0 without bounds, so its size is not known",
+                     "a start other than 0, or lower and upper");
 
   std::vector<Entry>& entries = sections[section_];
   Entry entry{key_, {}};
@@ -107,44 +102,21 @@ FitVariable::FitVariable(const MaterialModel& model, const MaterialOptions& opti
     *found = entry;
 }
 
-bool FitVariable::bounded() const { return std::isfinite(low_) && std::isfinite(high_); }
-
-double FitVariable::z_of(double value) const {
-  return logarithmic_ ? std::log(value) : value / scale_;
-}
-
-double FitVariable::value_of(double z) const {
-  // rounding must not leave the range
-  return std::clamp(logarithmic_ ? std::exp(z) : z * scale_, lower_, upper_);
-}
-
-double FitVariable::start_t() const {
-  const double z = z_of(start_);
-  if (!bounded()) return z;
-  // A start at a bound would have no slope: it is moved inside by a thousandth of the interval.
-  const double part = std::clamp((z - low_) / (high_ - low_), 1e-3, 1.0 - 1e-3);
-  return std::atanh(2.0 * part - 1.0);
-}
-
-double FitVariable::z_of_t(double t) const {
-  return bounded() ? low_ + (high_ - low_) * 0.5 * (1.0 + std::tanh(t))
-                   : std::clamp(t, low_, high_);
-}
-
-void FitVariable::put(MaterialSections& sections, double z) const {
+void FitParameter::put(MaterialSections& sections, const std::string& value) const {
   for (Entry& entry : sections.at(section_))
-    if (entry.key == key_) entry.values.at(place_) = fmt::format("{:.17g}", value_of(z));
+    if (entry.key == key_) entry.values.at(place_) = value;
 }
 
-std::pair<double, double> FitVariable::around(double z, double step) const {
-  return {std::max(z - step, low_), std::min(z + step, high_)};
-}
-
-std::string FitVariable::bound_met(double z) const {
-  const double margin = bounded() ? 2e-3 * (high_ - low_) : 0.0;
-  if (z - low_ <= margin) return fmt::format("stands at its lower bound {}", lower_);
-  if (high_ - z <= margin) return fmt::format("stands at its upper bound {}", upper_);
-  return {};
+std::vector<double> curve_of(const Material& material, const FitCurve& curve) {
+  const PointHistory history = drive_point(material, curve.path);
+  const PointChannel channel = find_point_channel(material, curve.channel);
+  const int first = static_cast<int>(curve.path.segments.size() - curve.measured.size()) + 1;
+  std::vector<double> values;
+  for (const PointRecord& record : history.records)
+    if (record.segment >= first &&
+        record.step == curve.path.segments[std::size_t(record.segment) - 1].steps)
+      values.push_back(channel.value(record));
+  return values;
 }
 
 }  // namespace furrow

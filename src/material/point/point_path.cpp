@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/fit/point_path.h"
+#include "material/point/point_path.h"
 
 #include <cmath>
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "material/material.h"
-#include "material/fit/point_path.h"
+#include "material/point/point_path.h"
 
 namespace furrow {
 

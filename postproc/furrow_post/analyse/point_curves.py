@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The curves of a fit, computed by a furrow-point that stays open: `furrow-point curves FILE`."""
+
+import json
+import math
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Floats
+from ..errors import ResultsError
+from ..programs import find_program
+from .law_fit import Curve, NotComputed, Parameter
+
+PROGRAM = "furrow-point"
+
+
+class PointCurves:
+    """A fit's title, material, parameters and measured curves; call it with values for its curves."""
+
+    def __init__(self, file: Path) -> None:
+        """@raises ResultsError with what furrow-point refuses in the file"""
+        self._process = subprocess.Popen(
+            [find_program(PROGRAM), "curves", file],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
+            errors="backslashreplace",
+        )
+        try:
+            head = json.loads(self._line())
+        except BaseException:
+            self.close()
+            raise
+        self.title: str = head["title"]
+        self.material: str = head["material"]
+        self.law: str = head["law"]
+        self.warnings: list[str] = head["warnings"]
+        self.parameters = tuple(map(_parameter, head["parameters"]))
+        self.curves = tuple(map(_curve, head["curves"]))
+
+    def __call__(self, values: Floats) -> Sequence[Floats]:
+        """Each curve at its points. @raises NotComputed, ResultsError"""
+        whole = np.array(self._answer(_words(values)).split(), dtype=np.float64)
+        return np.split(whole, np.cumsum([len(curve.driven) for curve in self.curves])[:-1])
+
+    def material_file(self, values: Floats) -> str:
+        """The text of a material file with these values. @raises NotComputed, ResultsError"""
+        text: str = json.loads(self._answer(f"material {_words(values)}"))
+        return text
+
+    def _answer(self, question: str) -> str:
+        assert self._process.stdin
+        try:
+            self._process.stdin.write(question + "\n")
+            self._process.stdin.flush()
+        except BrokenPipeError:
+            pass  # the missing answer has the cause
+        answer = self._line()
+        if answer.startswith("error: "):
+            raise NotComputed(answer.removeprefix("error: ").rstrip())
+        return answer
+
+    def _line(self) -> str:
+        assert self._process.stdout and self._process.stderr
+        line = self._process.stdout.readline()
+        if not line:
+            cause = " ".join(self._process.stderr.read().split()).removeprefix(f"{PROGRAM}: ")
+            raise ResultsError(cause or f"{PROGRAM} ended without a message; start it by hand")
+        return line
+
+    def close(self) -> None:
+        self._process.communicate()
+
+    def __enter__(self) -> "PointCurves":
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def _words(values: Floats) -> str:
+    return " ".join(repr(float(value)) for value in values)
+
+
+def _parameter(head: dict[str, Any]) -> Parameter:
+    lower = -math.inf if head["lower"] is None else head["lower"]
+    upper = math.inf if head["upper"] is None else head["upper"]
+    return Parameter(head["name"], head["unit"], head["start"], lower, upper)
+
+
+def _curve(head: dict[str, Any]) -> Curve:
+    columns = {
+        name: np.array([math.nan if value is None else value for value in head[name]])
+        for name in ("driven", "measured")
+    }
+    return Curve(**{**head, **columns})
