@@ -2,7 +2,12 @@
 #include "rig/chassis.h"
 
 #include <cmath>
+#include <memory>
+#include <numeric>
+#include <tuple>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <gmock/gmock.h>
 
 #include "core/error.h"
@@ -133,13 +138,92 @@ TEST(SprungBody, BogieOnAStepKeepsEqualLoadsAndAHeldBeamDoesNot) {
   EXPECT_NEAR(held[1], share - 0.5 * stiffness * step, 1e-9);
 }
 
+/// Forces of springs k at rest under weights W, axle heights h and moments m. They minimize the
+/// complementary energy sum F^2/2k - F h under the three equations of equilibrium.
+VectorX forces_by_statics(const std::vector<Strut>& struts, const Vector2& moment) {
+  const auto n = static_cast<Eigen::Index>(struts.size());
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 3, n + 3);
+  VectorX right = VectorX::Zero(n + 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Strut& strut = struts[static_cast<std::size_t>(i)];
+    const Vector3 lever(1.0, strut.arm.y(), -strut.arm.x());
+    system(i, i) = 1.0 / strut.stiffness;
+    system.block<3, 1>(n, i) = lever;
+    system.block<1, 3>(i, n) = lever.transpose();
+    right[i] = strut.height;
+    right.tail<3>() += strut.weight * lever;
+  }
+  right.tail<2>() -= moment;
+  return system.fullPivLu().solve(right).head(n);
+}
+
+std::vector<Strut> struts_at(const std::vector<Vector2>& arms) {
+  std::vector<Strut> struts(arms.size());
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    struts[i].arm = arms[i];
+    struts[i].stiffness = stiffness * (1.0 + 0.4 * static_cast<double>(i));
+    struts[i].weight = 100.0 + 40.0 * static_cast<double>(i);
+    struts[i].damping = 400.0;
+  }
+  return struts;
+}
+
+const std::vector<Vector2> three_arms{{1.2, 0.1}, {-0.6, 0.5}, {-0.7, -0.4}};
+const std::vector<Vector2> four_arms{{1.0, 0.5}, {1.1, -0.6}, {-0.9, 0.4}, {-0.8, -0.5}};
+
+TEST(SprungBody, ThreeAndFourUnequalWheelsCarryTheWeightByStatics) {
+  const Vector2 moment(30.0, -50.0);
+  for (const auto& arms : {three_arms, four_arms}) {
+    std::vector<Strut> struts = struts_at(arms);
+    const VectorX level = forces_by_statics(struts, moment);
+    struts[1].height = 0.02;
+    const VectorX expected = forces_by_statics(struts, moment);
+    // three wheels are statically determinate
+    EXPECT_EQ((expected - level).norm() < 1e-9, arms.size() == 3);
+    SprungBody body(inertia);
+    for (int i = 0; i < 10000; ++i) body.advance(struts, moment, 1e-3);
+    for (std::size_t i = 0; i < struts.size(); ++i)
+      EXPECT_NEAR(struts[i].force, expected[static_cast<Eigen::Index>(i)], 1e-8) << i;
+  }
+}
+
+// Axles raised by a mode shape: q = mode (1 - cos(w t)), K mode = w^2 M mode.
+TEST(SprungBody, ModesOfThreeAndFourUnequalWheelsSwingWithTheirNaturalFrequency) {
+  constexpr double dt = 1e-4;
+  for (const auto& arms : {three_arms, four_arms}) {
+    std::vector<Strut> struts = struts_at(arms);
+    Matrix3 springs = Matrix3::Zero();
+    for (Strut& strut : struts) {
+      strut.damping = strut.weight = 0.0;
+      const Vector3 lever(1.0, strut.arm.y(), -strut.arm.x());
+      springs += strut.stiffness * lever * lever.transpose();
+    }
+    const Matrix3 masses = inertia.asDiagonal();
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3> modes(springs, masses);
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 mode = 0.01 * modes.eigenvectors().col(k);
+      const double frequency = std::sqrt(modes.eigenvalues()[k]);
+      for (Strut& strut : struts)
+        strut.height = mode.dot(Vector3(1.0, strut.arm.y(), -strut.arm.x()));
+      SprungBody body(inertia);
+      for (int i = 0; i < 5000; ++i) {
+        body.advance(struts, Vector2::Zero(), dt);
+        const Vector3 expected = mode * (1.0 - std::cos(frequency * (i + 1) * dt));
+        ASSERT_LT((body.position() - expected).norm(), 5e-3 * mode.norm()) << k << " " << i;
+      }
+    }
+  }
+}
+
 // ---- with rigs and wheels
 
-struct Pair {
-  Pair(const Vector2& offset, const Words& rig_words, const Words& words) : offset_(offset) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Vector2 place = (i == 0 ? 0.5 : -0.5) * offset;
-      wheels[i].place({place.x(), place.y(), 0.2}, 0.0, 0.0);
+struct Vehicle {
+  Vehicle(std::vector<Vector2> at, const Words& rig_words, const Words& words)
+      : places(std::move(at)), loads(places.size(), 0.0) {
+    std::vector<WheelRig*> all_rigs;
+    for (const Vector2& place : places) {
+      wheels.push_back(std::make_unique<RigidWheel>(make_wheel(0.2, 160)));
+      wheels.back()->place({place.x(), place.y(), 0.2}, 0.0, 0.0);
       Words all{"load_mass",
                 "15",
                 "speed",
@@ -158,12 +242,12 @@ struct Pair {
                 "400"};
       all.insert(all.end(), rig_words.begin(), rig_words.end());
       rigs.push_back(
-          std::make_unique<WheelRig>(WheelRig::schema("fix wheel/rig").read(all), wheels[i]));
+          std::make_unique<WheelRig>(WheelRig::schema("fix wheel/rig").read(all), *wheels.back()));
+      all_rigs.push_back(rigs.back().get());
     }
     Words all{"rigs", "a,b"};
     all.insert(all.end(), words.begin(), words.end());
-    chassis = std::make_unique<Chassis>(Chassis::schema("fix wheel/chassis").read(all),
-                                        std::vector<WheelRig*>{rigs[0].get(), rigs[1].get()});
+    chassis = std::make_unique<Chassis>(Chassis::schema("fix wheel/chassis").read(all), all_rigs);
   }
   /// Means of the last 0.1 s.
   void run(double end) {
@@ -171,66 +255,107 @@ struct Pair {
     for (long i = 0; i < steps; ++i) {
       for (auto& rig : rigs) rig->apply(i * dt, dt);
       chassis->apply(i * dt, dt);
-      for (std::size_t k = 0; k < 2; ++k) {
-        wheels[k].advance(dt);
-        floor.press_on(wheels[k].surface());
+      for (std::size_t k = 0; k < wheels.size(); ++k) {
+        wheels[k]->advance(dt);
+        floor.press_on(wheels[k]->surface());
         if (steps - i > std::lround(0.1 / dt)) continue;
         const double share = dt / 0.1;
-        loads[k] += share * wheels[k].ground_wrench().force.z();
-        torque += share * wheels[k].constraint(Coordinate::spin);
-        guide += share * wheels[k].constraint(Coordinate::x);
+        loads[k] += share * wheels[k]->ground_wrench().force.z();
+        torque += share * wheels[k]->constraint(Coordinate::spin);
+        guide += share * wheels[k]->constraint(Coordinate::x);
       }
     }
   }
+  double mass() const { return 15.0 * static_cast<double>(places.size()); }  ///< of all [kg]
+  double load() const { return std::accumulate(loads.begin(), loads.end(), 0.0); }
+  double sprung() const { return 12.0 * static_cast<double>(places.size()); }
+
   static constexpr double dt = 2e-4;
-  Vector2 offset_;
-  RigidWheel wheels[2] = {make_wheel(0.2, 160), make_wheel(0.2, 160)};
+  std::vector<Vector2> places;
+  std::vector<std::unique_ptr<RigidWheel>> wheels;
   std::vector<std::unique_ptr<WheelRig>> rigs;
   std::unique_ptr<Chassis> chassis;
   Floor floor{3e4, 0.8, 1e-2};
-  double loads[2] = {0.0, 0.0}, torque = 0.0, guide = 0.0;  // [N], [N m], [N]
+  std::vector<double> loads;         // [N]
+  double torque = 0.0, guide = 0.0;  // [N m], [N]
 };
 
-constexpr double sprung = 24.0, wheel = 3.0, radius = 0.2;  // [kg] both shares, [kg], [m]
+constexpr double base = 1.2, track = 1.0, radius = 0.2;  // [m]
+using Places = std::vector<Vector2>;
+// About their centre; without products of x and y
+const Places axle{{0.0, 0.5 * track}, {0.0, -0.5 * track}};
+const Places bogie{{0.5 * base, 0.0}, {-0.5 * base, 0.0}};
+const Places tricycle{
+    {base * 2.0 / 3.0, 0.0}, {-base / 3.0, 0.5 * track}, {-base / 3.0, -0.5 * track}};
+const Places two_axles{{0.5 * base, 0.5 * track},
+                       {0.5 * base, -0.5 * track},
+                       {-0.5 * base, 0.5 * track},
+                       {-0.5 * base, -0.5 * track}};
+
+/// A moment M shifts the load of wheel i by -M a_i/sum a^2 over the arms a.
+void expect_shifted(const Vehicle& vehicle, int along, double moment, double tolerance) {
+  double arms = 0.0;
+  for (const Vector2& place : vehicle.places) arms += place[along] * place[along];
+  const double share = vehicle.load() / static_cast<double>(vehicle.places.size());
+  for (std::size_t k = 0; k < vehicle.places.size(); ++k)
+    EXPECT_NEAR(vehicle.loads[k], share - moment * vehicle.places[k][along] / arms, tolerance)
+        << "wheel " << k << " of " << vehicle.places.size();
+}
 
 // Guides at the height of the ground stand for the lateral force of the ground: the weights turn
 // the vehicle about its track.
 TEST(Chassis, SideSlopeShiftsTheLoadByStatics) {
-  constexpr double track = 1.0, height = 0.3, slope = 10.0;
-  for (const double guide : {0.0, -radius}) {
-    Pair axle({0.0, track}, {"mode", "towed", "side_slope", "10", "damping", "300"},
-              {"roll_inertia", "6", "height", "0.3", "guide_height", std::to_string(guide)});
-    axle.run(1.5);
+  constexpr double height = 0.3, slope = 10.0;
+  using Case = std::tuple<Places, Words, double>;
+  for (const auto& [places, pitch, guide] :
+       {Case{axle, {}, 0.0}, Case{tricycle, {"pitch_inertia", "9"}, -radius},
+        Case{two_axles, {"pitch_inertia", "16"}, 0.0}}) {
+    Words words{"roll_inertia", "6", "height", "0.3", "guide_height", std::to_string(guide)};
+    words.insert(words.end(), pitch.begin(), pitch.end());
+    Vehicle vehicle(places, {"mode", "towed", "side_slope", "10", "damping", "300"}, words);
+    vehicle.run(1.5);
     const double down = standard_gravity * std::cos(radians(slope));
     const double across = standard_gravity * std::sin(radians(slope));
-    const double moment = across * (sprung * (height - guide) - 2.0 * wheel * guide);
-    EXPECT_NEAR(axle.loads[0] + axle.loads[1], (sprung + 2.0 * wheel) * down, 1e-4);
-    EXPECT_NEAR(axle.loads[1] - axle.loads[0], 2.0 * moment / track, 1e-4) << guide;
-    const double floor = (axle.wheels[0].centre().z() - axle.wheels[1].centre().z()) / track;
-    EXPECT_NEAR(axle.chassis->body().position()[1], floor + moment / (0.5 * 4000.0 * track * track),
-                1e-6);
+    const double moment = across * (vehicle.sprung() * (height - guide) -
+                                    (vehicle.mass() - vehicle.sprung()) * guide);
+    EXPECT_NEAR(vehicle.load(), vehicle.mass() * down, 1e-4);
+    expect_shifted(vehicle, 1, moment, 1e-4);
+    Vector2 arms = Vector2::Zero(), floor = Vector2::Zero();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      arms += places[k].cwiseAbs2();
+      floor += places[k] * vehicle.wheels[k]->centre().z();
+    }
+    const Vector3& turned = vehicle.chassis->body().position();
+    EXPECT_NEAR(turned[1], (floor.y() + moment / 4000.0) / arms.y(), 1e-6);
+    EXPECT_NEAR(turned[2], arms.x() > 0.0 ? -floor.x() / arms.x() : 0.0, 1e-9);
   }
 }
 
 // Torques that carry the weight up the slope: the load shifts to the rear by the height of the
 // weights above the ground.
 TEST(Chassis, GradeShiftsTheLoadByStatics) {
-  constexpr double base = 1.2, height = 0.25, slope = 8.0;
+  constexpr double height = 0.25, slope = 8.0;
   const double along = standard_gravity * std::sin(radians(slope));
-  const double weight = (sprung + 2.0 * wheel) * along;
-  Pair bogie({base, 0.0},
-             {"mode", "torque", "torque", std::to_string(0.5 * radius * weight), "slope", "8"},
-             {"pitch_inertia", "8", "height", "0.25"});
-  bogie.run(2.5);
-  EXPECT_NEAR(bogie.guide, 0.0, 0.02 * weight);
-  EXPECT_NEAR(bogie.torque, radius * weight, 1e-6);
-  const double moment = sprung * along * height + radius * weight;
-  EXPECT_NEAR(bogie.loads[1] - bogie.loads[0], 2.0 * moment / base, 0.005 * moment);
+  for (const auto& [places, roll] :
+       {std::pair{bogie, Words{}}, {two_axles, Words{"roll_inertia", "12"}}}) {
+    const double count = static_cast<double>(places.size()), weight = 15.0 * count * along;
+    Words words{"pitch_inertia", "8", "height", "0.25"};
+    words.insert(words.end(), roll.begin(), roll.end());
+    Vehicle vehicle(
+        places, {"mode", "torque", "torque", std::to_string(radius * weight / count), "slope", "8"},
+        words);
+    vehicle.run(2.5);
+    EXPECT_NEAR(vehicle.guide, 0.0, 0.02 * weight);
+    EXPECT_NEAR(vehicle.torque, radius * weight, 1e-5);
+    const double moment = vehicle.sprung() * along * height + radius * weight;
+    expect_shifted(vehicle, 0, moment, 0.005 * moment);
+    EXPECT_NEAR(vehicle.chassis->body().position()[1], 0.0, 1e-9);
+  }
 }
 
 TEST(Chassis, RefusesWheelsThatDoNotSupportItAndMissingInertia) {
   const auto refusal = [](const Vector2& offset, const Words& rig, const Words& words) {
-    return error_of<InputError>([&] { Pair(offset, rig, words); });
+    return error_of<InputError>([&] { Vehicle({0.5 * offset, -0.5 * offset}, rig, words); });
   };
   const Words towed{"mode", "towed"};
   EXPECT_THAT(refusal({0.0, 1.0}, towed, {}),
@@ -239,7 +364,7 @@ TEST(Chassis, RefusesWheelsThatDoNotSupportItAndMissingInertia) {
               HasSubstr("keyword 'pitch_inertia' is given, and all wheels have the same x"));
   EXPECT_THAT(refusal({1.0, 1.0}, towed, {"roll_inertia", "1", "pitch_inertia", "1"}),
               HasSubstr("has wheels that do not support the body in roll and pitch"));
-  Pair pair({0.0, 1.0}, towed, {"roll_inertia", "1"});
+  Vehicle pair(axle, towed, {"roll_inertia", "1"});
   const auto second = [&] {
     Chassis(Chassis::schema("fix wheel/chassis").read(Words{"rigs", "a,b", "roll_inertia", "1"}),
             {pair.rigs[0].get(), pair.rigs[1].get()});
