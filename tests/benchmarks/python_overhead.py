@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cost of Python: processor time of steps that Python takes one by one, over that of steps in one call.
 
-    PYTHONPATH=build/python tests/benchmarks/python_overhead.py [CELL [REPETITIONS]]
+    PYTHONPATH=build/python tests/benchmarks/python_overhead.py [CELL [ROUNDS]]
 
-One run of wheel_on_snow alternates blocks of three kinds. One call takes all steps of the first. Each step of
-the others has a call. In the third kind Python then reads the force on the wheel and two arrays.
-CELL is the size of a cell [m].
+One run of wheel_on_snow alternates blocks of three kinds, in random order within a round. One call takes all steps
+of the first. Each step of the others has a call. In the third kind Python then reads the force on the wheel and two
+arrays. CELL is the size of a cell [m]. The run repeats until it has ROUNDS rounds.
 """
 
 import random
@@ -24,11 +24,13 @@ STEPS = 5  # of a block
 KINDS = ("one call", "steps", "steps and reads")
 
 
-def times_of_run(cell: float) -> dict[str, float]:
-    """Processor time of a step of each kind [s]."""
-    spent = dict.fromkeys(KINDS, 0.0)
-    rounds = 0
-    variables = {"cell": cell, "distance": 0.3, "vtk": 0, "motion": "mode slip slip 0.1"}
+Times = dict[str, float]  # processor time of a step of each kind [s]
+
+
+def rounds_of_run(cell: float, count: int) -> list[Times]:
+    """Those of one run, at most as many as count."""
+    rounds: list[Times] = []
+    variables = {"cell": cell, "vtk": 0, "motion": "mode slip slip 0.1"}
     with tempfile.TemporaryDirectory() as results:
         with furrow.Simulation(SCENE, variables={**variables, "results": results}) as run:
             wheel, soil = run.wheels["wheel"], run.terrains["soil"]
@@ -45,29 +47,30 @@ def times_of_run(cell: float) -> dict[str, float]:
                         sys.exit("the run has numbers that are not finite")
                 return True
 
-            while True:
-                new = {}
+            while len(rounds) < count:
+                times: Times = {}
                 for kind in random.sample(KINDS, len(KINDS)):
                     before = time.process_time()
                     if not block(kind):
-                        return {each: total / rounds / STEPS for each, total in spent.items()}
-                    new[kind] = time.process_time() - before
-                rounds += 1
-                for kind, seconds in new.items():
-                    spent[kind] += seconds
+                        return rounds
+                    times[kind] = (time.process_time() - before) / STEPS
+                rounds.append(times)
+    return rounds
 
 
 def main() -> None:
     cell = float(sys.argv[1]) if len(sys.argv) > 1 else 0.05
-    runs = [times_of_run(cell) for _ in range(int(sys.argv[2]) if len(sys.argv) > 2 else 5)]
-    whole = [run["one call"] for run in runs]
-    print(f"a step in one call takes {1e6 * statistics.mean(whole):.0f} us")
+    count = int(sys.argv[2]) if len(sys.argv) > 2 else 1000
+    rounds: list[Times] = []
+    while len(rounds) < count:
+        rounds += rounds_of_run(cell, count - len(rounds))
+    whole = statistics.mean(times["one call"] for times in rounds)
+    print(f"{len(rounds)} rounds, a step in one call takes {1e6 * whole:.0f} us")
     for kind in KINDS[1:]:
-        more = [1e6 * (run[kind] - run["one call"]) for run in runs]
-        ratios = [100 * (run[kind] / run["one call"] - 1) for run in runs]
-        root = len(runs) ** 0.5
-        print(f"{kind}: {statistics.mean(more):.0f} +- {statistics.stdev(more) / root:.0f} us more, "
-              f"{statistics.mean(ratios):.1f} +- {statistics.stdev(ratios) / root:.1f} %")
+        more = [times[kind] - times["one call"] for times in rounds]
+        mean, error = statistics.mean(more), statistics.stdev(more) / len(more) ** 0.5
+        print(f"{kind}: {1e6 * mean:.0f} +- {1e6 * error:.0f} us more, "
+              f"{100 * mean / whole:.1f} +- {100 * error / whole:.1f} %")
 
 
 if __name__ == "__main__":
