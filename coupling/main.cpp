@@ -12,6 +12,7 @@
 
 #include "coupling/command_line.h"
 #include "coupling/liggghts/first_rank.h"
+#include "coupling/liggghts/initialize_mpi.h"
 #include "coupling/liggghts/library_check.h"
 #include "coupling/liggghts/rescue.h"
 #include "coupling/liggghts/signals.h"
@@ -46,7 +47,7 @@ std::optional<int> read_words(int argc, char** argv, bool tells) {
 int main(int argc, char** argv) {
   handle_signals();
   prepare_rescue();
-  MPI_Init(&argc, &argv);
+  initialize_mpi(&argc, &argv);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   confirm_signals(rank == 0);

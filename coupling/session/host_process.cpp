@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "coupling/liggghts/initialize_mpi.h"
 
 namespace furrow::coupling {
 
@@ -21,7 +22,7 @@ bool start_mpi() {
   MPI_Finalized(&finalized);
   if (finalized) throw Error("MPI has ended in this process; start another one");
   MPI_Initialized(&initialized);
-  if (!initialized) MPI_Init(nullptr, nullptr);
+  if (!initialized) initialize_mpi(nullptr, nullptr);
   return !initialized;
 }
 
