@@ -18,7 +18,7 @@ namespace furrow::test {
 namespace {
 
 constexpr double length = SandBed::length, step = SandBed::step, gravity = SandBed::gravity,
-                 speed = 1.0;
+                 speed = 2.0;
 constexpr int rest = 2000, rounds = 1, slabs = 8,  // and half a slab
     steps = static_cast<int>((rounds * length + 0.015) / speed / step);
 
@@ -52,10 +52,11 @@ struct Ground {
 class MovingHybrid : public ::testing::TestWithParam<Ground> {};
 INSTANTIATE_TEST_SUITE_P(
     Grounds, MovingHybrid,
-    ::testing::Values(Ground{"layer", "width 0.06 depth 0.03 surface 0", ""},
-                      Ground{"trough",
-                             "width 0.1 depth 0.06 surface 0.03 trough 0.06 0.03 multirate yes",
-                             "unfix left\nunfix right"}),
+    ::testing::Values(
+        Ground{"layer", "cell 0.015 width 0.06 depth 0.03 surface 0", ""},
+        Ground{"trough",
+               "cell 0.01 width 0.1 depth 0.06 surface 0.03 trough 0.06 0.03 multirate yes",
+               "unfix left\nunfix right"}),
     [](const auto& one) { return one.param.name; });
 
 TEST_P(MovingHybrid, RenewedGroundAndGrainsFitWithoutAJolt) {
@@ -68,7 +69,7 @@ TEST_P(MovingHybrid, RenewedGroundAndGrainsFitWithoutAJolt) {
                weight = mass * gravity;
   scene.command(
       fmt::format("fix soil all terrain/continuum material "
-                  "{}/inputs/materials/rubber.yaml length {} centre 0.06 0 cell 0.01 {} "
+                  "{}/inputs/materials/rubber.yaml length {} centre 0.06 0 {} "
                   "surcharge {} "
                   "gravity {} surface_mesh yes follow kite slabs 8",
                   FURROW_SOURCE_DIR, length, GetParam().place, weight / (length * 0.06), gravity));
