@@ -12,6 +12,7 @@
 
 #include "atom.h"
 #include "core/communicator.h"
+#include "core/gravity.h"
 #include "core/types.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/bed_line.h"
@@ -30,8 +31,7 @@ namespace {
 constexpr char move_all[] = "write 'fix move all nve/sphere'";
 // Of gravity: a slope of 60 degrees, steeper than any ground stands.
 constexpr double least_downward_share = 0.5;
-constexpr double straight = 1.0;         // [degrees] of gravity from straight down
-constexpr double largest_gravity = 2e3;  // [m/s^2] of a large centrifuge; 9806 would be mm/s^2
+constexpr double straight = 1.0;  // [degrees] of gravity from straight down
 // Of planets and moons that a vehicle may roll on, by a wide margin.
 const Range usual_gravity = Range::closed(0.05, 30.0);
 // Load over width and length of the body [Pa]; tyres of lorries have 1e5, of aircraft 4e5.
@@ -229,6 +229,7 @@ Found weight_pulls_down(const Scene& scene, LAMMPS_NS::FixGravity& gravity) {
 
 Found scene_has_one_gravity(const Scene& scene) {
   const std::vector<GivenGravity> given = gravities(scene);
+  const double largest_gravity = admissible_gravity().upper;
   for (const GivenGravity& each : given)
     if (each.vector.norm() > largest_gravity)
       return refusal(each.where, fmt::format("is {:.4g} m/s^2", each.vector.norm()),

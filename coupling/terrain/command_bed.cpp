@@ -12,6 +12,7 @@
 
 #include "comm.h"
 #include "core/error.h"
+#include "core/gravity.h"
 #include "core/types.h"
 #include "coupling/base/bed_line.h"
 #include "coupling/liggghts/checkpoint_file.h"
@@ -35,7 +36,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char no_checkpoint[] = "none";
-constexpr double largest_gravity = 2000.0;  // [m/s^2] of a large centrifuge
 
 /// "command processors": 0 leaves the number of ranks along an axis to LIGGGHTS.
 std::string processors_line(const int (&grid)[3]) {
@@ -96,9 +96,7 @@ Schema CommandBed::schema() {
       "first argument, without the keyword: path of the bed script, relative to the main script");
   schema.number("depth", "m", Range::positive(),
                 "height above the floor at which the bed is levelled");
-  schema
-      .number("gravity", "m/s^2", Range{0.0, largest_gravity, true, false},
-              "in which the bed settles, downwards")
+  schema.number("gravity", "m/s^2", admissible_gravity(), "in which the bed settles, downwards")
       .by_default(standard_gravity);
   schema.text("from", "checkpoint of a run on this bed, to continue that run; `none`: start")
       .by_default(no_checkpoint);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/gravity.h"
 #include "io/heightmap_file.h"
 #include "io/material_file.h"
 #include "io/slide_input.h"
@@ -276,7 +277,8 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
   schema.choice("base", boundary_kind_names(), "boundary condition at the base")
       .by_default("rough");
   schema
-      .number("gravity", "m/s^2", Range::closed(0.0, 2000.0), "acceleration of gravity, downwards")
+      .number("gravity", "m/s^2", Range::closed(0.0, admissible_gravity().upper),
+              "acceleration of gravity, downwards")
       .by_default(standard_gravity);
   schema.flag("initial_stress", "start with the stress of the terrain's weight").by_default("yes");
   schema

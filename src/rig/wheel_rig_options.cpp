@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/gravity.h"
 #include "rig/wheel_rig.h"
 
 namespace furrow {
@@ -23,7 +24,6 @@ constexpr double largest_torque = 100.0;
 constexpr double largest_drawbar_load = 100.0;
 constexpr double largest_speed = 1000.0;     // [m/s] of axle and rim
 constexpr double largest_slip_radius = 2.0;  // of the nominal radius
-constexpr double largest_gravity = 2000.0;   // [m/s^2] of a large centrifuge
 // [m/s] while the wheel is brought back for another pass
 constexpr double largest_return_speed = 100.0, largest_lowering_speed = 10.0;
 
@@ -154,8 +154,7 @@ Schema WheelRig::schema(const std::string& subject) {
   schema.number("ground_level", "m", Range::any(),
                 "z of the undisturbed ground, the datum of hub drop and rut depth");
   schema
-      .number("gravity", "m/s^2", Range{0.0, largest_gravity, true, false},
-              "acceleration of gravity, for `load_mass`")
+      .number("gravity", "m/s^2", admissible_gravity(), "acceleration of gravity, for `load_mass`")
       .by_default(standard_gravity);
   schema
       .number("damping", "N s/m", Range::non_negative(),
