@@ -54,6 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--title", type=words, help="of the file; by default the size")
     parser.add_argument("-o", "--output", type=path, required=True, help="the tyre file; a new one")
+    parser.add_argument("--check", action="store_true", help="check the arguments; fit nothing")
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -70,6 +71,9 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.tests is not None:
         tests += read_tests(arguments.tests)
     _require_possible(known, tests)
+    if arguments.check:
+        print(f"  checked       {known.size.designation}, {len(tests)} tests; nothing is fitted")
+        return
     fit = fit_tyre(known, tests)
     print(_report(fit))
     title = arguments.title or known.size.designation

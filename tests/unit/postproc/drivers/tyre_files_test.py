@@ -139,6 +139,11 @@ class FilesTest(unittest.TestCase):
                     self.assertEqual(done.stderr.count("\n"), 1)
                     self.assertFalse(output.exists())
             self.assertEqual(there.read_text(encoding="utf-8"), "mine")
+            words = ["235/75R15", "--pressure", "241", "--point", "241", "6227", "3.1", "--check"]
+            done = run_post("fit-tyre", *words, "-o", output)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("235/75R15, 1 tests; nothing is fitted", done.stdout)
+            self.assertFalse(output.exists())
 
 
 if __name__ == "__main__":
