@@ -94,7 +94,7 @@ class StudiesFaultsTest(FaultsTest):
                         words = ["--evaluate", "--results", results]
                         found = outcome(lambda: run_study(study, words))
                         self.expect(f"{study.folder.name}: {content}", found, results)
-        self.assertEqual(len(STUDIES), 21)
+        self.assertEqual(len(STUDIES), 22)
         self.assertNotIn("FURROW_TRACEBACK", os.environ)
 
 
