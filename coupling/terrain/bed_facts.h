@@ -3,6 +3,7 @@
 /// What is known of a settled bed of grains.
 
 #include "core/outputs.h"
+#include "coupling/terrain/bed_surface.h"
 #include "lammps.h"
 
 namespace furrow::coupling {
@@ -12,6 +13,8 @@ struct BedFacts {
   double solid_fraction = 0.0;
   double bulk_density = 0.0;    ///< [kg/m^3]
   double level = 0.0;           ///< [m]
+  double surface_mean = 0.0;    ///< of the grains' tops above the surface [m]
+  double surface_rms = 0.0;     ///< of the same [m]
   double kinetic_energy = 0.0;  ///< [J]
   double settle_steps = 0.0;
 };
@@ -19,7 +22,7 @@ struct BedFacts {
 /// As variables of the script.
 const Outputs<const BedFacts>& bed_outputs();
 
-/// Of the bed that stands in the box now. @param depth of the levelled bed [m]. Collective.
-BedFacts measure_bed(LAMMPS_NS::LAMMPS& lammps, double depth);
+/// Of the bed that stands in the box now. @param surface at which it was levelled. Collective.
+BedFacts measure_bed(LAMMPS_NS::LAMMPS& lammps, const BedSurface& surface);
 
 }  // namespace furrow::coupling

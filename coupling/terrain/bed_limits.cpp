@@ -19,7 +19,6 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr double least_size = 2.0;       // of the box, in mean diameters
 constexpr double mean_volume = 1.045;    // over that of the mean diameter, of the same beds
 constexpr double poured_share = 0.6;     // solid over volume, when nothing else is known
 constexpr double bytes_of_grain = 3000;  // with its contacts and neighbours, measured
@@ -146,14 +145,15 @@ std::vector<std::string> doubts_of_bed(const Options& options) {
   return doubts;
 }
 
-void check_bed(const BedFacts& facts, double depth) {
+void check_bed(const BedFacts& facts, const BedSurface& surface) {
   if (facts.grains < 1) throw StateError("command bed: no grain is left of the bed");
-  if (!(std::abs(facts.level - depth) <= level_tolerance * depth))
+  const double level = surface.mean();
+  if (!(std::abs(facts.level - level) <= level_tolerance * level))
     throw StateError(
         fmt::format("command bed: the bed has its surface at {:.4g} m and was to have it at {:.4g} "
                     "m; it is not kept. Its grains have flown apart or collapsed: take a shorter "
                     "step, and look at the contact properties",
-                    facts.level, depth));
+                    facts.level, level));
 }
 
 }  // namespace furrow::coupling

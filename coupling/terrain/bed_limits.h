@@ -7,12 +7,16 @@
 
 #include "core/options.h"
 #include "coupling/terrain/bed_facts.h"
+#include "coupling/terrain/bed_surface.h"
 
 namespace furrow::coupling {
 
 /// Over the mean diameter, in the beds that come with Furrow: 0.85, 1 and 1.15 of it, in equal
 /// numbers.
 inline constexpr double smallest_grain = 0.85;
+
+/// Of the bed, in mean diameters.
+inline constexpr double least_size = 2.0;
 
 /// Sizes against grains, memory, and time step, as far as the parameters have the names that the
 /// beds of inputs/beds have: length, width, depth, diameter, density, bulk, step; young and
@@ -24,8 +28,7 @@ void check_bed_parameters(const Options& options);
 /// that takes hours.
 std::vector<std::string> doubts_of_bed(const Options& options);
 
-/// @param depth that the bed was levelled at [m]
-/// @throws StateError for grains that flew apart, or have sunk far below
-void check_bed(const BedFacts& facts, double depth);
+/// @throws StateError for grains that flew apart, or have sunk far below the surface
+void check_bed(const BedFacts& facts, const BedSurface& surface);
 
 }  // namespace furrow::coupling

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr char mark[] = "#: ";
 constexpr char parameters[] = "parameters";
+constexpr char highest[] = "highest";  // given by Furrow
 
 /// "> 0", ">= 1", "[0, 0.5)", "any".
 std::optional<Range> to_range(const std::string& text) {
@@ -59,7 +60,7 @@ BedScript::BedScript(const fs::path& path) : path_(path) {
 
   static const std::set<std::string> forbidden = {"jump",  "label", "include",      "next",
                                                   "clear", "bed",   "read_restart", "quit"};
-  for (const char* section : {"box", "contact", "settle"})
+  for (const std::string& section : sections())
     for (const std::string& command : commands(section)) {
       std::string word;
       std::istringstream(command) >> word;
@@ -75,6 +76,17 @@ void BedScript::refuse(const std::string& problem, const std::string& allowed) c
 
 bool BedScript::has(const std::string& section) const {
   return ("\n" + text_).find(fmt::format("\n{}{}\n", mark, section)) != std::string::npos;
+}
+
+/// Those with commands.
+std::vector<std::string> BedScript::sections() const {
+  std::vector<std::string> found = {"box", "contact", "settle"};
+  if (leaves_levelling()) found.emplace_back("levelled");
+  return found;
+}
+
+bool BedScript::reads_highest() const {
+  return text_.find(fmt::format("${{bed_{}}}", highest)) != std::string::npos;
 }
 
 /// Between "#: <section>" and the next "#: ".
@@ -116,8 +128,8 @@ std::vector<std::string> BedScript::parameters_that_are_read() const {
   static const std::regex read(R"(\$\{bed_(\w+)\}|\bv_bed_(\w+))");
   static const std::regex set(R"(^\s*variable\s+bed_(\w+))");
   std::vector<std::string> found;
-  std::set<std::string> known;
-  for (const char* section : {"box", "contact", "settle"})
+  std::set<std::string> known = {highest};
+  for (const std::string& section : sections())
     for (const std::string& command : commands(section)) {
       for (std::sregex_iterator match(command.begin(), command.end(), read), end; match != end;
            ++match) {

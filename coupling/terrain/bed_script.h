@@ -20,6 +20,10 @@ class BedScript {
 
   const std::filesystem::path& path() const { return path_; }
   const std::string& text() const { return text_; }
+  /// Whether Furrow levels the bed, before the section "#: levelled", and not the script.
+  bool leaves_levelling() const { return has("levelled"); }
+  /// Whether it pours the bed up to the highest place of its surface.
+  bool reads_highest() const;
   /// Commands of a section, continued lines joined.
   std::vector<std::string> commands(const std::string& section) const;
 
@@ -28,6 +32,7 @@ class BedScript {
   void declare_parameters(Schema& schema) const;
 
  private:
+  std::vector<std::string> sections() const;
   std::vector<std::string> lines(const std::string& section) const;
   bool has(const std::string& section) const;
   std::vector<std::string> parameters_that_are_read() const;

@@ -2,6 +2,7 @@
 #include "coupling/terrain/command_bed.h"
 
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include <unistd.h>
 
 #include "comm.h"
+#include "core/check_number.h"
 #include "core/error.h"
 #include "core/gravity.h"
 #include "core/types.h"
@@ -44,17 +46,59 @@ std::string processors_line(const int (&grid)[3]) {
   return line;
 }
 
-/// Of the parameters: "length 0.2, width 0.1".
-std::string values_of(const Options& options) {
+/// Of the parameters: "length 0.2, width 0.1", equal for equal beds.
+std::string values_of(const Options& options, const BedSurface& surface) {
+  Schema relief("");
+  declare_relief(relief);
   std::vector<std::string> words;
   for (const Key& key : options.keys()) {
-    if (key.name == "script" || key.name == "from") continue;
-    const bool number = key.kind == Key::Kind::number;
-    words.push_back(
-        key.name + " " +
-        (number ? fmt::format("{}", options.number(key.name)) : options.text(key.name)));
+    if (key.name == "script" || key.name == "from" || key.name == "heightmap" ||
+        !options.has(key.name) || (surface.flat() && relief.find(key.name)))
+      continue;
+    if (key.kind == Key::Kind::numbers)
+      words.push_back(fmt::format("{} {}", key.name, fmt::join(options.numbers(key.name), " ")));
+    else if (key.kind == Key::Kind::number)
+      words.push_back(fmt::format("{} {}", key.name, options.number(key.name)));
+    else
+      words.push_back(key.name + " " + options.text(key.name));
   }
+  if (const std::string map = surface.map_checksum(); !map.empty())
+    words.push_back("heightmap " + map);
   return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// @throws InputError for a script that makes no bed with a relief
+void check_script(const BedScript& script, const BedSurface& surface) {
+  if (surface.flat() || (script.leaves_levelling() && script.reads_highest())) return;
+  throw InputError(
+      fmt::format("command bed: script '{}'", script.path().string()),
+      "levels the bed by itself, and the line has a relief",
+      "a script that pours up to ${bed_highest} and has a section '#: levelled'",
+      "change it as inputs/beds/sand.lig has it, or remove the keywords of the relief");
+}
+
+/// Names and values of a line; several values are joined by a blank.
+BedWords words_of(const std::vector<std::string>& words, const Schema& keys) {
+  BedWords line;
+  const auto at = [&](std::size_t word) {
+    return words.begin() + static_cast<std::ptrdiff_t>(word);
+  };
+  for (std::size_t i = 1; i < words.size();) {
+    const Key* key = keys.find(words[i]);
+    const std::size_t count = key && key->kind == Key::Kind::numbers ? key->count : 1;
+    if (i + count >= words.size())
+      throw InputError("command bed", fmt::format("has no value for '{}'", words[i]),
+                       "bed <script> <name> <value> <name> <value> ...",
+                       "every parameter of the bed needs a value");
+    line.emplace_back(words[i], fmt::format("{}", fmt::join(at(i + 1), at(i + 1 + count), " ")));
+    i += 1 + count;
+  }
+  return line;
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::istringstream all(text);
+  return {std::istream_iterator<std::string>(all), {}};
 }
 
 /// A command with a path, which may have blanks.
@@ -98,6 +142,7 @@ Schema CommandBed::schema() {
                 "height above the floor at which the bed is levelled");
   schema.number("gravity", "m/s^2", admissible_gravity(), "in which the bed settles, downwards")
       .by_default(standard_gravity);
+  declare_relief(schema);
   schema.text("from", "checkpoint of a run on this bed, to continue that run; `none`: start")
       .by_default(no_checkpoint);
   return schema;
@@ -106,9 +151,10 @@ Schema CommandBed::schema() {
 OutputTable CommandBed::outputs() { return {"variable", bed_outputs().channels()}; }
 
 std::string CommandBed::Request::identity() const {
-  const std::string layout = "2";  // of what is kept; another one: beds of before cannot be read
+  const std::string layout = "3";  // of what is kept; another one: beds of before cannot be read
   std::string all = version() + " " + layout + "\n" + script.text();
-  for (const Parameter& p : parameters) all += "\n" + p.name + " " + p.value;
+  for (const Parameter& p : parameters)
+    all += "\n" + p.name + " " + (p.name == "heightmap" ? surface.map_checksum() : p.value);
   return all;
 }
 
@@ -149,31 +195,34 @@ void CommandBed::command(int narg, char** arg) {
 }
 
 CommandBed::Request CommandBed::read_request(const std::vector<std::string>& words) {
-  if (words.size() % 2 == 0)
-    throw InputError("command bed", fmt::format("has {} arguments", words.size()),
-                     "bed <script> <name> <value> <name> <value> ...",
-                     "every parameter of the bed needs a value");
-  BedWords line;
-  for (std::size_t i = 1; i < words.size(); i += 2) line.emplace_back(words[i], words[i + 1]);
+  need(!words.empty(), "command bed", "has no arguments",
+       "bed <script> <name> <value> <name> <value> ...");
+  BedScript script(fs::path(script_folder(*lmp)) / words[0]);
+  Schema keys = schema();
+  script.declare_parameters(keys);
+  BedWords line = words_of(words, keys);
   const std::string chosen = choose_bed_values(line);
   if (!chosen.empty()) announce(*lmp, "Chosen for the bed: " + chosen);
   std::vector<Entry> entries = {{"script", {words[0]}}};
   std::vector<Parameter> parameters;
   for (const auto& [written, value] : line) {
     const std::string name = current_name(written);
-    entries.push_back({name, {value}});
+    const Key* key = keys.find(name);
+    const bool several = key && key->kind == Key::Kind::numbers;
+    entries.push_back({name, several ? split(value) : std::vector<std::string>{value}});
     if (name != "from") parameters.push_back({name, value, written});
   }
-  BedScript script(fs::path(script_folder(*lmp)) / words[0]);
-  Schema keys = schema();
-  script.declare_parameters(keys);
   const Options options = keys.read(entries);
   if (!options.given("gravity"))  // a parameter of every bed, of its identity too
     parameters.push_back({"gravity", fmt::format("{}", options.number("gravity")), "gravity"});
   check_bed_parameters(options);
+  BedSurface surface(options, script_folder(*lmp));
+  check_script(script, surface);
   for (const std::string& doubt : doubts_of_bed(options)) warn(*lmp, doubt);
-  return {std::move(script), options.number("depth"), options.text("from"), std::move(parameters),
-          values_of(options)};
+  for (const std::string& doubt : surface.doubts()) warn(*lmp, doubt);
+  const std::string values = values_of(options, surface);
+  return {std::move(script), std::move(surface), options.text("from"), std::move(parameters),
+          values};
 }
 
 /// Each becomes a variable with bed_ before its name; of a former name too, which a bed script may
@@ -188,6 +237,7 @@ void CommandBed::set_parameters(const Request& request) {
     warn(*lmp, fmt::format("command bed: parameter '{}' is now called '{}'; write '{} {}'",
                            p.written, p.name, p.name, p.value));
   }
+  set_variable(*lmp, "bed_highest", fmt::format("{:.15g}", request.surface.highest()));
   set_bed_line(*lmp, line, request.values);
 }
 
@@ -212,7 +262,13 @@ void CommandBed::make(const Request& request, const KeptBed& bed) {
   // before the minutes that a bed takes
   on_first_rank(world, [&] { check_folder(bed.folder.parent_path()); });
   const NoCheckpointOnSignal nothing_to_continue;
-  for (const char* name : {"box", "contact", "settle"}) run_section(request, name);
+  run_section(request, "box");
+  request.surface.check_period(*lmp);
+  for (const char* name : {"contact", "settle"}) run_section(request, name);
+  if (request.script.leaves_levelling()) {
+    remove_surplus(*lmp, request.surface);
+    run_section(request, "levelled");
+  }
   // A termination signal ends every run at once and lets the script go on: what came of it is no
   // bed, and must not be kept for others.
   if (agreed_signal())
@@ -226,8 +282,8 @@ void CommandBed::make(const Request& request, const KeptBed& bed) {
 
 /// Written under another name: another run may be making the same bed.
 void CommandBed::keep(const Request& request, const KeptBed& bed) {
-  const BedFacts facts = measure_bed(*lmp, request.depth);
-  check_bed(facts, request.depth);
+  const BedFacts facts = measure_bed(*lmp, request.surface);
+  check_bed(facts, request.surface);
   std::string text;
   const std::vector<Channel> names = bed_outputs().channels();
   const std::vector<double> values = bed_outputs().values(facts);
@@ -258,7 +314,13 @@ void CommandBed::read(const Request& request, const KeptBed& bed) {
   run_section(request, "contact");
   std::ifstream file(bed.facts());
   std::string name, value;
-  while (file >> name >> value && name[0] != '#') set_variable(*lmp, name, value);
+  while (file >> name >> value && name[0] != '#') {
+    set_variable(*lmp, name, value);
+    if (name == "bed_surface_rms")
+      if (const std::string doubt = request.surface.doubt_of_settled(std::stod(value));
+          !doubt.empty())
+        warn(*lmp, doubt);
+  }
 }
 
 /// Line by line, so that this command can go on when the section has ended.

@@ -10,6 +10,7 @@
 #include "core/options.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/terrain/bed_script.h"
+#include "coupling/terrain/bed_surface.h"
 #include "pointers.h"
 
 namespace furrow::coupling {
@@ -33,7 +34,7 @@ class CommandBed : protected LAMMPS_NS::Pointers {
   /// What the line asks for.
   struct Request {
     BedScript script;
-    double depth;                       // [m]
+    BedSurface surface;
     std::string from;                   // a checkpoint of a run on this bed, or "none"
     std::vector<Parameter> parameters;  // depth among them
     std::string values;                 // of all parameters, equal for equal numbers

@@ -19,6 +19,8 @@ namespace {
 constexpr double reference_frequency = 0.1;  // n0 of ISO 8608 [cycles/m]
 constexpr int waves = 256;                   // of a random profile, in equal bands of log(n)
 constexpr double round_off = 1e-9;           // of a spacing
+constexpr char best_road = 'A', worst_road = 'H';
+constexpr double best_density = 16e-6;  // G(n0) of the best road [m^3]
 
 /// The node below a coordinate, and the place between it and the next as 0 to 1.
 std::pair<int, double> between(double coordinate, double lower, double spacing, int count) {
@@ -31,6 +33,10 @@ std::pair<int, double> between(double coordinate, double lower, double spacing, 
 double uniform(std::mt19937& generator) { return (generator() + 0.5) / 4294967296.0; }
 
 }  // namespace
+
+double Roughness::mean_density(char road_class) {
+  return best_density * std::pow(4.0, road_class - best_road);
+}
 
 double Heightmap::height(double x, double y) const {
   const Vector2 first = lower - 0.5 * spacing;
@@ -59,7 +65,8 @@ GroundRelief::GroundRelief(ReliefParameters parameters, const std::string& where
   const ReliefParameters& p = parameters_;
   flat_ = !p.heightmap && !p.washboard && !p.roughness && !p.trapezoid && !p.half_cylinder;
   need(!p.flat_until || p.washboard || p.roughness, where + ", keyword 'flat_until'",
-       "is given without 'washboard' or 'roughness'", "the start of one of them", "remove it");
+       "is given without 'washboard', 'roughness' or 'road_class'", "the start of one of them",
+       "remove it");
   need(!p.washboard || (*p.washboard)[0] > 0.0, where + ", keyword 'washboard'",
        "has a wavelength that is not > 0", "wavelength > 0 and amplitude [m]");
   need(!p.trapezoid || ((*p.trapezoid)[2] >= 0.0 && (*p.trapezoid)[3] > (*p.trapezoid)[2]),
@@ -121,23 +128,25 @@ double GroundRelief::profile(double x) const {
   return height;
 }
 
-void GroundRelief::match(Checkpoint& state) const {
-  if (!parameters_.heightmap) return;
+std::string GroundRelief::map_checksum() const {
+  if (!parameters_.heightmap) return "";
   const Heightmap& map = *parameters_.heightmap;
-  state.match("columns of the heightmap", map.columns);
-  state.match("rows of the heightmap", map.rows);
   Checksum checksum;
   checksum.add(map.lower.data(), 2 * sizeof(double));
   checksum.add(map.spacing.data(), 2 * sizeof(double));
   checksum.add(map.heights.data(), map.heights.size() * sizeof(double));
-  state.match("checksum of the heightmap", fmt::format("{:016x}", checksum.value()));
+  return fmt::format("{}x{} {:016x}", map.columns, map.rows, checksum.value());
+}
+
+void GroundRelief::match(Checkpoint& state) const {
+  if (parameters_.heightmap) state.match("the nodes of the heightmap", map_checksum());
 }
 
 void declare_relief(Schema& schema) {
   schema
       .text("heightmap",
-            "file of heights above `surface`, ESRI ASCII grid or text with x y z; path relative "
-            "to the script")
+            "file of heights above the flat surface, ESRI ASCII grid or text with x y z; path "
+            "relative to the script")
       .optional()
       .may_change();  // of place: checkpoints compare the heights
   schema
@@ -149,13 +158,19 @@ void declare_relief(Schema& schema) {
       .number("roughness", "m^3", Range::positive(),
               "spectral density at 0.1 cycles/m of a random profile along x by ISO 8608")
       .optional();
+  std::vector<std::string> classes;
+  for (char letter = best_road; letter <= worst_road; ++letter) classes.emplace_back(1, letter);
+  schema
+      .choice("road_class", classes,
+              "class of ISO 8608 in place of `roughness`: the geometric mean of its density")
+      .optional();
   schema
       .numbers("roughness_band", 2, "cycles/m", Range::positive(),
-               "lowest and highest spatial frequency of `roughness`")
+               "lowest and highest spatial frequency of the random profile")
       .by_default(std::vector<double>{0.011, 2.83});
-  schema.integer("roughness_seed", Range::closed(0.0, 4294967295.0), "seed of `roughness`")
+  schema.integer("roughness_seed", Range::closed(0.0, 4294967295.0), "seed of the random profile")
       .by_default("1");
-  schema.number("flat_until", "m", Range::any(), "x where `washboard` and `roughness` begin")
+  schema.number("flat_until", "m", Range::any(), "x where washboard and random profile begin")
       .optional();
   schema
       .numbers("trapezoid", 4, "m", Range::any(),
@@ -178,13 +193,18 @@ GroundRelief relief_from(const Options& options, std::shared_ptr<const Heightmap
   if (options.given("half_cylinder"))
     relief.half_cylinder = Eigen::Map<const Vector2>(numbers("half_cylinder"));
   if (options.given("flat_until")) relief.flat_until = options.number("flat_until");
-  if (options.given("roughness"))
-    relief.roughness = Roughness{options.number("roughness"), numbers("roughness_band")[0],
-                                 numbers("roughness_band")[1],
+  need(!options.given("road_class") || !options.given("roughness"), options.where("road_class"),
+       "is given with 'roughness'", "one of them: both set the density", "remove one of them");
+  if (options.given("road_class") || options.given("roughness"))
+    relief.roughness = Roughness{options.given("roughness")
+                                     ? options.number("roughness")
+                                     : Roughness::mean_density(options.text("road_class")[0]),
+                                 numbers("roughness_band")[0], numbers("roughness_band")[1],
                                  static_cast<std::uint32_t>(options.integer("roughness_seed"))};
   for (const char* key : {"roughness_band", "roughness_seed"})
     need(!options.given(key) || relief.roughness, options.where(key),
-         "is given without 'roughness'", "a property of a random profile", "remove it");
+         "is given without 'roughness' or 'road_class'", "a property of a random profile",
+         "remove it");
   need(!options.given("heightmap_origin") || relief.heightmap, options.where("heightmap_origin"),
        "is given without 'heightmap'", "a place in a heightmap", "remove it");
   return GroundRelief(std::move(relief), options.subject());

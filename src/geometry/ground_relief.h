@@ -30,6 +30,9 @@ struct Heightmap {
 /// A random profile along x with the spectrum of ISO 8608: the displacement spectral density is
 /// G(n) = G(n0) (n/n0)^-2 over the spatial frequency n, with n0 = 0.1 cycles/m.
 struct Roughness {
+  /// Geometric mean of G(n0) of a road class, A to H [m^3]: each is 4 times that of the one before.
+  static double mean_density(char road_class);
+
   double density = 0.0;                   ///< G(n0) [m^3]
   double lowest = 0.011, highest = 2.83;  ///< spatial frequencies [cycles/m]
   std::uint32_t seed = 1;
@@ -57,6 +60,8 @@ class GroundRelief {
   double height(double x, double y) const { return profile(x) + map_height(x, y); }
   double profile(double x) const;               ///< of all shapes but the heightmap [m]
   double map_height(double x, double y) const;  ///< [m] @throws InputError outside of it
+  /// Of the heightmap's nodes, equal for equal maps; empty without one.
+  std::string map_checksum() const;
   /// A run that continues must have the same heightmap. Keywords are compared by the fix.
   void match(Checkpoint& state) const;
 

@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::uintmax_t largest_file = 400'000'000;  // [bytes]
 constexpr double most_nodes = 5e7;
+constexpr double most_gaps = 4.0;           // nodes over points; with more gaps it is no grid
 constexpr double regular = 1e-3;            // of a spacing: by which a coordinate may be off
 constexpr double largest_height = 1e5;      // [m] what is larger marks a cell without data
 constexpr double largest_coordinate = 1e9;  // [m]
@@ -70,8 +71,19 @@ std::string lower_case(std::string_view word) {
   return text;
 }
 
+/// Before memory is taken for them: a height has a digit and a blank at least, the last one a
+/// digit.
+void check_length(const TextLines& lines, const std::string& text, double count) {
+  const double most = std::floor(0.5 * (static_cast<double>(text.size()) + 1.0));
+  if (count <= most) return;
+  lines.refuse(
+      0, fmt::format("has {} bytes, and its header announces {:.0f} heights", text.size(), count),
+      "ncols x nrows heights of at least two bytes",
+      "the file is cut short, or its header is wrong");
+}
+
 /// From the north down; the header gives the corner or the centre of the cell in the south-west.
-Heightmap read_grid(TextLines& lines) {
+Heightmap read_grid(TextLines& lines, const std::string& text) {
   std::map<std::string, double> header;
   while (std::isalpha(static_cast<unsigned char>(lines.words().front().front())) != 0 &&
          lower_case(lines.words().front()) != "nan") {
@@ -88,10 +100,12 @@ Heightmap read_grid(TextLines& lines) {
                    "gdal_translate -of AAIGrid writes them");
     return found->second;
   };
-  check_count(lines, need("ncols", "ncols"), need("nrows", "nrows"));
+  const double columns_given = need("ncols", "ncols"), rows_given = need("nrows", "nrows");
+  check_count(lines, columns_given, rows_given);
+  check_length(lines, text, columns_given * rows_given);
   Heightmap map;
-  map.columns = static_cast<int>(need("ncols", "ncols"));
-  map.rows = static_cast<int>(need("nrows", "nrows"));
+  map.columns = static_cast<int>(columns_given);
+  map.rows = static_cast<int>(rows_given);
   map.spacing = {need("cellsize", "dx"), need("cellsize", "dy")};
   map.lower = {
       need("xllcorner", "xllcenter") + (header.count("xllcorner") ? 0.5 : 0.0) * map.spacing.x(),
@@ -165,6 +179,13 @@ Heightmap read_points(TextLines& lines) {
   } while (lines.next());
   const RegularAxis along_x = regular_axis(lines, x, "x"), along_y = regular_axis(lines, y, "y");
   check_count(lines, along_x.count, along_y.count);
+  if (const double nodes = static_cast<double>(along_x.count) * along_y.count;
+      nodes > most_gaps * static_cast<double>(z.size()))
+    lines.refuse(0,
+                 fmt::format("has {} points for {:.0f} nodes of a regular grid", z.size(), nodes),
+                 fmt::format("x and y in steps of {:.6g} and {:.6g} m, every point once",
+                             along_x.spacing, along_y.spacing),
+                 "interpolate the points on a grid: gdal_grid");
   Heightmap map;
   map.columns = along_x.count;
   map.rows = along_y.count;
@@ -202,7 +223,8 @@ Heightmap read_heightmap(const std::string& path, const Vector3& origin) {
   TextLines lines(path, text, " \t\r,;", '#');
   if (!lines.next()) lines.refuse(0, "is empty", formats);
   const std::string first = lower_case(lines.words().front());
-  Heightmap map = first == "ncols" || first == "nrows" ? read_grid(lines) : read_points(lines);
+  Heightmap map =
+      first == "ncols" || first == "nrows" ? read_grid(lines, text) : read_points(lines);
   map.name = path;
   map.lower -= origin.head<2>();
   for (double& height : map.heights) height -= origin.z();

@@ -71,6 +71,36 @@ def refused(furrow, table, beds):
         table.check(f"cache {cache}", said, 1, f"the folder for beds, '{cache}', cannot be used", "FURROW_CACHE")
 
 
+def reliefs(furrow, table, beds):
+    """Surfaces that a bed cannot have, and those that its grains hardly show."""
+    def bed(words, script="sand"):
+        return run_script(furrow, table.folder, line(f"{beds}/{script}.lig", SAND) + words + "\n" + AFTER, FURROW_CACHE="cache")
+
+    def refused(name, words, *texts, script="sand"):
+        table.check(name, bed(words, script), 1, *texts, ", line 1: ")
+
+    refused("deeper than the bed", " washboard 0.16 0.02", "keyword 'depth' is 0.03 m, and the relief goes down 0.0",
+            "at least 2 grains of diameter 0.014 m below the relief: 0.0")
+    refused("a washboard without amplitude", " washboard 0.16", "'washboard'", "every parameter of the bed needs a value")
+    refused("an unknown class", " road_class K", "keyword 'road_class'", "A, B, C, D, E, F, G, H")
+    refused("two densities", " road_class C roughness 1e-6", "keyword 'road_class' is given with 'roughness'")
+    refused("no map", " heightmap nowhere.asc", "nowhere.asc", "does not exist")
+    (table.folder / "small.asc").write_text("0 0 0\n0.1 0 0\n0 0.1 0\n0.1 0.1 0\n")
+    refused("a small map", " heightmap small.asc", "does not cover x = -0.08, y = -0.04 m", "heightmap_origin")
+    refused("a step at the period", " trapezoid 0.08 0.03 0.02 0.06", "closes on itself along x, where its relief has a step of 0.0",
+            "within a grain of 0.014 m", script="sand_window")
+    with open(beds + "/sand.lig") as file:
+        text = file.read()
+    (table.folder / "own.lig").write_text(text.replace("#: levelled\n", ""))
+    said = run_script(furrow, table.folder, line("own.lig", SAND) + " washboard 0.08 0.001\n" + AFTER, FURROW_CACHE="cache")
+    table.check("a script that levels", said, 1, "own.lig' levels the bed by itself", "${bed_highest}", "'#: levelled'", ", line 1: bed")
+    fine = "of the relief's rms height is finer than a grain of 0.014 m (recommended: at most 10 %)"
+    low = "the relief is 0.002 m high, 0.14 grains (recommended: at least 1)"
+    steep = "grains (recommended: at most 1); steep parts have slumped"
+    table.check("waves of one grain", bed(" washboard 0.014 0.001"), 0, f"WARNING: command bed: 100 % {fine}", f"WARNING: command bed: {low}")
+    table.check("steep walls", bed(" trapezoid 0 0.08 0.05 0.0501"), 0, steep)
+
+
 def own_scripts(furrow, table, beds):
     """Bed scripts of a user, whose parameters are those that they read."""
     with open(beds + "/sand.lig") as file:
@@ -192,6 +222,7 @@ def main(furrow, beds, *mpirun):
     gravity(furrow, table, beds)
     foreign(furrow, table, beds)
     refused(furrow, table, beds)
+    reliefs(furrow, table, beds)
     own_scripts(furrow, table, beds)
     kept(furrow, table, beds)
     table.end()

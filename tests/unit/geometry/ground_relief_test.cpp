@@ -71,6 +71,34 @@ TEST(GroundRelief, PeriodogramOfARandomProfileHasTheSpectrumOfIso8608) {
     EXPECT_NEAR(measured[k] / expected[k], 1.0, 0.25) << octaves[k];
 }
 
+/// The table of ISO 8608, in 1e-6 m^3.
+TEST(GroundRelief, RoadClassesHaveTheMeanDensitiesOfIso8608) {
+  const std::vector<std::pair<char, double>> table = {{'A', 16},    {'B', 64},    {'C', 256},
+                                                      {'D', 1024},  {'E', 4096},  {'F', 16384},
+                                                      {'G', 65536}, {'H', 262144}};
+  for (const auto& [letter, density] : table) {
+    EXPECT_DOUBLE_EQ(Roughness::mean_density(letter), 1e-6 * density);
+    const GroundRelief by_class = relief_of({"road_class", std::string(1, letter)}),
+                       by_density = relief_of({"roughness", std::to_string(density) + "e-6"});
+    EXPECT_FALSE(by_class.flat());
+    EXPECT_NEAR(by_class.height(1.7, 0.0), by_density.height(1.7, 0.0), 1e-12);
+  }
+}
+
+/// The integral of G(n0) (n/n0)^-2 from n1 to n2 is the mean square, G(n0) n0^2 (1/n1 - 1/n2).
+TEST(GroundRelief, RmsOfARoadClassIsThatOfItsSpectrumBetweenItsWavelengths) {
+  constexpr double n1 = 0.05, n2 = 2.0, n0 = 0.1, length = 4000.0, step = 0.1;
+  for (const auto& [letter, density] : {std::pair("A", 16e-6), std::pair("E", 4096e-6)}) {
+    const GroundRelief relief =
+        relief_of({"road_class", letter, "roughness_band", "0.05", "2", "roughness_seed", "5"});
+    double squares = 0.0;
+    for (int i = 0; i < static_cast<int>(length / step); ++i)
+      squares += std::pow(relief.height(i * step, 0.0), 2);
+    const double rms = std::sqrt(squares * step / length);
+    EXPECT_NEAR(rms, std::sqrt(density * n0 * n0 * (1.0 / n1 - 1.0 / n2)), 0.03 * rms) << letter;
+  }
+}
+
 TEST(GroundRelief, SeedAndPlaceAloneGiveTheHeight) {
   const std::vector<std::string> words = {"roughness", "1e-3", "roughness_seed", "7"};
   const GroundRelief one = relief_of(words), same = relief_of(words),
@@ -93,6 +121,9 @@ TEST(GroundRelief, ShapesThatCannotBeAreRefusedWithTheirKeyword) {
               HasSubstr("keyword 'roughness_band'"));
   EXPECT_THAT(refusal({"flat_until", "1"}), HasSubstr("keyword 'flat_until'"));
   EXPECT_THAT(refusal({"roughness_seed", "3"}), HasSubstr("without 'roughness'"));
+  EXPECT_THAT(refusal({"road_class", "C", "roughness", "1e-6"}),
+              HasSubstr("keyword 'road_class' is given with 'roughness'"));
+  EXPECT_THAT(refusal({"road_class", "c"}), HasSubstr("A, B, C, D, E, F, G, H"));
   EXPECT_THAT(refusal({"heightmap_origin", "0", "0", "0"}), HasSubstr("without 'heightmap'"));
 }
 

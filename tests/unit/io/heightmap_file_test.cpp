@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include "core/error.h"
 #include "scratch.h"
@@ -83,6 +84,33 @@ TEST_F(HeightmapFile, FaultyFilesAreRefusedWithTheirLine) {
   EXPECT_THAT(refusal(std::string("II*\0\x08\0\0\0", 8)), HasSubstr("gdal_translate -of AAIGrid"));
   EXPECT_THAT(error_of<InputError>([] { read_heightmap("nowhere.asc"); }),
               HasSubstr("does not exist"));
+}
+
+/// 49 million nodes would take 392 MB.
+TEST_F(HeightmapFile, ALargeHeaderOfAShortFileIsRefusedBeforeMemoryIsTaken) {
+  const std::string header = "xllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n";
+  const auto peak = [] {
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);  // [bytes]
+  };
+  const double before = peak();
+  EXPECT_THAT(refusal("ncols 7000\nnrows 7000\n" + header),
+              AllOf(HasSubstr("has 63 bytes"), HasSubstr("announces 49000000 heights")));
+  EXPECT_THAT(refusal("0 0 1\n7000 7000 1\n1 1 1\n"),
+              HasSubstr("has 3 points for 49014001 nodes of a regular grid"));
+  EXPECT_LT(peak() - before, 40e6);
+}
+
+/// A digit and a blank each: the shortest file that has all heights.
+TEST_F(HeightmapFile, TheShortestHeightsAreRead) {
+  const Heightmap map = read_heightmap(
+      write("nrows 1\nncols 70\nxllcorner 0\nyllcorner 0\ncellsize 1\n" + std::string("1") + [] {
+        std::string more;
+        for (int n = 1; n < 70; ++n) more += " 2";
+        return more;
+      }()));
+  EXPECT_EQ(map.heights.back(), 2.0);
 }
 
 }  // namespace
