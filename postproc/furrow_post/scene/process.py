@@ -17,6 +17,7 @@ from types import FrameType, TracebackType
 from typing import Any
 
 from ..errors import Interrupted, ResultsError
+from ..whole_file import replaced
 
 CHECKPOINT = "checkpoint.data"  # the last one that a signal made
 FORCED = "restart_forced_liggghts_*.data"  # as LIGGGHTS names it, where the run was started
@@ -190,10 +191,8 @@ def keep_checkpoint(start: Path, folder: Path, since: int) -> bool:
     new = sorted(pair for pair in found if pair[0] >= since)
     for _, file in new:
         particles = _move_particles(file, folder)
-        part = folder / f"{CHECKPOINT}.part"
-        part.unlink(missing_ok=True)  # perhaps a link
-        shutil.move(file, part)  # perhaps to another disk
-        part.replace(folder / CHECKPOINT)
+        with replaced(folder / CHECKPOINT) as part:
+            shutil.move(file, part)  # perhaps to another disk
         _remove_particles_but(particles, folder)
     return bool(new)
 

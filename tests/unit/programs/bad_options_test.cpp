@@ -1,40 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Wrong options of the command-line programs: each is refused with status 1 in one line that names
 // the option and what is allowed, before anything is computed.
-#include <gmock/gmock.h>
-#include <sys/wait.h>
-
-#include <cstdio>
 #include <sstream>
+
+#include <gmock/gmock.h>
 
 #include "../io/scratch.h"
 #include "io/history_file.h"
 #include "io/replace_file.h"
+#include "tests/support/program.h"
 
 namespace furrow {
 namespace {
 
+using test::Outcome;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-struct Outcome {
-  bool ended = false;  ///< by itself, not by a signal
-  int status = 0;
-  std::string text;  ///< standard output and error
-};
-
-Outcome run(const std::string& command) {
-  FILE* pipe = popen(("(" + command + ") 2>&1").c_str(), "r");
-  Outcome outcome;
-  char buffer[4096];
-  while (const std::size_t size = fread(buffer, 1, sizeof buffer, pipe))
-    outcome.text.append(buffer, size);
-  const int status = pclose(pipe);
-  outcome.ended = WIFEXITED(status) && WEXITSTATUS(status) < 128;  // a shell adds 128 to a signal
-  outcome.status = WEXITSTATUS(status);
-  return outcome;
-}
 
 struct Case {
   std::string arguments, message;
@@ -51,7 +33,7 @@ int messages(const std::string& text) {
 template <class Cases>
 void expect_refusals(const std::string& program, const Cases& cases) {
   for (const Case& bad : cases) {
-    const Outcome outcome = run(program + " " + bad.arguments);
+    const Outcome outcome = test::run_program(program + " " + bad.arguments);
     EXPECT_TRUE(outcome.ended) << bad.arguments << "\n" << outcome.text;
     EXPECT_EQ(outcome.status, 1) << bad.arguments;
     EXPECT_EQ(messages(outcome.text), 1) << bad.arguments << "\n" << outcome.text;
@@ -151,8 +133,8 @@ TEST(BadOptions, OfFurrowPoint) {
   write_text_file(scratch.path("p.yaml"),
                   "material: " + inputs +
                       "materials/compacted_sand_elastic.yaml\npath: {type: tension, strain: 19}\n");
-  const Outcome strained = furrow::run(FURROW_POINT " run --no-plot -o " + scratch.path("out") +
-                                       " " + scratch.path("p.yaml"));
+  const Outcome strained = test::run_program(FURROW_POINT " run --no-plot -o " +
+                                             scratch.path("out") + " " + scratch.path("p.yaml"));
   EXPECT_EQ(strained.status, 0);
   EXPECT_THAT(strained.text, HasSubstr("p.yaml: segment 1 comes to a logarithmic strain zz of 19"));
 }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The program furrow-point as a user runs it.
 
-#include <sys/wait.h>
-
-#include <cstdio>
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -14,26 +11,17 @@
 #include "io/point_file.h"
 #include "io/replace_file.h"
 #include "io/version.h"
+#include "tests/support/program.h"
 
 namespace furrow {
 namespace {
 
+using test::Outcome;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-struct Outcome {
-  int status;
-  std::string text;  ///< standard output and error
-};
-
 Outcome furrow_point(const std::string& arguments) {
-  FILE* pipe = popen((std::string(FURROW_POINT) + " " + arguments + " 2>&1").c_str(), "r");
-  Outcome outcome{-1, ""};
-  char buffer[4096];
-  while (const std::size_t size = fread(buffer, 1, sizeof buffer, pipe))
-    outcome.text.append(buffer, size);
-  outcome.status = WEXITSTATUS(pclose(pipe));
-  return outcome;
+  return test::run_program(std::string(FURROW_POINT) + " " + arguments);
 }
 
 const std::string points = std::string(FURROW_SOURCE_DIR) + "/inputs/points/";

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The program furrow-sidewall as a user runs it.
 
-#include <sys/wait.h>
-
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 #include <gmock/gmock.h>
@@ -14,32 +11,22 @@
 #include "io/hdf5_file.h"
 #include "io/replace_file.h"
 #include "io/tyre_file.h"
+#include "tests/support/program.h"
 
 namespace furrow {
 namespace {
 
+using test::Outcome;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-struct Outcome {
-  int status;
-  std::string text;  ///< standard output and error
-};
 
 const std::string tyres = std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/";
 
 class SidewallCommand : public ::testing::Test {
  protected:
   Outcome run(const std::string& arguments) {
-    const std::string command = "FURROW_CACHE=" + scratch_.path("cache") + " " + FURROW_SIDEWALL +
-                                " " + arguments + " 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");
-    Outcome outcome{-1, ""};
-    char buffer[4096];
-    while (const std::size_t size = fread(buffer, 1, sizeof buffer, pipe))
-      outcome.text.append(buffer, size);
-    outcome.status = WEXITSTATUS(pclose(pipe));
-    return outcome;
+    return test::run_program("FURROW_CACHE=" + scratch_.path("cache") + " " + FURROW_SIDEWALL +
+                             " " + arguments);
   }
   Scratch scratch_;
 };
