@@ -165,19 +165,19 @@ class Table:
         self.others: list[Row] = []
 
     def add(
-        self, test: str, quantity: str, unit: str, program: str, ours: tuple[float, float | None],
-        other: tuple[float, float | None],
+        self, test: str, quantity: str, unit: str, program: str, ours: tuple[float, float],
+        other: tuple[float, float],
     ) -> None:  # fmt: skip
-        """ours, other: value and standard error, None where it is not known."""
+        """ours, other: value and standard error."""
         key = {"test": test, "quantity": quantity, "unit": unit}
         relative = ours[0] / other[0] - 1
         self.ours.append({**key, **_cells(ours), "difference_percent": f"{100 * relative:.1f}"})
         self.others.append({**key, **_cells(other), "program": program})
 
 
-def _cells(pair: tuple[float, float | None]) -> dict[str, str]:
+def _cells(pair: tuple[float, float]) -> dict[str, str]:
     value, error = pair
-    return {"value": f"{value:.5g}", "error": "" if error is None else f"{error:.2g}"}
+    return {"value": f"{value:.5g}", "error": f"{error:.2g}"}
 
 
 def add_point(table: Table, runs: Runs, folder: Path) -> None:
@@ -222,11 +222,22 @@ def add_ground(table: Table, runs: Runs, folder: Path) -> dict[str, dict[float, 
             name = f"load at {1e3 * place:g} mm"
             test = f"plate, {law}"
             table.add(test, name, "N", "CalculiX", (ours.value, ours.error), (other.value, other.error))
-            if law == "elastic" and (soft := runs.one("elastic_25_soft")):
-                load = force_at(plate_curve(soft.folder), place)
-                name += ", default contact spring, 25 mm"
-                table.add(test, name, "N", "CalculiX", (load, None), (other.value, other.error))
     return curves
+
+
+def default_spring(runs: Runs) -> list[Row]:
+    """The load on the elastic layer with the contact's default spring, of each size of cells; error:
+    the distance from the value extrapolated to zero cell size, and the error of that."""
+    found = runs.done("elastic_*_soft")
+    sizes = [run.number("cell") for run in found]
+    loads = [force_at(plate_curve(run.folder), ELASTIC_SINKAGE) for run in found]
+    if len(found) < 3:
+        return []
+    series = grid_convergence(sizes, loads)
+    return [
+        {"run": run.name, "cell_mm": f"{1e3 * size:.3g}", "load_N": f"{load:.5g}", "error_N": f"{series.size_error(size):.2g}"}
+        for run, size, load in zip(found, sizes, loads)
+    ]  # fmt: skip
 
 
 def stresses(curve: Floats) -> dict[str, Floats]:
@@ -345,6 +356,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     grains = add_grains(table, runs)
     output.table("results.csv", table.ours)
     output.table("reference.csv", table.others)
+    output.table("spring.csv", default_spring(runs))
     if table.ours:
         draw(runs, ground, grains, output.path("curves.png"))
     return []
