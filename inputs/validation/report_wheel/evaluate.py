@@ -68,9 +68,7 @@ EFFECTS = {
     f"impulse{COARSE}": "cell_10",
     **{f"{run}{end}": f"{base}{end}" for run, base in IN_BOTH_CELLS.items() for end in ("", COARSE)},
 }
-FIELDS = (  # runs whose ground is looked into
-    "d_5", "d_10", "d_20", "d_30", *(f"{run}_cell_{size}" for run in ("d_5", "d_30") for size in (4, 10))
-)  # fmt: skip
+FIELDS = ("d_5", "d_10", "d_20", "d_30", f"d_5{COARSE}", f"d_30{COARSE}")  # runs whose ground is looked into
 
 Row = dict[str, Any]
 
