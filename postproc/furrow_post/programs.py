@@ -28,14 +28,17 @@ def inputs_folder() -> Path | None:
 
 
 def find_program(name: str) -> Path:
-    """In the build folder of the source tree, beside furrow-post, or on the PATH.
+    """In the build folder that FURROW_BUILD names, beside furrow-post, in the source tree's build
+    folder, or on the PATH: a program of one build finds the others of this build.
 
     @raises ResultsError where there is none
     """
     command = Path(sys.argv[0])
     folders = [command.absolute().parent, command.resolve().parent]
-    if source_tree() or "FURROW_BUILD" in os.environ:
-        folders.insert(0, Path(os.environ.get("FURROW_BUILD", TREE / "build")).resolve() / "bin")
+    if "FURROW_BUILD" in os.environ:
+        folders.insert(0, Path(os.environ["FURROW_BUILD"]).resolve() / "bin")
+    elif source_tree():
+        folders.append(TREE / "build" / "bin")
     for folder in folders:
         if (folder / name).is_file():
             return folder / name

@@ -30,7 +30,7 @@ def start(*words: object) -> "subprocess.CompletedProcess[str]":
 
 class DriversTest(unittest.TestCase):
     def test_there_are_all_studies(self) -> None:
-        self.assertEqual(len(DRIVERS) + len(DEFINED), 21)
+        self.assertEqual(len(DRIVERS) + len(DEFINED), 22)
 
     def test_help(self) -> None:
         for driver in (*DRIVERS, *TOOLS):
