@@ -8,10 +8,9 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 
-from furrow_post.analyse.evaluations import plate_curve
+from furrow_post.analyse.evaluations import whole_plate_curve
 from furrow_post.analyse.grid_convergence import grid_convergence
 from furrow_post.arrays import Floats
-from furrow_post.errors import ResultsError
 from furrow_post.figures.style import KILOPASCAL, MILLIMETRE, save, use_style
 from furrow_post.study.output import Output
 from furrow_post.study.runs import Run, Runs
@@ -24,14 +23,6 @@ SMOOTHED = 0.004  # [m] of the curves of the cone in the figure
 Row = dict[str, Any]
 
 
-def curve_of(run: Run) -> Floats:
-    """Columns step, sinkage, force, pressure. @raises ResultsError where there is none"""
-    curve = plate_curve(run.folder)
-    if not curve.size:
-        raise ResultsError(f"{run.folder}/curve.txt: has no rows; remove the folder and repeat")
-    return curve
-
-
 def resistance(curve: Floats, depth: float) -> float:
     """Pressure [Pa] on the base of the cone at a depth, of a straight line through its window."""
     near = np.abs(curve[:, 1] - depth) < WINDOW
@@ -39,7 +30,7 @@ def resistance(curve: Floats, depth: float) -> float:
 
 
 def numbers(run: Run) -> Row:
-    curve = curve_of(run)
+    curve = whole_plate_curve(run.folder)
     if run.case.stage == "plate":
         sinkage, pressure = MILLIMETRE * curve[:, 1], curve[:, 3]
         return {
@@ -112,7 +103,7 @@ def draw(runs: Runs, best: Sequence[Mapping[str, Any]], target: Path) -> None:
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), layout="constrained")
     for axes, stage in ((left, "plate"), (right, "cone")):
         for run in runs.done(stage):
-            curve = curve_of(run)
+            curve = whole_plate_curve(run.folder)
             style = "-" if is_of_series(run) else "--"
             shown = smooth(curve) if stage == "cone" else curve[:, [1, 3]]
             x, y = KILOPASCAL * shown[:, 1], MILLIMETRE * shown[:, 0]

@@ -8,12 +8,11 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 
-from furrow_post.analyse.evaluations import plate_curve
+from furrow_post.analyse.evaluations import whole_plate_curve
 from furrow_post.analyse.grid_convergence import grid_convergence
 from furrow_post.analyse.statistics import rms
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_numbers
-from furrow_post.errors import ResultsError
 from furrow_post.figures.style import save
 from furrow_post.read.terrain import Terrain, read_terrain_history
 from furrow_post.study.output import Output
@@ -31,17 +30,9 @@ MEASURED = np.array([REFERENCE[f"density_{n}"] for n in range(1, LAYERS + 1)])
 Row = dict[str, Any]
 
 
-def curve_of(run: Run) -> Floats:
-    """@raises ResultsError where there is none"""
-    curve = plate_curve(run.folder)
-    if not curve.size:
-        raise ResultsError(f"{run.folder}/curve.txt: has no rows; make the run again: remove its folder")
-    return curve
-
-
 def field_numbers(run: Run) -> Row:
     """The greatest force and where it is; rising: how much more the last 2 cm bring, per cm."""
-    curve = curve_of(run)
+    curve = whole_plate_curve(run.folder)
     sinkage, load = curve[:, 1], curve[:, 2]
     last = sinkage > sinkage[-1] - 0.02
     slope = np.polyfit(100 * sinkage[last], load[last], 1)[0] / load[last].mean()
@@ -68,7 +59,7 @@ def layers_of(snow: Terrain, plate: float) -> Floats:
 
 def laboratory_numbers(run: Run) -> Row:
     """The peak, densities below and next to the plate, and what slide and grid took."""
-    curve, snow = curve_of(run), Terrain.read(run.folder)
+    curve, snow = whole_plate_curve(run.folder), Terrain.read(run.folder)
     layers = layers_of(snow, snow.level - float(curve[:, 1].max()))
     r, before = (np.hypot(x[:, 0], x[:, 1]) for x in (snow.x, snow.initial_position))
     beside = (r > RADIUS + BESIDE[0]) & (r < RADIUS + BESIDE[1])
@@ -128,7 +119,7 @@ def draw(runs: Runs, target: Path) -> None:
     for run in runs.done(""):
         if run.number("cell") != COARSE:
             continue
-        curve, snow = curve_of(run), Terrain.read(run.folder)
+        curve, snow = whole_plate_curve(run.folder), Terrain.read(run.folder)
         left.plot(100 * curve[:, 1], curve[:, 2] / 1e3, lw=1.1, label=run.what)
         layers = layers_of(snow, snow.level - float(curve[:, 1].max()))
         right.plot(layers, heights, "o-", ms=3, lw=1.1, label=run.what)

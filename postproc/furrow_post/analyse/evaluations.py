@@ -48,6 +48,14 @@ def plate_curve(folder: Path) -> Floats:
     return curve if curve.size else np.empty((0, 4))
 
 
+def whole_plate_curve(folder: Path) -> Floats:
+    """As plate_curve. @raises ResultsError where there is none"""
+    curve = plate_curve(folder)
+    if not curve.size:
+        raise ResultsError(f"{folder}/curve.txt: has no rows; {AGAIN}")
+    return curve
+
+
 def wheel_means(wheel: Mapping[str, Floats], low: float, high: float) -> Floats:
     """(3) Hub drop [m], resistance coefficient, slip over a part of the travel, x [m] from its start."""
     x = wheel["x"] - wheel["x"][0]

@@ -240,7 +240,7 @@ def fit_law(parameters: Sequence[Parameter], curves: Sequence[Curve], model: Mod
     }
     fitted = residuals.curves_at(z)
     at_end = residuals.of(fitted)
-    judged = _judge(residuals, z, at_end)
+    judged = _judge(residuals, z, at_end, found.jac)
     return LawFit(
         start=start,
         fitted=fitted,
@@ -254,9 +254,9 @@ def fit_law(parameters: Sequence[Parameter], curves: Sequence[Curve], model: Mod
     )
 
 
-def _judge(residuals: _Residuals, z: Floats, at_end: Floats) -> dict[str, Any]:
+def _judge(residuals: _Residuals, z: Floats, at_end: Floats, slope: Floats) -> dict[str, Any]:
     """Uncertainties at the solution, and what the data leave open: members of LawFit."""
-    _, singular, directions = np.linalg.svd(residuals.slope(z), full_matrices=False)
+    _, singular, directions = np.linalg.svd(slope, full_matrices=False)
     names = [parameter.name for parameter in residuals.parameters]
     spare = len(at_end) - len(z)
     known = all(curve.deviation > 0 for curve in residuals.curves)
