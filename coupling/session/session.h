@@ -46,9 +46,10 @@ class Session : private Driver {
   /// Ends a run after its next step, with its results written, and skips the rest of the script.
   void end();
 
-  /// Of the step that is complete, also while a run pauses. @param path of a file to write
-  /// A run that continues from it makes neighbour lists, and so adds up the forces between grains
-  /// in another order than this one. @throws Error outside of a run
+  /// Writes the state after the last complete step. The run may be paused. A run that continues
+  /// from the file makes new neighbour lists, so it sums the forces of grains in another order.
+  /// @param path of the file to write
+  /// @throws Error outside of a run
   void write_checkpoint(const std::string& path);
 
   /// LIGGGHTS lives as long as any owner of this pointer. @throws Error after close()

@@ -22,7 +22,8 @@ struct BedFacts {
 /// As variables of the script.
 const Outputs<const BedFacts>& bed_outputs();
 
-/// Of the bed that stands in the box now. @param surface at which it was levelled. Collective.
+/// Measures the bed that stands in the box now. Collective.
+/// @param surface at which the bed was levelled
 BedFacts measure_bed(LAMMPS_NS::LAMMPS& lammps, const BedSurface& surface);
 
 }  // namespace furrow::coupling

@@ -18,9 +18,9 @@ inline constexpr double smallest_grain = 0.85;
 /// Of the bed, in mean diameters.
 inline constexpr double least_size = 2.0;
 
-/// Sizes against grains, memory, and time step, as far as the parameters have the names that the
-/// beds of inputs/beds have: length, width, depth, diameter, density, bulk, step; young and
-/// poisson, or stiffness and unloading, or modulus.
+/// Checks the size of the bed in grains, its memory and its time step. It knows the parameters of
+/// inputs/beds by name: length, width, depth, diameter, density, bulk and step. Elasticity is young
+/// and poisson, stiffness and unloading, or modulus. Parameters with other names are not checked.
 /// @throws InputError
 void check_bed_parameters(const Options& options);
 

@@ -1,22 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Files of furrow-point: a path to drive (inputs/points/*.yaml), or curves to fit.
-///
-///   title: Drained triaxial test on McCormick Ranch sand        material:
-///   ../materials/mccormick_sand.yaml path: { type: triaxial, confinement: 0.25e6, axial_strain:
-///   [0.1], steps: 200 }
-///
-/// A general path has `type: table` and `rows: [ {strain_zz: -0.1, stress_xx: -1e5}, ... ]`. A fit
-/// has, instead of `path`,
-///   parameters: [ {name: law.d, lower: 1e3, upper: 1e5}, ... ]
-///   curves:
-///     - title: oedometer
-///       data: ../validation/snow_oedometer/reference.csv
-///       path: { type: confined }
-///       drive: { stress: sigma1_Pa }       # the path's list of targets, from this column
-///       compare: { density: rho_kgm3 }     # a channel of the point with this column
-///       scale: log
-///       deviation: 0.03
+/// Files of furrow-point: a path to drive (inputs/points/*.yaml), or curves to fit
+/// (inputs/points/fit_*.yaml). programs/furrow_point.md has their keys and an example of each.
 
 #include <string>
 #include <vector>

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Results folder of furrow-point.
-///
-/// A run:  point.csv     every channel of every step
-///         point.h5      /point/<channel> with attributes unit, meaning; /point has title, law,
-///         material, path, version;
-///                       /yield_surface/<n>/p, q after the segment that is its attribute (0: the
-///                       start)
-///         material.yaml, run.yaml   the effective input: furrow-point run run.yaml repeats the run
+/// Results folder of furrow-point run:
+/// - point.csv: every channel at every step
+/// - point.h5: the same as /point/<channel>, with unit and meaning. /point has law and path.
+///   /yield_surface/<n> has p and q of the yield surface after a segment; its attribute names it.
+/// - material.yaml and run.yaml: the effective input. `furrow-point run run.yaml` repeats the run.
 
 #include <string>
 
