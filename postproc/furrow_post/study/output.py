@@ -108,11 +108,16 @@ class Output:
         page = (self.folder / PAGE).read_text(encoding="utf-8")
         self.path(PAGE).write_text(with_section(page, lines), encoding="utf-8")
 
+    def _joins(self, file: str, known: Mapping[str, Any]) -> bool:
+        """Whether a file may be put beside stored ones: a table by run, stored before or new."""
+        stored = self.folder / file
+        return file in known and by_run(stored) if stored.is_file() else by_run(self.path(file))
+
     def publish(self, records: Sequence[Record], root: Path) -> None:
         """Puts all files into the folder, with their provenance: they were made of these runs;
         root: of the project."""
         known = read_origins(self.folder) if self.merge else {}
-        files = [file for file in self.files if not self.merge or file in known and by_run(self.folder / file)]
+        files = [file for file in self.files if not self.merge or self._joins(file, known)]
         for file in files:
             shutil.move(Path(self._written.name) / file, self.folder / file)
         made = [origin(file, records, root) for file in files]

@@ -157,6 +157,13 @@ class StudyTest(unittest.TestCase):
         self.run_study("c1", "--merge", a1=1, b1=2, c1=3)  # a run that had no row
         self.assertEqual([row["run"] for row in read_rows(stored)], ["a1", "b1", "c1"])
 
+    def test_a_table_by_run_that_is_not_stored_yet_joins_the_others(self) -> None:
+        page = self.page.read_text()
+        self.run_study("a1", "--merge", a1=1, b1=2)
+        stored = read_rows(self.tree.study / "results.csv")
+        self.assertEqual(stored, [{"run": "a1", "value": "1.0"}])
+        self.assertEqual(self.page.read_text(), page)
+
     def test_missed_limit_counts_in_a_check_only(self) -> None:
         status, printed = self.run_study(low=0.5)
         self.assertEqual(status, 0)
