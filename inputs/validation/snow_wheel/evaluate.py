@@ -660,7 +660,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     staged = runs.ended("predict", "rows", "flowing", "slope", "spreading")
     output.table(
         "results.csv",
-        [{"stage": run.case.stage, "what": run.what, **found(run.name)} for run in staged],
+        [{"run": "", "stage": run.case.stage, "what": run.what, **found(run.name)} for run in staged],
     )
     measured = reference()
     table = [measured_row(found, row) for row in measured]

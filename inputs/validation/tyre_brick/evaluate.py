@@ -11,7 +11,7 @@ from typing import Any
 
 import matplotlib.pyplot as plt
 
-from furrow_post.analyse.evaluations import tyre_states
+from furrow_post.analyse.evaluations import cost_ratio, tyre_states
 from furrow_post.analyse.statistics import block_mean
 from furrow_post.csv_table import read_numbers, read_rows
 from furrow_post.figures.style import save
@@ -298,7 +298,7 @@ def rib_table(runs: Runs) -> list[Row]:
     """By how much the load leans the walls of ribs, below the axle."""
     found: list[Row] = []
     places: list[str] = []  # of the walls, at the first pressure
-    for run in runs.ended("treads/ribbed_*"):
+    for run in runs.ended("treads/ribbed*"):
         folder, pressure = run.folder, run.name.rpartition("_")[2]
         unloaded = below(folder / f"{pressure}kPa_0N.vtp")
         places = places or [f"{100 * unloaded[wall.top][0]:.1f}" for wall in walls(unloaded)]
@@ -308,7 +308,7 @@ def rib_table(runs: Runs) -> list[Row]:
             if not file.is_file():
                 continue
             loaded = below(file)
-            row: Row = {"pressure_kPa": int(pressure), "load_N": load}
+            row: Row = {"run": run.name, "pressure_kPa": int(pressure), "load_N": load}
             for place, wall in zip(places, walls(unloaded), strict=True):
                 lean = wall.lean(loaded) - wall.lean(unloaded)
                 row[f"lean_at_{place}_cm_deg"] = round(lean, 1)
@@ -414,6 +414,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
         ("ribs.csv", rib_table(runs)),
         ("profiles.csv", profiles),
         ("rolling.csv", [rolling_row(run) for run in runs.done("rolling")]),
+        ("timing.csv", cost_ratio(runs, "timing/ribbed", "timing/smooth")),
         ("costs.csv", [{"run": run.name, "user_s": run.seconds} for run in runs.ended("*")]),
     ):
         output.table(name, rows)

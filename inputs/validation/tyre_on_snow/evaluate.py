@@ -26,7 +26,8 @@ WINDOW = 0.7  # [m] of travel before the end, over which is averaged: a third of
 LOW_PRESSURE, LOAD = 69, 5000  # [kPa], [N]
 HALF_TREAD = 0.0785  # [m] of its width
 ACROSS_HALF = 3  # elements across half the tread
-NODE_STEP = 2 * math.pi * 0.3475 / 72  # [m] between the tread's nodes along the travel
+AROUND_TREAD = 72  # elements around
+NODE_STEP = 2 * math.pi * 0.3475 / AROUND_TREAD  # [m] between the tread's nodes along the travel
 LOADED = 0.05  # of the inflation: what a place of the contact bears at least that has not lifted
 
 
@@ -96,18 +97,24 @@ def deflections(
 Lines = Sequence[Floats]  # of the pressures [Pa] in a contact, along the travel, a step apart
 
 
-def lines_of_plane(folder: Path) -> Lines:
-    """At the nodes of the tread, none where a node does not touch."""
+def lines_of_plane(folder: Path, finer: int = 1) -> Lines:
+    """At the nodes of the tread, none where a node does not touch.
+
+    finer: so many times as many elements both ways; a line then has its nodes at every NODE_STEP,
+    from each of its first nodes on.
+    """
     file = folder / f"{LOW_PRESSURE}kPa_{LOAD}N_pressure.csv"
     nodes = read_numbers(file)
     x, y, pressure = (np.array([n[key] for n in nodes]) for key in ("x_m", "y_m", "pressure_Pa"))
-    index, line = np.round(x / NODE_STEP).astype(int), np.round(y / HALF_TREAD * ACROSS_HALF)
+    step, across = NODE_STEP / finer, finer * ACROSS_HALF
+    index, line = np.round(x / step).astype(int), np.round(y / HALF_TREAD * across)
     lines = []
     for number in np.unique(line):
         mine = line == number
         places = index[mine] - index[mine].min()
-        lines.append(np.zeros(places.max() + 1))
-        lines[-1][places] = pressure[mine]
+        whole = np.zeros(places.max() + 1)
+        whole[places] = pressure[mine]
+        lines += [whole[start::finer] for start in range(finer)]
     return lines
 
 
@@ -141,7 +148,11 @@ def unevenness(lines: Lines) -> tuple[float, float]:
 
 
 def lift_row(run: Run) -> dict[str, object]:
-    lines = lines_of_plane(run.folder) if run.name == "lift_plane" else lines_of_snow(run.folder)
+    if run.case.program == "furrow-tyre":
+        words = [str(word) for word in run.case.arguments]
+        lines = lines_of_plane(run.folder, int(words[words.index("--mesh") + 2]) // AROUND_TREAD)
+    else:
+        lines = lines_of_snow(run.folder)
     lifted, alternation = unevenness(lines)
     return {
         "run": run.name,

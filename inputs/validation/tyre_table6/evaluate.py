@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from furrow_post.analyse.evaluations import tyre_states
+from furrow_post.analyse.evaluations import cost_ratio, tyre_states
 from furrow_post.analyse.statistics import block_mean, rms
 from furrow_post.csv_table import read_numbers, read_rows
 from furrow_post.read.results import Results
@@ -125,12 +125,13 @@ def stress_table(runs: Runs) -> list[dict[str, object]]:
     return found
 
 
-def inflated_table(states: Sequence[dict[str, float]]) -> list[dict[str, object]]:
+def inflated_table(run: Run) -> list[dict[str, object]]:
     """Size of the tyre without load, of cords and belts, without the rubber outside of them;
     growth from the lowest pressure on."""
-    unloaded = [row for row in states if row["load_N"] == 0]
+    unloaded = [row for row in tyre_states(run.folder) if row["load_N"] == 0]
     return [
         {
+            "run": run.name,
             "pressure_kPa": row["pressure_kPa"],
             "diameter_cm": round(2 * row["crown_radius_cm"], 3),
             "growth": round(row["crown_radius_cm"] / unloaded[0]["crown_radius_cm"] - 1, 5),
@@ -187,7 +188,9 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     ]
     output.table("hard_cases.csv", hard)
     output.table("identification.csv", [identification_row(run) for run in runs.ended("identification")])
-    output.table("inflated.csv", inflated_table(of_table6))
+    inflated = [row for run in runs.ended("table6", "meshes/*_half") for row in inflated_table(run)]
+    output.table("inflated.csv", inflated)
+    output.table("timing.csv", cost_ratio(runs, "timing/whole", "timing/half"))
     output.table("rolling.csv", [rolling_row(run) for run in runs.done("rolling")])
     output.table("costs.csv", [{"run": run.name, "user_s": run.seconds} for run in runs.ended("*")])
     return list(missed_goals(table))

@@ -2,6 +2,7 @@
 """What studies take from the folder of one run: ends of paths, tyre states, curves, steady means."""
 
 import csv
+import math
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from ..arrays import Floats
 from ..csv_table import read_matrix, read_numbers
 from ..errors import ResultsError, content_of
 from ..study.launch import SCREEN
+from ..study.runs import Runs
 
 AGAIN = "make the run again: remove its folder"
 
@@ -83,3 +85,23 @@ def watched_mean(folder: Path, column: int, columns: int, since: float, step: fl
     """Mean of a column of watch.txt from a time [s] on; step: of the run [s]."""
     watch = read_matrix(folder / "watch.txt", columns)
     return float(watch[watch[:, 0] * step > since, column].mean())
+
+
+def cost_ratio(runs: Runs, dear: str, cheap: str) -> list[dict[str, object]]:
+    """Mean core seconds of the repeated runs dear_1, dear_2, ... over those of cheap_1, ..., with the
+    standard error of the ratio from the scatter of the repeats; no row for fewer than two of each."""
+    seconds = [np.array([run.record.cpu_time for run in runs.done(f"{name}_*")]) for name in (dear, cheap)]
+    if min(map(len, seconds)) < 2:
+        return []
+    means = [times.mean() for times in seconds]
+    parts = [times.std(ddof=1) / math.sqrt(len(times)) / mean for times, mean in zip(seconds, means)]
+    ratio = float(means[0] / means[1])
+    return [
+        {
+            "run": dear,
+            "of": cheap,
+            "repeats": len(seconds[0]),
+            "ratio": round(ratio, 3),
+            "ratio_error": round(ratio * math.hypot(*parts), 3),
+        }
+    ]

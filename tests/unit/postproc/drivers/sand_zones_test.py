@@ -58,5 +58,20 @@ class ZonesTest(FolderTest):
         self.assertNotIn("backward_at_mm", still)
 
 
+class InstantsTest(unittest.TestCase):
+    def test_deviation_is_that_of_one_instant(self) -> None:
+        rows = [
+            {"run": f"run_{n}", "depth_mm": depth, **dict.fromkeys(zones.SCATTERED, depth + n)}
+            for n in (0, 1, 2)
+            for depth in (47, 84)
+        ]
+        first, second = zones.instants(rows)
+        self.assertEqual((first["depth_mm"], second["depth_mm"]), (47, 84))
+        self.assertEqual((first["shear_ahead_mm"], second["shear_ahead_mm"]), (48.0, 85.0))
+        self.assertEqual(first["shear_ahead_mm_deviation"], 1.0)
+        (single,) = zones.instants(rows[:1])
+        self.assertNotIn("shear_ahead_mm_deviation", single)
+
+
 if __name__ == "__main__":
     unittest.main()

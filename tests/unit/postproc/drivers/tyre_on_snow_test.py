@@ -41,6 +41,16 @@ class LinesTest(FolderTest):
         np.testing.assert_allclose(first, [1e4, 2e4, 3e4])
         np.testing.assert_allclose(second, [5e4, 0.0, 5e4])
 
+    def test_a_finer_line_gives_lines_of_the_same_step(self) -> None:
+        step = run.NODE_STEP / 2
+        rows = [(k * step, 0.0, 1e4 * (k + 1)) for k in range(6)]
+        file = self.folder / f"{run.LOW_PRESSURE}kPa_{run.LOAD}N_pressure.csv"
+        text = "".join(f"{x},{y},{p},0.0001\n" for x, y, p in rows)
+        file.write_text("x_m,y_m,pressure_Pa,area_m2\n" + text, encoding="utf-8")
+        even, odd = run.lines_of_plane(self.folder, 2)
+        np.testing.assert_allclose(even, [1e4, 3e4, 5e4])
+        np.testing.assert_allclose(odd, [2e4, 4e4, 6e4])
+
     def write_snow(self, pressure: float) -> None:
         """Two layers; the upper one bears the pressure within 20 cm, and none elsewhere."""
         axes = np.arange(-0.4, 0.4, 0.0125), (0.006, 0.05, 0.1), (0.18, 0.19)
