@@ -56,10 +56,10 @@ def merged(path: Path, rows: Sequence[Mapping[str, Any]]) -> Sequence[Mapping[st
     fresh: dict[str, list[Mapping[str, Any]]] = {}
     for row in rows:
         fresh.setdefault(str(row[key]), []).append(row)
-    found: list[Mapping[str, Any]] = []
+    kept: dict[str, list[Mapping[str, Any]]] = {}
     for old in stored:
-        found += fresh.pop(old[key], []) if old[key] in fresh else [old]
-    return [*found, *(row for group in fresh.values() for row in group)]
+        kept.setdefault(old[key], []).append(old)
+    return [row for group in {**kept, **fresh}.values() for row in group]
 
 
 class Output:
@@ -95,9 +95,11 @@ class Output:
         """Prints a table and writes it; nothing for no rows."""
         if rows:
             print(aligned(rows), end="\n\n")
-            if self.merge:
-                rows = merged(self.folder / name, rows)
-            write_rows(self.path(name), rows, comments)
+            write_rows(self.path(name), self.known(name, rows), comments)
+
+    def known(self, name: str, rows: Sequence[Mapping[str, Any]]) -> Sequence[Mapping[str, Any]]:
+        """What table() writes of these rows: with merge, stored rows of other runs too."""
+        return merged(self.folder / name, rows) if self.merge else rows
 
     def section(self, lines: Sequence[str]) -> None:
         """Writes the generated part of the study's page."""

@@ -12,7 +12,7 @@ from pathlib import Path
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.study.case import Case
-from furrow_post.study.output import Output
+from furrow_post.study.output import Output, merged
 from furrow_post.study.runner import Runner
 from furrow_post.study.study import Study, run_study
 from support.fake import FakeTree
@@ -156,6 +156,13 @@ class StudyTest(unittest.TestCase):
         self.assertEqual(self.page.read_text(), page)
         self.run_study("c1", "--merge", a1=1, b1=2, c1=3)  # a run that had no row
         self.assertEqual([row["run"] for row in read_rows(stored)], ["a1", "b1", "c1"])
+
+    def test_all_rows_of_a_run_are_replaced(self) -> None:
+        table = self.tree.study / "modes.csv"
+        table.write_text("run,mode\na1,1\na1,2\nb1,1\nb1,2\n")
+        fresh = [{"run": "c1", "mode": 1}, {"run": "a1", "mode": 3}]
+        found = [(row["run"], str(row["mode"])) for row in merged(table, fresh)]
+        self.assertEqual(found, [("a1", "3"), ("b1", "1"), ("b1", "2"), ("c1", "1")])
 
     def test_a_table_by_run_that_is_not_stored_yet_joins_the_others(self) -> None:
         page = self.page.read_text()
