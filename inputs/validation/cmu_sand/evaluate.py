@@ -313,20 +313,35 @@ def accuracy_of_wheel(rows: Sequence[Row]) -> dict[str, float]:
     }
 
 
-def finer_grains(rows: Sequence[Row], checks: Sequence[Row]) -> dict[str, float]:
-    """Accuracy of the smooth wheel on grains of 8 mm, and on those of 10 mm at the same slips."""
+def sized_wheels(rows: Sequence[Row], checks: Sequence[Row]) -> Iterator[tuple[str, str, int, list[Row]]]:
+    """Case, what it is, grain size [mm] and rows: both wheels on grains of 10 mm, and the smooth one
+    on grains of 8 mm and of 10 mm at the same slips."""
+    for kind in WHEELS:
+        yield f"{kind}_10", f"{kind} wheel", 10, [row for row in rows if row["wheel"] == kind]
     finer = [row for row in checks if row["run"].startswith("check_grain_8")]
-    if not finer:
-        return {}
     slips = [row["slip"] for row in finer]
     same = [row for row in rows if row["wheel"] == "smooth" and row["slip"] in slips]
-    reached = {}
-    for size, mine in (("8", finer), ("10", same)):
-        values = accuracy_of_wheel(mine)
-        label = f"smooth wheel, {len(slips)} slips with grains of {size} mm"
-        for what in ("rms of Fx/Fz", "rms of sinkage/r"):
-            reached[f"{label}: {what}"] = values[what]
-    return reached
+    for size, mine in ((8, finer), (10, same)):
+        what = f"smooth wheel, {len(slips)} slips with grains of {size} mm"
+        yield f"smooth_{size}_slips_of_8", what, size, mine
+
+
+def accuracy_of_wheels(rows: Sequence[Row], checks: Sequence[Row]) -> list[Row]:
+    """A row for each of sized_wheels that was run."""
+    return [
+        {
+            "case": case,
+            "what": what,
+            "grain_mm": size,
+            "slips": len(mine),
+            **{
+                column: round(accuracy_of_wheel(mine)[f"rms of {quantity}"], 3)
+                for column, quantity in (("rms_fx_over_fz", "Fx/Fz"), ("rms_sinkage_over_r", "sinkage/r"))
+            },
+        }
+        for case, what, size, mine in sized_wheels(rows, checks)
+        if mine
+    ]
 
 
 def draw_comparison(runs: Runs, path: Path, surface: float, rows: Sequence[Row]) -> None:
@@ -400,7 +415,7 @@ def draw_computed_wheels(
 
 
 def of_wheels(runs: Runs, output: Output) -> Iterator[str]:
-    """Writes calibration.csv, results.csv, checks.csv, comparison.png; missed limits."""
+    """Writes calibration.csv, results.csv, checks.csv, wheels.csv, comparison.png; missed limits."""
     calibration = calibration_table(runs)
     output.table("calibration.csv", calibration)
     chosen = next((row for row in calibration if row["candidate"] == CHOSEN), None)
@@ -413,12 +428,10 @@ def of_wheels(runs: Runs, output: Output) -> Iterator[str]:
     output.table("checks.csv", checks)
     draw_comparison(runs, output.path("comparison.png"), surface, rows)
     reached = {"plates: rms of ln(force)": chosen["rms_ln_force"]}
-    for kind in WHEELS:
-        mine = [row for row in rows if row["wheel"] == kind]
-        if mine:
-            found = accuracy_of_wheel(mine)
-            reached |= {f"{kind} wheel: {what}": value for what, value in found.items()}
-    reached |= finer_grains(rows, checks)
+    output.table("wheels.csv", accuracy_of_wheels(rows, checks))
+    for _, label, _, mine in sized_wheels(rows, checks):
+        found = accuracy_of_wheel(mine) if mine else {}
+        reached |= {f"{label}: {what}": value for what, value in found.items()}
     floor = homogeneous_floor()
     print(f"least rms of ln(force) of any dry frictional half-space on these plates: {floor:.3f}")
     for name, value in reached.items():

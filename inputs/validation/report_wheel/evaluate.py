@@ -17,7 +17,7 @@ below.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fnmatch import fnmatch
 from pathlib import Path
 from typing import Any
@@ -66,6 +66,8 @@ EFFECTS = {
     f"soft{COARSE}": "cell_10",
     "impulse": "base",
     f"impulse{COARSE}": "cell_10",
+    "slip_free_impulse": "slip_free",
+    "slip_free_d5_impulse": "slip_free_d5",
     **{f"{run}{end}": f"{base}{end}" for run, base in IN_BOTH_CELLS.items() for end in ("", COARSE)},
 }
 FIELDS = ("d_5", "d_10", "d_20", "d_30", f"d_5{COARSE}", f"d_30{COARSE}")  # runs whose ground is looked into
@@ -236,7 +238,7 @@ def draw_depths(rows: Sequence[Row], path: Path) -> None:
     save(figure, path, dpi=90)
 
 
-def effects(rows: Sequence[Row]) -> list[Row]:
+def effects(rows: Sequence[Mapping[str, Any]]) -> list[Row]:
     """How far sinkage and resistance move with absorbing faces, with friction [%], and the error of
     their averages over time."""
     found = {row["run"]: row for row in rows if not row["error"]}
@@ -247,7 +249,7 @@ def effects(rows: Sequence[Row]) -> list[Row]:
     ]
 
 
-def _change(run: Row, base: Row) -> Row:
+def _change(run: Mapping[str, Any], base: Mapping[str, Any]) -> Row:
     change: Row = {}
     for quantity, key, error in (
         ("sinkage", "sinkage_m", "sinkage_change_m"),
@@ -270,7 +272,7 @@ def nrmm_table() -> Iterator[Row]:
 def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     rows = [row_of(run) for run in runs.ended("*")]
     output.table("results.csv", rows)
-    output.table("effects.csv", effects(rows))
+    output.table("effects.csv", effects(output.known("results.csv", rows)))
     output.table("closed_form.csv", closed_form_table())
     output.table("nrmm.csv", list(nrmm_table()))
     ground = [{"run": run.name, "what": run.what, **numbers(run.folder)} for run in runs.done(*FIELDS)]

@@ -18,7 +18,7 @@ from furrow_post.analyse.grid_convergence import Convergence, grid_convergence
 from furrow_post.analyse.rut import bow_wave, rut_densities, rut_depth, share_left
 from furrow_post.analyse.statistics import rms
 from furrow_post.arrays import Floats
-from furrow_post.csv_table import read_matrix, read_numbers
+from furrow_post.csv_table import read_matrix, read_numbers, read_rows
 from furrow_post.figures.style import save
 from furrow_post.figures.terrain import draw_terrain
 from furrow_post.read.results import Results
@@ -553,6 +553,91 @@ def draw_comparison(table: Sequence[Row], path: Path) -> None:
     save(figure, path, dpi=90)
 
 
+# ---- what the cells take
+
+CELL_SERIES = {  # runs that differ in the cells alone, the coarsest first
+    "hub reading, 0.20 m": (
+        "error_cell_5cm", ERROR_BASE, "error_cell_3.3cm", "error_cell_2.5cm",
+    ),
+    "rut reading, 0.20 m": (
+        "m_1.1_220_20cm", "m_1.1_220_20cm_fine", "m_1.1_220_20cm_3.3cm", "m_1.1_220_20cm_2.5cm",
+    ),
+    "rut reading, 0.38 m": ("m_1.1_160_38cm", "m_1.1_160_38cm_3.8cm"),
+}  # fmt: skip
+SCALED = "rut reading, 0.20 m"  # the series whose change is applied to all rows of the rut reading
+CELL_COLUMNS = ("sinkage_m", "rut_depth_m", "resistance", "numerical", "density_under", "user_s")
+
+
+def cell_table(cells: Mapping[str, float], known: Mapping[str, Mapping[str, Any]]) -> list[Row]:
+    """Of CELL_SERIES. cells: size [m] of each run; known: rows of results.csv and error.csv by run.
+
+    without_loss: resistance less what grid resets take, both over the load.
+    """
+    return [
+        {
+            "case": f"{name}, {100 * cells[run]:.3g} cm",
+            "cell_m": round(cells[run], 4),
+            **{column: float(known[run][column]) for column in CELL_COLUMNS},
+            "loss_share": round(float(known[run]["numerical"]) / float(known[run]["resistance"]), 3),
+            "without_loss": round(float(known[run]["resistance"]) - float(known[run]["numerical"]), 4),
+        }
+        for name, runs in CELL_SERIES.items()
+        for run in runs
+        if run in known and not known[run]["error"]
+    ]
+
+
+def numerical_table(table: Sequence[Row], known: Mapping[str, Mapping[str, Any]]) -> list[Row]:
+    """Accuracy of the rut reading as run, with the grid's loss subtracted row by row, and with rut
+    and resistance scaled as in the finest cells of SCALED.
+
+    table: rows of rows.csv; known: those of results.csv by run
+    """
+    series = [known[run] for run in CELL_SERIES[SCALED] if run in known]
+    if len(series) < 2 or any(row["spreading_rut_depth_m"] == "" for row in table):
+        return []
+    rut, c = (float(series[-1][k]) / float(series[0][k]) for k in ("rut_depth_m", "resistance"))
+
+    def loss(row: Row) -> float:
+        run = known[f"m_1.1_{float(row['density_kgm3']):.0f}_{100 * float(row['depth_m']):.0f}cm"]
+        return float(run["numerical"])
+
+    cases: dict[str, Callable[[Row], tuple[float, float]]] = {
+        "as run": lambda row: (row["spreading_rut_depth_m"], row["spreading_resistance"]),
+        "loss subtracted": lambda row: (
+            row["spreading_rut_depth_m"], row["spreading_resistance"] - loss(row)
+        ),
+        "finest cells": lambda row: (
+            rut * row["spreading_rut_depth_m"], c * row["spreading_resistance"]
+        ),
+    }  # fmt: skip
+    found = []
+    for used in ("prediction", "all"):
+        rows = [row for row in table if ROWS[used](row)]
+        shares = [loss(row) / row["spreading_resistance"] for row in rows]
+        for case, values in cases.items():
+            wrong = np.array([values(row) for row in rows])
+            wrong -= np.array([(row["sinkage_m"], row["resistance"]) for row in rows])
+            found.append(
+                {
+                    "case": f"{case}, {used}: {len(rows)}",
+                    "rut_m_rms": round(rms(wrong[:, 0]), 4),
+                    "rut_m_mean": round(float(wrong[:, 0].mean()), 4),
+                    "resistance_rms": round(rms(wrong[:, 1]), 4),
+                    "resistance_mean": round(float(wrong[:, 1].mean()), 4),
+                    "least_loss_share": round(min(shares), 3),
+                    "greatest_loss_share": round(max(shares), 3),
+                }
+            )
+    return found
+
+
+def stored_table() -> list[Row]:
+    """Rows of the rows.csv that is stored, where runs are only merged into other tables."""
+    rows = read_rows(Path(__file__).resolve().parent / "rows.csv")
+    return [{k: v if k == "used" else float(v) for k, v in row.items()} for row in rows]
+
+
 # ---- errors of one choice, designs, passes
 
 
@@ -584,6 +669,11 @@ def grid_series(table: Sequence[Row]) -> list[Row]:
     """Rows that differ in the cells alone: the base, and other sizes."""
     sound = [r for r in table if not r["error"]]
     return [r for r in sound if r["cell_m"] != 0.04 or r is table[0]]
+
+
+def of_errors(output: Output, changes: Sequence[Row]) -> Sequence[Mapping[str, Any]]:
+    """Rows of error.csv, those of the stored one where runs are only merged into other tables."""
+    return read_rows(output.folder / "error.csv") if output.merge else changes
 
 
 def draw_errors(table: Sequence[Row], limits: Mapping[str, Convergence], path: Path) -> None:
@@ -658,10 +748,8 @@ def pass_table(run: Run) -> Iterator[Row]:
 def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     found = Found(runs)
     staged = runs.ended("predict", "rows", "flowing", "slope", "spreading")
-    output.table(
-        "results.csv",
-        [{"run": "", "stage": run.case.stage, "what": run.what, **found(run.name)} for run in staged],
-    )
+    results = [{"run": "", "stage": run.case.stage, "what": run.what, **found(run.name)} for run in staged]
+    output.table("results.csv", results)
     measured = reference()
     table = [measured_row(found, row) for row in measured]
     output.table("rows.csv", table)
@@ -677,6 +765,10 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     output.table("mass_balance.csv", mass_table(choices))
     changes, limits = error_table(found)
     output.table("error.csv", changes)
+    known = {row["run"]: row for row in (*of_errors(output, changes), *output.known("results.csv", results))}
+    cells = {case.name: float(str(case.variables["cell"])) for case in runs.cases}
+    output.table("cells.csv", cell_table(cells, known))
+    output.table("numerical.csv", numerical_table(stored_table() if output.merge else table, known))
     for what, series in limits.items():
         way = series.reason or f"extrapolated, order {series.order:.2f}"
         print(f"{what}: best estimate {series.value:.4f} ± {series.error:.4f} ({way})")

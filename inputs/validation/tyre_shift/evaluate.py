@@ -106,7 +106,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     output.table("results.csv", [row_of(run) for run in runs.done("plane", "snow")])
     frequencies = [
         {"run": run.name, "mode": kind, "frequency_Hz": round(frequency, 1)}
-        for run in runs.done("plane")
+        for run in runs.done("plane", "finer")
         for kind, frequency in modes(run.folder).items()
     ]
     output.table("modes.csv", frequencies)

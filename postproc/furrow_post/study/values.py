@@ -21,7 +21,9 @@ DEFINITION = "study.yaml"
 RESULTS = "results.csv"  # table of a value that names none
 LABELS = ("fitted", "known", "blind")
 REFERENCES = ("measured", "report", "formula", "ours", "program")  # who gives the reference
-SOURCES = ("time average", "cells", "domain", "packings", "parameters", "contact", "tests", "none")  # of errors
+SOURCES = (  # of errors
+    "time average", "cells", "grain size", "domain", "packings", "parameters", "contact", "tests", "none",
+)  # fmt: skip
 NOT_ESTIMATED = "not estimated"
 AGREES, NEAR = 0.10, 0.25  # relative differences
 COVERAGE = 2.0  # standard errors within which values may differ

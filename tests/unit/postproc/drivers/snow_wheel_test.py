@@ -253,6 +253,42 @@ class IdentifyTest(unittest.TestCase):
             self.assertAlmostEqual(best[name] / stress, 1.0, delta=0.15, msg=name)
 
 
+class CellsTest(unittest.TestCase):
+    """A rut that grows and a resistance that falls with finer cells, the grid's loss a tenth of it."""
+
+    def run_row(self, rut: float, resistance: float) -> dict[str, Any]:
+        names = {**dict.fromkeys(study.CELL_COLUMNS, 1.0), "rut_depth_m": rut}
+        return {**names, "resistance": resistance, "numerical": 0.1 * resistance, "error": ""}
+
+    def known(self) -> dict[str, dict[str, Any]]:
+        coarse, _, fine, _ = study.CELL_SERIES[study.SCALED]
+        return {coarse: self.run_row(0.15, 0.08), fine: self.run_row(0.165, 0.06)}
+
+    def test_the_loss_is_a_share_of_the_resistance(self) -> None:
+        known = self.known()
+        first, second = study.cell_table(dict.fromkeys(known, 0.05), known)
+        self.assertEqual((first["loss_share"], second["without_loss"]), (0.1, 0.054))
+        self.assertEqual(first["case"], f"{study.SCALED}, 5 cm")
+
+    def test_all_rows_change_as_the_series_does(self) -> None:
+        """Rut times 1.1 and resistance times 3/4 meet the test; the loss explains a part of it."""
+        row: dict[str, Any] = {"used": "prediction", "depth_m": 0.2, "density_kgm3": 220.0}
+        row |= {"sinkage_m": 0.165, "resistance": 0.06}
+        row |= {"spreading_rut_depth_m": 0.15, "spreading_resistance": 0.08}
+        found = {line["case"]: line for line in study.numerical_table([row], self.known())}
+        as_run, less, fine = (
+            found[f"{case}, prediction: 1"] for case in ("as run", "loss subtracted", "finest cells")
+        )
+        self.assertEqual((as_run["rut_m_mean"], as_run["resistance_mean"]), (-0.015, 0.02))
+        self.assertEqual((less["rut_m_rms"], less["resistance_rms"]), (0.015, 0.012))
+        self.assertEqual((fine["rut_m_rms"], fine["resistance_rms"]), (0.0, 0.0))
+        self.assertEqual(as_run["greatest_loss_share"], 0.1)
+
+    def test_one_size_says_nothing_about_others(self) -> None:
+        coarse = study.CELL_SERIES[study.SCALED][0]
+        self.assertEqual(study.numerical_table([], {coarse: self.run_row(0.15, 0.08)}), [])
+
+
 class AccuracyTest(unittest.TestCase):
     def test_rms_and_mean_over_the_rows_that_were_run(self) -> None:
         table = [
