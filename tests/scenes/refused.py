@@ -65,7 +65,7 @@ REFUSED = (
     ([SCENE, "--sweep", "slip=a:b:3"], "'a:b:3' is no range FIRST:LAST:COUNT"),
     ([SCENE, "--sweep", "slip=nan"], "nan is no finite number"),
     ([SCENE, "--sweep", "slip=0,-inf"], "-inf is no finite number"),
-    ([SCENE, "--sweep", "material=../materials/fresh_snow.yaml,x.yaml"], "material: there is no file x.yaml"),
+    ([SCENE, "--sweep", "material=../materials/fresh_snow_cam_clay.yaml,x.yaml"], "material: there is no file x.yaml"),
     ([SCENE, "-v", "material", "../materials/snwo.yaml"], "-v material: there is no file ../materials/snwo.yaml"),
     ([SCENE, "--sweep", "cell=0.1,0.2", "--measured", __file__], "refused.py: "),
     ([SCENE, "--sweep", "cell=0.1,0.2", "--measured", NOT_MEASURED], "is no table of measured points"),

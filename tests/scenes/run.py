@@ -242,6 +242,8 @@ def check_common_variables(script):
             sys.exit(f"{script}: '{name}' is no variable that its lines read")
         if name != "gravity" and not (script.parent / defaults[name]).is_file():
             sys.exit(f"{script}: the default of '{name}', {defaults[name]}, is no file")
+        if "/variants/" in defaults[name]:
+            sys.exit(f"{script}: the default of '{name}', {defaults[name]}, is a variant for studies")
     continuation(script, "checkpoint")
 
 

@@ -16,7 +16,7 @@ OEDOMETER_SNOW = [("material", "../materials/fresh_snow_cam_clay.yaml")]
 RUNS: dict[str, tuple[str, Variables, Variables]] = {
     "tyre": ("tyre_on_snow", [("distance", "3")], []),
     "tyre_predicted": ("tyre_on_snow", [("distance", "3")], OEDOMETER_SNOW),
-    "continuum": ("wheel_on_snow", [("cell", "0.04"), ("distance", "3.5"), *OEDOMETER_SNOW], []),
+    "continuum": ("wheel_on_snow", [("cell", "0.04"), ("distance", "3.5")], []),
     "grains": ("wheel_on_sintered_snow", [("diameter", "0.04"), ("window", "1"), ("travel", "4.5")], []),
 }
 LABELS = {"tyre_predicted": "prediction"}  # of lines on the screen
