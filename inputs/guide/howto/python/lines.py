@@ -15,7 +15,7 @@ create_box   1 box
 neighbor     0.05 bin
 timestep     2e-4
 fix wheel all wheel/rigid diameter 0.3 width 0.1 mass 5 inertia 0.06 axle 0 0 0.28
-fix soil  all terrain/continuum material inputs/materials/fresh_snow.yaml length 0.8 width 0.32 &
+fix soil  all terrain/continuum material inputs/materials/fresh_snow_cam_clay.yaml length 0.8 width 0.32 &
     depth 0.12 surface 0.12 cell 0.04 symmetry yes follow wheel clearance_above 0.3
 fix touch all contact/continuum body wheel terrain soil friction 0.3
 run 400
