@@ -47,18 +47,7 @@ class Ground:
         return np.abs(self.depth - nearest) < 1e-5, nearest
 
     def distribution(self, depth: float, field: Floats) -> dict[str, float]:
-        """Of a field at a depth: centroid [m], share of the front half, peak and its place [m].
-
-        Straight between the layers above and below it; above the uppermost layer, of that one.
-        """
-        depths = self.layer_depths
-        below = int(np.clip(np.searchsorted(depths, depth), 1, len(depths) - 1))
-        ends = depths[below - 1 : below + 1]
-        first, second = (self.of_layer(float(end), field) for end in ends)
-        return {key: float(np.interp(depth, ends, (first[key], second[key]))) for key in first}
-
-    def of_layer(self, depth: float, field: Floats) -> dict[str, float]:
-        """The same, of the layer nearest to the depth."""
+        """Of a field in a layer: centroid [m], share of the front half, peak and its place [m]."""
         inside, _ = self.layer(depth)
         # all particles of a layer have its height
         weight = np.maximum(field[inside], 0.0) * self.volume[inside]
@@ -207,10 +196,11 @@ def draw_stress(runs: dict[str, Ground], target: Path) -> None:
 
 
 def evaluate(runs: Runs, output: Output) -> Sequence[str]:
-    found = [(run, Ground(run.folder)) for run in runs.done("*")]
-    drawn = {run.what: ground for run, ground in found if run.case.stage == ""}
+    found = [(run, Ground(run.folder)) for run in runs.done("")]
     rows = [row_of(run.name, ground, run.seconds) for run, ground in found]
     if rows:
         output.table("results.csv", transposed(rows, "case"))
-        draw_stress(drawn, output.path("stress.png"))
+        draw_stress({run.what: ground for run, ground in found}, output.path("stress.png"))
+    coarse = [row_of(run.name, Ground(run.folder), run.seconds) for run in runs.done("coarse")]
+    output.table("coarse.csv", coarse)
     return []

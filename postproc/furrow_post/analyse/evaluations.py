@@ -3,7 +3,7 @@
 
 import csv
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,6 @@ from ..arrays import Floats
 from ..csv_table import read_matrix, read_numbers
 from ..errors import ResultsError, content_of
 from ..study.launch import SCREEN
-from ..study.runs import Runs
 
 AGAIN = "make the run again: remove its folder"
 
@@ -87,21 +86,23 @@ def watched_mean(folder: Path, column: int, columns: int, since: float, step: fl
     return float(watch[watch[:, 0] * step > since, column].mean())
 
 
-def cost_ratio(runs: Runs, dear: str, cheap: str) -> list[dict[str, object]]:
-    """Mean core seconds of the repeated runs dear_1, dear_2, ... over those of cheap_1, ..., with the
-    standard error of the ratio from the scatter of the repeats; no row for fewer than two of each."""
-    seconds = [np.array([run.record.cpu_time for run in runs.done(f"{name}_*")]) for name in (dear, cheap)]
-    if min(map(len, seconds)) < 2:
+def cost_ratio(
+    name: str, seconds: Mapping[str, float], pairs: Sequence[tuple[str, str]]
+) -> list[dict[str, object]]:
+    """Core seconds of the first run of each pair over those of the second: mean and standard error
+    over the pairs, in one row; no row where fewer than two pairs were run.
+
+    seconds: by name of the run
+    """
+    ratios = [seconds[dear] / seconds[cheap] for dear, cheap in pairs if {dear, cheap} <= seconds.keys()]
+    if len(ratios) < 2:
         return []
-    means = [times.mean() for times in seconds]
-    parts = [times.std(ddof=1) / math.sqrt(len(times)) / mean for times, mean in zip(seconds, means)]
-    ratio = float(means[0] / means[1])
+    error = np.std(ratios, ddof=1) / math.sqrt(len(ratios))
     return [
         {
-            "run": dear,
-            "of": cheap,
-            "repeats": len(seconds[0]),
-            "ratio": round(ratio, 3),
-            "ratio_error": round(ratio * math.hypot(*parts), 3),
+            "run": name,
+            "pairs": len(ratios),
+            "ratio": round(float(np.mean(ratios)), 3),
+            "ratio_error": round(float(error), 3),
         }
     ]

@@ -1,33 +1,23 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What studies take from their runs: the ratio of the costs of repeated runs."""
+"""What studies take from their runs: the ratio of their costs."""
 
 import math
 import unittest
-from types import SimpleNamespace
-from typing import Any
 
 from furrow_post.analyse.evaluations import cost_ratio
 
 
-def runs(**seconds: list[float]) -> Any:
-    """Runs of a study that took these core seconds, by the beginning of their names."""
-
-    def done(pattern: str) -> list[Any]:
-        times = seconds.get(pattern.removesuffix("_*"), [])
-        return [SimpleNamespace(record=SimpleNamespace(cpu_time=time)) for time in times]
-
-    return SimpleNamespace(done=done)
-
-
 class CostRatioTest(unittest.TestCase):
-    def test_error_is_that_of_the_means(self) -> None:
-        (row,) = cost_ratio(runs(dear=[30.0, 30.0], cheap=[9.0, 11.0]), "dear", "cheap")
-        self.assertEqual((row["ratio"], row["repeats"]), (3.0, 2))
-        # the standard error of the second mean is a tenth of it
-        self.assertEqual(row["ratio_error"], round(3.0 * math.hypot(0.0, 0.1), 3))
+    PAIRS = [("dear_1", "cheap_1"), ("dear_2", "cheap_2"), ("dear_3", "cheap_3")]
 
-    def test_one_timing_has_no_error(self) -> None:
-        self.assertEqual(cost_ratio(runs(dear=[30.0], cheap=[9.0, 11.0]), "dear", "cheap"), [])
+    def test_mean_of_the_pairs_with_its_standard_error(self) -> None:
+        seconds = {"dear_1": 20.0, "cheap_1": 10.0, "dear_2": 40.0, "cheap_2": 10.0, "dear_3": 5.0}
+        (row,) = cost_ratio("dear over cheap", seconds, self.PAIRS)  # the third pair is incomplete
+        self.assertEqual((row["run"], row["pairs"], row["ratio"]), ("dear over cheap", 2, 3.0))
+        self.assertEqual(row["ratio_error"], round(math.sqrt(2) / math.sqrt(2), 3))
+
+    def test_one_pair_has_no_error(self) -> None:
+        self.assertEqual(cost_ratio("", {"dear_1": 30.0, "cheap_1": 9.0}, self.PAIRS), [])
 
 
 if __name__ == "__main__":
