@@ -7,6 +7,9 @@ The tops of the grains follow the relief: mean and rms of their distance are bel
 their wave has the amplitude of the relief. This holds for a washboard on one and on two ranks and
 for a heightmap. Equal heightmaps share a kept bed. A run that continues gives
 the grains of the run in one, bit for bit.
+
+In a hybrid the bed keeps its relief, and base and continuum carry the weight of the grains (momentum,
+equilibrium).
 """
 
 import os
@@ -16,12 +19,15 @@ import sys
 import tempfile
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
 DIAMETER, DEPTH, LENGTH, WIDTH = 0.01, 0.035, 0.2, 0.04  # of bed.lig [m]
 WAVELENGTH, AMPLITUDE = 0.1, 0.008  # [m]
 AMPLITUDE_ERROR = 0.35  # of the amplitude: a crest is a grain wide
+GRAVITY, GRAIN_DENSITY = 100.0, 2600.0  # of bed.lig, hybrid.lig
+WEIGHT_ERROR, STRESS_ERROR = 0.001, 0.02
 MAKING = "Making the bed"
 
 
@@ -31,9 +37,12 @@ class Bed:
     def __init__(self, furrow, beds, folder):
         self.furrow, self.beds, self.folder = furrow, beds, folder
 
-    def run(self, relief, launcher=(), cache="cache", start="none"):
-        done = subprocess.run([*launcher, self.furrow, "-in", HERE / "bed.lig", "-log", "none", "-var", "beds", self.beds,
-                               "-var", "relief", relief, "-var", "from", start], cwd=self.folder, text=True, timeout=120,
+    def run(self, relief, launcher=(), cache="cache", start="none", script="bed.lig"):
+        more = ("-var", "from", start)
+        if script != "bed.lig":
+            more = ("-var", "material", Path(self.beds).parent / "materials" / "compacted_sand_elastic.yaml")
+        done = subprocess.run([*launcher, self.furrow, "-in", HERE / script, "-log", "none", "-var", "beds", self.beds,
+                               "-var", "relief", relief, *more], cwd=self.folder, text=True, timeout=120,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               env={**os.environ, "FURROW_CACHE": str(self.folder / cache)})
         return done.returncode, done.stdout
@@ -70,6 +79,22 @@ def check(name, grains, facts, height):
     assert abs(float(facts["MEAN"]) - mean) < 0.3 * DIAMETER and abs(float(facts["RMS"]) - rms) < 0.3 * DIAMETER
 
 
+def check_continuum(folder, grains):
+    """The impulse of the base is that of all weights. The mean vertical stress is that of equilibrium, whatever
+    way the grains spread their weight: the grains over the area and half of the ground."""
+    with h5py.File(folder / "ground" / "terrain.h5") as file:
+        history, ground = file["history"], file["terrain"]
+        base = np.ptp(history["base_impulse"][:]) / np.ptp(history["time"][:])
+        volume = ground["volume"][:]
+        weight = (ground["density"][:] * volume).sum() * GRAVITY
+        stress = -(ground["vertical_stress"][:] * volume).sum() / volume.sum()
+    grain_weight = (4 / 3 * np.pi * grains[:, 4]**3).sum() * GRAIN_DENSITY * GRAVITY
+    expected = (grain_weight + weight / 2) / (LENGTH * WIDTH)
+    print(f"base {base:.2f} N of {grain_weight + weight:.2f} N, vertical stress {stress:.0f} Pa of {expected:.0f} Pa")
+    assert abs(base / (grain_weight + weight) - 1) < WEIGHT_ERROR
+    assert abs(stress / expected - 1) < STRESS_ERROR
+
+
 def write_map(path, height):
     """An ESRI grid with nodes a grain apart."""
     x, y = np.arange(-0.11, 0.111, 0.01), np.arange(-0.03, 0.031, 0.01)
@@ -93,6 +118,9 @@ def main(furrow, beds, *mpirun):
         checkpoint, = (path for path in folder.glob("checkpoint.*") if path.is_file())
         continued, _ = bed.grains(words, made=False, start=checkpoint.name)
         assert np.array_equal(whole, continued), "the run that continues has other grains"
+
+        check("hybrid", *bed.grains(words, made=False, script="hybrid.lig"), washboard)
+        check_continuum(folder, np.loadtxt(folder / "grains.txt", skiprows=9))
 
         write_map(folder / "one.asc", ridge)
         write_map(folder / "equal.asc", ridge)
