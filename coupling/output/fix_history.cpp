@@ -140,6 +140,11 @@ void FixHistory::flush_results() {
   file_->flush();
 }
 
+void FixHistory::release_folder() {
+  file_.reset();
+  lock_.reset();
+}
+
 void FixHistory::checkpoint(Checkpoint& state) {
   if (state.saving()) on_this_rank([&] { flush_results(); });
   double now = state.saving() ? time() : 0.0;

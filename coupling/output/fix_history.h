@@ -29,6 +29,8 @@ class FixHistory : public FurrowFix, public FollowsSystem, public FlushesOnError
   void post_run() override;
   /// An error ends the run: the rows since the last flush are still useful.
   void flush_results() override;
+  /// Closes the file and frees the folder for another run. For a run that has ended.
+  void release_folder();
 
   bool is_open() const { return opened_; }  ///< since the first run
 

@@ -16,7 +16,9 @@
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/error_policy.h"
 #include "coupling/liggghts/first_rank.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/signals.h"
+#include "coupling/output/fix_history.h"
 #include "coupling/run_script.h"
 #include "coupling/session/host_process.h"
 #include "domain.h"
@@ -146,6 +148,8 @@ void Session::write_checkpoint(const std::string& path) {
 void Session::close() {
   end();
   remove_temporary();
+  if (liggghts_ && liggghts_.use_count() > 1)  // arrays of Python keep LIGGGHTS
+    for (FixHistory* history : fixes_of<FixHistory>(*liggghts_->modify)) history->release_folder();
   liggghts_.reset();
 }
 

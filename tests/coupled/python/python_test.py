@@ -220,6 +220,8 @@ class Arrays(Case):
             self.assertLess(snow["z"].max(), 0.13)
             self.assertLess(snow["stress_zz"].min(), 0.0)
             kept = nodes
+        with opened(results="driven") as again:  # the folder of a closed simulation is free
+            again.step(1)
         self.assertTrue(np.isfinite(kept).all())  # as long as an array lives, its memory does
         with self.assertRaisesRegex(furrow.Error, "the simulation is closed"):
             wheel.position
