@@ -4,13 +4,17 @@
 
     PYTHONPATH=build/python tests/benchmarks/python_overhead.py [CELL [ROUNDS]]
 
-One run of wheel_on_snow alternates blocks of three kinds, in random order within a round. One call takes all steps
-of the first. Each step of the others has a call. In the third kind Python then reads the force on the wheel and two
-arrays. CELL is the size of a cell [m]. The run repeats until it has ROUNDS rounds.
+Three simulations of wheel_on_snow run side by side in this process. A round advances each by the same steps, in
+random order. One call takes all steps of the first. Each step of the others has a call. In the third, Python then
+reads the force on the wheel and two arrays. All three compute the same bits, so a difference of a round is that of
+Python and of the machine. CELL is the size of a cell [m].
+
+Other programs on the machine disturb some rounds by far. The difference is therefore the mean of the middle half
+of all rounds. Its standard error is that of 2000 bootstrap samples of the rounds.
 """
 
+import contextlib
 import random
-import statistics
 import sys
 import tempfile
 import time
@@ -18,59 +22,80 @@ from pathlib import Path
 
 import furrow
 import numpy as np
+from scipy.stats import trim_mean
 
 SCENE = Path(__file__).resolve().parents[2] / "inputs" / "scenes" / "wheel_on_snow.lig"
-STEPS = 5  # of a block
+STEPS = 5  # of a round
 KINDS = ("one call", "steps", "steps and reads")
+OUTSIDE = 0.25  # of the rounds at either end, which do not count
+SAMPLES = 2000  # of the bootstrap
 
 
-Times = dict[str, float]  # processor time of a step of each kind [s]
+class Side:
+    """One of the three simulations."""
+
+    def __init__(self, kind: str, cell: float, results: str) -> None:
+        variables = {"cell": cell, "vtk": 0, "motion": "mode slip slip 0.1", "results": f"{results}/{kind}"}
+        self.kind, self.run = kind, furrow.Simulation(SCENE, variables=variables)
+        self.wheel, self.soil = self.run.wheels["wheel"], self.run.terrains["soil"]
+
+    def advance(self) -> bool:
+        """@return False at the end of the script"""
+        if self.kind == "one call":
+            return self.run.step(STEPS) == STEPS
+        for _ in range(STEPS):
+            if not self.run.step():
+                return False
+            if self.kind == "steps":
+                continue
+            if not np.isfinite(self.wheel.force[2] + self.wheel.nodes[0, 0] + self.soil.nodes.size):
+                sys.exit("the run has numbers that are not finite")
+        return True
+
+    def time(self) -> float:
+        """Processor time of a step [s]; NaN at the end of the script."""
+        before = time.process_time()
+        going = self.advance()
+        return (time.process_time() - before) / STEPS if going else np.nan
 
 
-def rounds_of_run(cell: float, count: int) -> list[Times]:
-    """Those of one run, at most as many as count."""
-    rounds: list[Times] = []
-    variables = {"cell": cell, "vtk": 0, "motion": "mode slip slip 0.1"}
-    with tempfile.TemporaryDirectory() as results:
-        with furrow.Simulation(SCENE, variables={**variables, "results": results}) as run:
-            wheel, soil = run.wheels["wheel"], run.terrains["soil"]
-
-            def block(kind: str) -> bool:
-                if kind == "one call":
-                    return run.step(STEPS) == STEPS
-                for _ in range(STEPS):
-                    if not run.step():
-                        return False
-                    if kind == "steps":
-                        continue
-                    if not np.isfinite(wheel.force[2] + wheel.nodes[0, 0] + soil.nodes.size):
-                        sys.exit("the run has numbers that are not finite")
-                return True
-
-            while len(rounds) < count:
-                times: Times = {}
-                for kind in random.sample(KINDS, len(KINDS)):
-                    before = time.process_time()
-                    if not block(kind):
-                        return rounds
-                    times[kind] = (time.process_time() - before) / STEPS
-                rounds.append(times)
+def rounds_of_run(cell: float, count: int) -> list[list[float]]:
+    """Processor times of a step of each kind [s], of at most so many rounds."""
+    rounds: list[list[float]] = []
+    with tempfile.TemporaryDirectory() as results, contextlib.ExitStack() as stack:
+        sides = [Side(kind, cell, results) for kind in KINDS]
+        for side in sides:
+            stack.callback(side.run.close)
+        while len(rounds) < count:
+            times = {side.kind: side.time() for side in random.sample(sides, len(sides))}
+            if not np.isfinite(list(times.values())).all():
+                break
+            rounds.append([times[kind] for kind in KINDS])
+        force = [side.wheel.force for side in sides]
+        if not force[0] == force[1] == force[2]:
+            sys.exit("the simulations differ")
     return rounds
+
+
+def middle_mean(values: np.ndarray) -> tuple[float, float]:
+    """Of the rounds (n), and its standard error."""
+    samples = np.random.default_rng(1).choice(values, (SAMPLES, len(values)))
+    return float(trim_mean(values, OUTSIDE)), float(trim_mean(samples, OUTSIDE, axis=1).std())
 
 
 def main() -> None:
     cell = float(sys.argv[1]) if len(sys.argv) > 1 else 0.05
-    count = int(sys.argv[2]) if len(sys.argv) > 2 else 1000
-    rounds: list[Times] = []
+    count = int(sys.argv[2]) if len(sys.argv) > 2 else 300
+    rounds: list[list[float]] = []
     while len(rounds) < count:
         rounds += rounds_of_run(cell, count - len(rounds))
-    whole = statistics.mean(times["one call"] for times in rounds)
-    print(f"{len(rounds)} rounds, a step in one call takes {1e6 * whole:.0f} us")
-    for kind in KINDS[1:]:
-        more = [times[kind] - times["one call"] for times in rounds]
-        mean, error = statistics.mean(more), statistics.stdev(more) / len(more) ** 0.5
+    times = np.array(rounds)
+    whole = float(trim_mean(times[:, 0], OUTSIDE))
+    print(f"{len(times)} rounds, a step in one call takes {1e6 * whole:.0f} us")
+    for k, kind in enumerate(KINDS[1:], 1):
+        mean, error = middle_mean(times[:, k] - times[:, 0])
         print(f"{kind}: {1e6 * mean:.0f} +- {1e6 * error:.0f} us more, "
-              f"{100 * mean / whole:.1f} +- {100 * error / whole:.1f} %")
+              f"{100 * mean / whole:.2f} +- {100 * error / whole:.2f} %")
 
 
 if __name__ == "__main__":
