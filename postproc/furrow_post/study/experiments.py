@@ -15,8 +15,8 @@ HEAD = (
     "# source), formula, ours, program (another one). label: fitted (the value was used in a fit), known",
     "# (measured value known before the model was fixed), blind. verdict: agrees, within 10 % or twice",
     "# the error of the reference; near, within 25 %; differs; met or missed, of a limit; inconclusive,",
-    "# where twice the errors decide, or allow more than 25 %. program: commit of the source tree that",
-    "# made the runs, + with uncommitted changes. Written by furrow-post study --pages.",
+    "# where twice the errors decide, allow more than 25 %, or are not estimated. program: commit of the",
+    "# source tree that made the runs, + with uncommitted changes. Written by furrow-post study --pages.",
 )
 
 

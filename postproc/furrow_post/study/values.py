@@ -197,7 +197,9 @@ class Value:
             return self.without
         if expected is None:
             return NOTHING
-        error = self.uncertainty() or 0.0
+        error = self.uncertainty()
+        if error is None:
+            return INCONCLUSIVE
         if self.limit:
             return limit_verdict(value, error, expected, self.limit == "upper")
         return verdict_of(value, error, expected, self.expected_error())

@@ -112,18 +112,19 @@ class EntryTest(unittest.TestCase):
         self.assertAlmostEqual(value.uncertainty() or 0, 12.34 / 4)
 
     def test_an_error_that_nobody_estimated_is_marked(self) -> None:
-        self.assertEqual(self.value().row()["error"], "not estimated")
+        unknown = self.value(", reference: 12.34, reference_of: measured")
+        self.assertEqual((unknown.row()["error"], unknown.verdict()), ("not estimated", "inconclusive"))
         self.assertEqual(self.value(", error: [{of: none}]").row()["error"], "0")
 
     def test_the_scatter_of_tests_enters_by_the_error_of_their_mean(self) -> None:
-        more = ", reference: 11, reference_scatter: 1.2, reference_tests: {}, reference_of: measured"
+        more = ", error: 0, reference: 11, reference_scatter: 1.2, reference_tests: {}, reference_of: measured"
         for tests, verdict in ((1, "agrees"), (4, "near")):
             value = self.value(more.format(tests))
             self.assertAlmostEqual(value.expected_error(), 1.2 / tests**0.5)
             self.assertEqual(value.verdict(), verdict)
 
     def test_a_reference_may_be_stored_too(self) -> None:
-        value = self.value(", reference: {row: {run: b}}, limit: upper, reference_of: formula")
+        value = self.value(", error: 0, reference: {row: {run: b}}, limit: upper, reference_of: formula")
         self.assertAlmostEqual(value.expected() or 0, 13.0)
         self.assertEqual(value.verdict(), "met")
 
