@@ -67,6 +67,9 @@ def terrain_of_card(path: Path) -> TerrainValues:
         except yaml.YAMLError as error:
             raise ValueError("is no YAML") from error
         plate, shear = content["pressure_sinkage"], content["shear"]
+        for part, instrument in ((plate, "plates"), (shear, "ring")):
+            if "failed" in part:
+                raise ResultsError(f"{path}: the {instrument} failed: {part['failed']}")
         return TerrainValues(
             str(content["title"]),
             "card",

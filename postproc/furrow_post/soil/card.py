@@ -19,10 +19,23 @@ UNITS = {  # of the parameters; lists of two numbers have the unit of the last c
     "c": "Pa",
     "phi": "degree",
     "K": "m",
+    "speed_stress": "Pa",
     "index": "Pa",
     "gradient": "Pa/m",
 }
 REMEDY = "write it with furrow-soil card"
+SECTIONS: dict[str, tuple[type, str]] = {
+    "pressure_sinkage": (PressureSinkage, "plates"),
+    "shear": (Shear, "ring"),
+    "cone": (Cone, "cone"),
+}
+
+
+@dataclass(frozen=True)
+class NoResult:
+    """Of an instrument that failed on this ground."""
+
+    reason: str
 
 
 @dataclass(frozen=True)
@@ -33,13 +46,29 @@ class SoilCard:
     ground: str
     density: float
     stiffness: float
-    pressure_sinkage: PressureSinkage
-    shear: Shear
-    cone: Cone
+    pressure_sinkage: PressureSinkage | NoResult
+    shear: Shear | NoResult
+    cone: Cone | NoResult
     notes: tuple[str, ...] = ()
 
+    def failures(self) -> dict[str, str]:
+        """Instrument -> why it has no result."""
+        parts = {instrument: getattr(self, name) for name, (_, instrument) in SECTIONS.items()}
+        return {name: part.reason for name, part in parts.items() if isinstance(part, NoResult)}
+
+    def bekker_and_shear(self) -> tuple[PressureSinkage, Shear]:
+        """What vehicle codes need. @raises ResultsError where plates or ring failed"""
+        plate, shear = self.pressure_sinkage, self.shear
+        for part, (_, instrument) in zip((plate, shear), SECTIONS.values()):
+            if isinstance(part, NoResult):
+                raise ResultsError(
+                    f"{self.title}: has no values of the {instrument} ({part.reason}); give them by hand"
+                )
+        assert isinstance(plate, PressureSinkage) and isinstance(shear, Shear)
+        return plate, shear
+
     def parameters(self) -> dict[str, Fitted]:
-        """Name -> value and standard error."""
+        """Name -> value and standard error, of the instruments that have a result."""
         found = {}
         for part in (self.pressure_sinkage, self.shear, self.cone):
             for field in fields(part):
@@ -48,23 +77,42 @@ class SoilCard:
                     found[field.name] = value
         return found
 
+    def texts(self) -> dict[str, str]:
+        """Name -> value and error for a person. The bias of c has one side: the stress by the speed of the
+        ring is subtracted by a law that leaves up to as much again."""
+        found = self.parameters()
+        texts = {name: shown(fitted) for name, fitted in found.items()}
+        if "c" in found and found["speed_stress"].value > 0:
+            value, _, above = texts["c"].partition(" ± ")
+            below = Fitted(found["c"].value, found["c"].error + found["speed_stress"].value)
+            texts["c"] = f"{value} +{above} -{shown(below).rpartition(' ')[2]}"
+        return texts
+
     def ranges(self) -> list[tuple[str, Range, str]]:
         """Meaning, range, unit."""
-        plate, shear = self.pressure_sinkage, self.shear
-        return [
-            ("sinkage of the plates", plate.sinkage, "m"),
-            ("pressure under the plates", plate.pressure, "Pa"),
-            ("radius of the plates", plate.radii, "m"),
-            ("normal stress under the ring", shear.normal, "Pa"),
-            ("shear displacement", shear.displacement, "m"),
-            ("depth of the cone", self.cone.depth, "m"),
-        ]
+        plate, shear, cone = self.pressure_sinkage, self.shear, self.cone
+        spans: list[tuple[str, Range, str]] = []
+        if isinstance(plate, PressureSinkage):
+            spans += [
+                ("sinkage of the plates", plate.sinkage, "m"),
+                ("pressure under the plates", plate.pressure, "Pa"),
+                ("radius of the plates", plate.radii, "m"),
+            ]
+        if isinstance(shear, Shear):
+            spans += [
+                ("normal stress under the ring", shear.normal, "Pa"),
+                ("shear displacement", shear.displacement, "m"),
+            ]
+        if isinstance(cone, Cone):
+            spans.append(("depth of the cone", cone.depth, "m"))
+        return spans
 
     def report(self) -> str:
         """Lines for a person."""
         lines = [self.title]
-        for name, value in self.parameters().items():
-            lines.append(f"  {name:9} {shown(value):>22} {UNITS[name]}")
+        for name, text in self.texts().items():
+            lines.append(f"  {name:12} {text:>22} {UNITS[name]}")
+        lines += [f"  {instrument}: failed, {why}" for instrument, why in self.failures().items()]
         for meaning, span, unit in self.ranges():
             lines.append(f"  {meaning:28} {span.low:.3g} to {span.high:.3g} {unit}")
         return "\n".join([*lines, *(f"  note: {note}" for note in self.notes)])
@@ -80,20 +128,22 @@ def shown(fitted: Fitted) -> str:
 
 def markdown(cards: Sequence[SoilCard]) -> str:
     """A table of cards: value and error of each parameter, cards as rows."""
-    names = [name for name in UNITS if name != "gradient"]
+    names = [name for name in UNITS if name not in ("gradient", "speed_stress")]
     units = [f" [{UNITS[name]}]" if UNITS[name] else "" for name in names]
     lines = [
         "| ground | " + " | ".join(f"`{n}`{unit}" for n, unit in zip(names, units)) + " |",
         "|---" * (len(names) + 1) + "|",
     ]
     for card in cards:
-        parameters = card.parameters()
-        cells = [Path(card.ground).stem, *(shown(parameters[name]) for name in names)]
+        texts = card.texts()
+        cells = [Path(card.ground).stem, *(texts.get(name, "failed") for name in names)]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
 
 def _as_yaml(part: Any) -> dict[str, Any]:
+    if isinstance(part, NoResult):
+        return {"failed": part.reason}
     content: dict[str, Any] = {}
     for field in fields(part):
         value = getattr(part, field.name)
@@ -114,9 +164,7 @@ def write_card(card: SoilCard, path: Path) -> None:
         "ground": card.ground,
         "density": card.density,
         "stiffness": card.stiffness,
-        "pressure_sinkage": _as_yaml(card.pressure_sinkage),
-        "shear": _as_yaml(card.shear),
-        "cone": _as_yaml(card.cone),
+        **{name: _as_yaml(getattr(card, name)) for name in SECTIONS},
         "notes": list(card.notes),
     }
     head = (
@@ -139,12 +187,7 @@ def read_card(path: Path | str) -> SoilCard:
         if not isinstance(content, dict):
             raise ResultsError(f"{path}: has no keys; {REMEDY}")
         parts = {
-            name: _read_part(path, kind, name, content[name])
-            for name, kind in (
-                ("pressure_sinkage", PressureSinkage),
-                ("shear", Shear),
-                ("cone", Cone),
-            )
+            name: _read_part(path, kind, name, content[name]) for name, (kind, _) in SECTIONS.items()
         }
         return SoilCard(
             str(content["title"]),
@@ -157,6 +200,8 @@ def read_card(path: Path | str) -> SoilCard:
 
 
 def _read_part(path: Path, kind: Any, section: str, content: dict[str, Any]) -> Any:
+    if "failed" in content:
+        return NoResult(str(content["failed"]))
     values: dict[str, Any] = {}
     for field in fields(kind):
         given = content[field.name]

@@ -21,7 +21,7 @@ CHRONO_DAMPING = 3e4
 
 def write_chrono(card: SoilCard, path: Path) -> None:
     """Chrono requires an elastic stiffness above k_phi."""
-    plate, shear = card.pressure_sinkage, card.shear
+    plate, shear = card.bekker_and_shear()
     content = {
         "Type": "SCM",
         "Description": f"{card.title}; Damping is that of Chrono's samples, not of a test",
@@ -45,7 +45,7 @@ def write_chrono(card: SoilCard, path: Path) -> None:
 def write_altair(card: SoilCard, path: Path) -> None:
     """C1 and C2, the place of the greatest stress under a wheel, are those of loose sand; plates do
     not give them."""
-    plate, shear, sand = card.pressure_sinkage, card.shear, terrain(LOOSE_SAND)
+    (plate, shear), sand = card.bekker_and_shear(), terrain(LOOSE_SAND)
     soil = {
         "PHI": (math.radians(shear.phi.value), "angle of internal shearing resistance"),
         "C": (shear.c.value, "apparent cohesion"),
@@ -93,9 +93,11 @@ def write_altair(card: SoilCard, path: Path) -> None:
 
 
 def write_table(card: SoilCard, path: Path) -> None:
-    """One row for each parameter."""
+    """One row for each parameter, and a comment for each instrument that failed."""
     with open(path, "w", encoding="utf-8", newline="") as file:
         file.write(f"# {' '.join(card.title.split())}\n")
+        for instrument, why in card.failures().items():
+            file.write(f"# {instrument}: failed, {why}\n")
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(("name", "value", "error", "unit"))
         for name, fitted in card.parameters().items():

@@ -15,11 +15,13 @@ from ..programs import inputs_folder
 
 MOST_BASES = 8
 SECTIONS = ("law", "elasticity", "hardening")
+TYPICAL_PRESSURE = 1e4  # [Pa] where laws whose stiffness grows with pressure have the constants below
+NORSAND_PRESSURE = 1e5  # [Pa] of G, src/material/models/norsand
 
 
 @dataclass(frozen=True)
 class Material:
-    """density [kg/m3], elastic constants at the start [Pa]."""
+    """density [kg/m3], elastic constants [Pa] at the start, or at 10 kPa if they grow with pressure."""
 
     title: str
     density: float
@@ -55,12 +57,17 @@ def read_material(path: Path) -> Material:
     """Follows `base`, as furrow does; whether the file is right, furrow says. @raises ResultsError"""
     content = _with_base(path, 0)
     with content_of(path, "furrow-soil needs density, and E and nu or kappa, e0 and nu"):
-        law, elasticity = content["law"], content["elasticity"]
-        if elasticity["type"] == "linear":
-            young, poisson = float(elasticity["E"]), float(elasticity["nu"])
-        else:  # porous: at a pressure of 10 kPa
+        law = content["law"]
+        if law.get("type") == "norsand":  # which has its own elasticity
+            poisson = float(law["nu"])
+            shear = float(law["G"]) * (TYPICAL_PRESSURE / NORSAND_PRESSURE) ** float(law["n"])
+            young = 2 * shear * (1 + poisson)
+        elif content["elasticity"]["type"] == "linear":
+            young, poisson = float(content["elasticity"]["E"]), float(content["elasticity"]["nu"])
+        else:
+            elasticity = content["elasticity"]
             poisson = float(elasticity.get("nu", 0.25))
-            bulk = (1 + float(elasticity["e0"])) * 1e4 / float(elasticity["kappa"])
+            bulk = (1 + float(elasticity["e0"])) * TYPICAL_PRESSURE / float(elasticity["kappa"])
             young = 3 * bulk * (1 - 2 * poisson)
         title = str(content.get("title", path.stem))
         return Material(title, float(law["density"]), young, poisson)

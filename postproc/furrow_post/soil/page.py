@@ -9,8 +9,8 @@ import numpy as np
 
 from ..figures.page import document, html_table, inline_picture, paragraph
 from ..figures.style import KILOPASCAL, MILLIMETRE, RUN_COLOURS, annotate_panel, save, use_style
-from .card import UNITS, SoilCard, shown
-from .fits import INDEX_DEPTH, ConeCurve, PlateCurve, ShearCurve
+from .card import UNITS, SoilCard
+from .fits import INDEX_DEPTH, Cone, ConeCurve, PlateCurve, PressureSinkage, Shear, ShearCurve
 
 FITTED = {"color": "0.25", "lw": 1.0, "ls": "--"}
 
@@ -29,19 +29,23 @@ def draw_card(
         z = np.linspace(0, curve.sinkage.max(), 100)
         label = f"diameter {2 * MILLIMETRE * curve.radius:.0f} mm"
         axes[0].plot(MILLIMETRE * curve.sinkage, KILOPASCAL * curve.pressure, color=colour, label=label)
-        axes[0].plot(MILLIMETRE * z, KILOPASCAL * card.pressure_sinkage.at(z, curve.radius), **FITTED)
+        if isinstance(card.pressure_sinkage, PressureSinkage):
+            fit = card.pressure_sinkage.at(z, curve.radius)
+            axes[0].plot(MILLIMETRE * z, KILOPASCAL * fit, **FITTED)
     axes[0].set(xlabel="sinkage [mm]", ylabel="mean pressure [kPa]", xlim=(0, None), ylim=(0, None))
     annotate_panel(axes[0], "a", "plates")
     for ring, colour in zip(rings, RUN_COLOURS):
         label = f"normal stress {KILOPASCAL * ring.normal.mean():.3g} kPa"
         j = MILLIMETRE * ring.displacement
         axes[1].plot(j, KILOPASCAL * ring.shear, color=colour, label=label)
-        axes[1].plot(j, KILOPASCAL * card.shear.at(ring.displacement, ring.normal), **FITTED)
+        if isinstance(card.shear, Shear):
+            axes[1].plot(j, KILOPASCAL * card.shear.at(ring.displacement, ring.normal), **FITTED)
     axes[1].set(xlabel="shear displacement [mm]", ylabel="shear stress [kPa]", xlim=(0, None), ylim=(0, None))
     annotate_panel(axes[1], "b", "shear ring")
     axes[2].plot(KILOPASCAL * cone.pressure, MILLIMETRE * cone.depth, color=RUN_COLOURS[0], label="cone")
-    index = KILOPASCAL * card.cone.index.value
-    axes[2].plot((index, index), (0, MILLIMETRE * card.cone.depth.high), label="cone index", **FITTED)
+    if isinstance(card.cone, Cone):
+        index = KILOPASCAL * card.cone.index.value
+        axes[2].plot((index, index), (0, MILLIMETRE * card.cone.depth.high), label="cone index", **FITTED)
     axes[2].set(
         xlabel="pressure on the base [kPa]",
         ylabel="depth of the base [mm]",
@@ -55,9 +59,7 @@ def draw_card(
 
 
 def write_page(card: SoilCard, picture: Path, target: Path) -> None:
-    rows = [
-        (name, shown(fitted), UNITS[name]) for name, fitted in card.parameters().items()
-    ]
+    rows = [(name, text, UNITS[name]) for name, text in card.texts().items()]
     spans = [(meaning, f"{r.low:.3g}", f"{r.high:.3g}", unit) for meaning, r, unit in card.ranges()]
     parts = [
         inline_picture(picture, "Curves of the virtual tests; dashed: the card"),
@@ -65,6 +67,7 @@ def write_page(card: SoilCard, picture: Path, target: Path) -> None:
         html_table(("parameter", "value ± standard error", "unit"), rows),
         "<h2>Range of the tests</h2>",
         html_table(("quantity", "from", "to", "unit"), spans, (1, 2)),
+        *(paragraph(f"The {name} failed: {why}") for name, why in card.failures().items()),
         *(paragraph(note) for note in card.notes),
     ]
     target.write_text(document(card.title, f"Ground: {card.ground}", parts), encoding="utf-8")

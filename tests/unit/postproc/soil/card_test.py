@@ -5,11 +5,12 @@ import json
 import math
 import re
 import unittest
+from dataclasses import replace
 
 from furrow_post.analyse import empirical
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
-from furrow_post.soil.card import UNITS, SoilCard, read_card, write_card
+from furrow_post.soil.card import UNITS, NoResult, SoilCard, markdown, read_card, write_card
 from furrow_post.soil.exports import write_altair, write_chrono, write_table
 from furrow_post.soil.fits import Cone, Fitted, PressureSinkage, Range, Shear
 from support.folder import FolderTest
@@ -32,6 +33,7 @@ CARD = SoilCard(
         Fitted(150.0, 60.0),
         Fitted(29.25, 0.5),
         Fitted(0.0123, 0.0004),
+        Fitted(35.0, 12.0),
         Range(3e3, 1.2e4),
         Range(0.0, 0.04),
         0.02,
@@ -39,6 +41,10 @@ CARD = SoilCard(
     Cone(Fitted(7.1e4, 900.0), Fitted(8e5, 2e4), Range(0.0, 0.15)),
     ("cells: not in the errors",),
 )
+
+
+PLATE, SHEAR = CARD.bekker_and_shear()
+WITHOUT_RING = replace(CARD, shear=NoResult("the ring sank through"))
 
 
 class SoilCardTest(FolderTest):
@@ -51,16 +57,21 @@ class SoilCardTest(FolderTest):
         self.assertEqual(read_card(self.path), CARD)
         self.assertEqual(set(CARD.parameters()), set(UNITS))
 
+    def test_the_bias_of_the_cohesion_has_one_side(self) -> None:
+        self.assertEqual(CARD.texts()["c"], "150 +60 -95")
+        self.assertIn("| 150 +60 -95 |", markdown([CARD]))
+        self.assertEqual(CARD.texts()["phi"], "29.25 ± 0.5")
+
     def test_chrono_has_the_card_in_its_own_keys(self) -> None:
         target = self.folder / "scm.json"
         write_chrono(CARD, target)
         soil = json.loads(target.read_text())["Soil parameters"]
-        self.assertEqual(soil["Bekker Kphi"], CARD.pressure_sinkage.k_phi.value)
-        self.assertEqual(soil["Bekker Kc"], CARD.pressure_sinkage.k_c.value)
-        self.assertEqual(soil["Bekker n exponent"], CARD.pressure_sinkage.n.value)
-        self.assertEqual(soil["Mohr cohesive limit"], CARD.shear.c.value)
-        self.assertEqual(soil["Mohr friction limit"], CARD.shear.phi.value)
-        self.assertEqual(soil["Janosi shear coefficient"], CARD.shear.K.value)
+        self.assertEqual(soil["Bekker Kphi"], PLATE.k_phi.value)
+        self.assertEqual(soil["Bekker Kc"], PLATE.k_c.value)
+        self.assertEqual(soil["Bekker n exponent"], PLATE.n.value)
+        self.assertEqual(soil["Mohr cohesive limit"], SHEAR.c.value)
+        self.assertEqual(soil["Mohr friction limit"], SHEAR.phi.value)
+        self.assertEqual(soil["Janosi shear coefficient"], SHEAR.K.value)
         self.assertGreater(soil["Elastic stiffness"], soil["Bekker Kphi"])
 
     def test_altair_has_the_card_with_the_angle_in_radians(self) -> None:
@@ -69,7 +80,7 @@ class SoilCardTest(FolderTest):
         text = target.read_text()
         self.assertIn("ANGLE = 'radians'", text)
         found = {name: float(value) for name, value in re.findall(r"^(\w+) = ([-+.\de]+) \$", text, re.M)}
-        plate, shear = CARD.pressure_sinkage, CARD.shear
+        plate, shear = PLATE, SHEAR
         for key, value in (
             ("KC", plate.k_c.value),
             ("KPHI", plate.k_phi.value),
@@ -92,7 +103,7 @@ class SoilCardTest(FolderTest):
 
     def test_bekkers_formula_takes_a_card_as_terrain(self) -> None:
         ground = empirical.terrain(str(self.path))
-        plate, shear = CARD.pressure_sinkage, CARD.shear
+        plate, shear = PLATE, SHEAR
         found = (ground.k_1, ground.k_2, ground.n, ground.c, ground.phi, ground.K)
         card = (plate.k_c, plate.k_phi, plate.n, shear.c, shear.phi, shear.K)
         self.assertEqual(found, tuple(fitted.value for fitted in card))
@@ -101,6 +112,24 @@ class SoilCardTest(FolderTest):
         z = empirical.bekker(1000, 0.6, 0.2, ground).sinkage
         k, n = plate.k_c.value / 0.2 + plate.k_phi.value, plate.n.value
         self.assertAlmostEqual(0.2 * k * math.sqrt(0.6) * z ** (n + 0.5) * (3 - n) / 3000, 1, places=9)
+
+    def test_a_failed_instrument_gives_a_reason_and_no_number(self) -> None:
+        write_card(WITHOUT_RING, self.path)
+        self.assertEqual(read_card(self.path), WITHOUT_RING)
+        self.assertEqual(WITHOUT_RING.failures(), {"ring": "the ring sank through"})
+        self.assertIn("ring: failed, the ring sank through", WITHOUT_RING.report())
+        self.assertEqual(markdown([WITHOUT_RING]).splitlines()[-1].count("| failed"), 3)
+        target = self.folder / "card.csv"
+        write_table(WITHOUT_RING, target)
+        self.assertIn("# ring: failed, the ring sank through", target.read_text())
+        self.assertEqual(
+            {row["name"] for row in read_rows(target)}, {"k_c", "k_phi", "n", "index", "gradient"}
+        )
+        for write in (write_chrono, write_altair):
+            with self.assertRaisesRegex(ResultsError, "no values of the ring .the ring sank through"):
+                write(WITHOUT_RING, target)
+        with self.assertRaisesRegex(ResultsError, "card.yaml: the ring failed: the ring sank through"):
+            empirical.terrain(str(self.path))
 
     def test_wrong_cards_are_refused_with_the_key(self) -> None:
         text = self.path.read_text()

@@ -13,6 +13,7 @@ from support.folder import FolderTest
 
 TRUTH = {"k_c": -4e3, "k_phi": 5e5, "n": 0.6, "c": 400.0, "phi": 30.0, "K": 0.006}
 CONE = (2e4, 8e5)  # [Pa] at the surface, [Pa/m]
+SPEED_STRESS = 500.0  # [Pa] at 1 m/s, by the root of the speed
 STAND_IN = """#!/usr/bin/python3
 import math, sys
 words = sys.argv
@@ -34,7 +35,8 @@ for k in range(301):
         area, moment = math.pi * (outer**2 - inner**2), 2 / 3 * math.pi * (outer**3 - inner**3)
         turned = max(0, 2 * s - 1) * v["angle"]  # pressed first
         normal = v["load"] / area
-        strength = t["c"] + normal * math.tan(math.radians(t["phi"]))
+        speed = v["spin"] * moment / area
+        strength = t["c"] + normal * math.tan(math.radians(t["phi"])) + SPEED_STRESS * math.sqrt(speed)
         tau = strength * (1 - math.exp(-turned * moment / area / t["K"]))
         rows.append((k, 0.001, v["load"], normal, -tau * moment, turned))
     else:
@@ -59,7 +61,7 @@ class CardCommandTest(FolderTest):
     def furrow(self, status: int) -> None:
         program = self.folder / "bin" / "furrow"
         text = STAND_IN.replace("TRUTH", repr(TRUTH)).replace("CONE", repr(CONE))
-        text = text.replace("LOG", str(self.folder / "log.txt")).replace("STATUS", str(status))
+        text = text.replace("SPEED_STRESS", str(SPEED_STRESS)).replace("LOG", str(self.folder / "log.txt")).replace("STATUS", str(status))
         program.write_text(text, encoding="utf-8")
         program.chmod(0o755)
 
@@ -77,17 +79,18 @@ class CardCommandTest(FolderTest):
         for name, truth in TRUTH.items():
             found = card.parameters()[name].value
             self.assertAlmostEqual(found / truth, 1, delta=1e-3, msg=name)
-        self.assertAlmostEqual(card.cone.index.value / (CONE[0] + 0.075 * CONE[1]), 1, delta=0.01)
-        self.assertAlmostEqual(card.cone.gradient.value / CONE[1], 1, delta=1e-3)
+        self.assertAlmostEqual(card.parameters()["index"].value / (CONE[0] + 0.075 * CONE[1]), 1, delta=0.01)
+        self.assertAlmostEqual(card.parameters()["gradient"].value / CONE[1], 1, delta=1e-3)
+        self.assertGreater(card.parameters()["speed_stress"].value, 10)
         self.assertEqual(card.density, 1505)
         # rigid punch: 2 E/(pi a (1 - nu^2))
         stiffness = 2 * 4.78e6 / (math.pi * 0.075 * (1 - 0.11**2))
         self.assertAlmostEqual(card.stiffness / stiffness, 1, places=9)
-        self.assertAlmostEqual(card.pressure_sinkage.sinkage.high, 0.06, places=9)
+        self.assertAlmostEqual(card.bekker_and_shear()[0].sinkage.high, 0.06, places=9)
         for file in ("card.html", "card.png", "chrono_scm.json", "altair.rdf", "card.csv"):
             self.assertTrue((self.folder / "card" / file).is_file(), file)
         self.assertIn("Bekker", (self.folder / "card" / "chrono_scm.json").read_text())
-        self.assertEqual(self.runs(), 3 * ["plate"] + 3 * ["shear"] + ["cone"])
+        self.assertEqual(self.runs(), 3 * ["plate"] + 4 * ["shear"] + ["cone"])
 
     def test_runs_are_kept_and_repeated_when_the_ground_changes(self) -> None:
         ground = self.folder / "ground.yaml"
@@ -95,7 +98,7 @@ class CardCommandTest(FolderTest):
         words = ("card", ground, "--quick", "--sizes", 0.1, 0.2, "-o", "card")
         self.soil(*words)
         first = self.runs()
-        self.assertEqual(first, 2 * ["plate"] + 2 * ["shear"] + ["cone"])
+        self.assertEqual(first, 2 * ["plate"] + 3 * ["shear"] + ["cone"])
         self.soil(*words)
         self.assertEqual(self.runs(), first)
         ground.write_text(ground.read_text().replace("1505", "1506"), encoding="utf-8")

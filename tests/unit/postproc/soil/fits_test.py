@@ -17,6 +17,7 @@ from furrow_post.soil.fits import (
     cone_index,
     fit_plates,
     fit_shear,
+    speed_stress,
 )
 
 K_C, K_PHI, N = 2.0e4, 1.5e6, 0.8
@@ -76,6 +77,25 @@ class ExactCurvesTest(unittest.TestCase):
         for value, truth in ((found.c, C), (found.phi, PHI), (found.K, K)):
             self.assertAlmostEqual(value.value / truth, 1, delta=1e-5)
 
+    def test_a_stress_by_the_root_of_the_speed_is_subtracted(self) -> None:
+        j = np.linspace(0, 0.05, 80)
+
+        def ring(normal: float, speed: float) -> ShearCurve:
+            strength = C + normal * math.tan(math.radians(PHI)) + 800 * math.sqrt(speed)
+            return ShearCurve(j, np.full(j.size, normal), strength * (1 - np.exp(-j / K)), speed)
+
+        slow, fast = [ring(5e3, 0.04), ring(2e4, 0.04)], ring(5e3, 0.16)
+        self.assertAlmostEqual(fit_shear(slow).c.value / (C + 160), 1, delta=1e-5)
+        found = fit_shear(slow, fast)
+        mobilised = float(1 - np.exp(-j[j > 0.025] / K).mean())
+        self.assertAlmostEqual(found.speed_stress.value / (160 * mobilised), 1, delta=1e-5)
+        for value, truth in ((found.c, C), (found.phi, PHI), (found.K, K)):
+            self.assertAlmostEqual(value.value / truth, 1, delta=1e-5)
+        self.assertGreaterEqual(found.c.error, found.speed_stress.error)
+        # a slope takes the difference of the loads out
+        other = speed_stress(slow[0], ring(6e3, 0.16), math.tan(math.radians(PHI)) * mobilised)
+        self.assertAlmostEqual(other.value / (160 * mobilised), 1, delta=1e-5)
+
     def test_cone_index_is_the_mean_over_15_cm(self) -> None:
         z = np.linspace(-0.04, 0.2, 241)
         found = cone_index(ConeCurve(z, START + G * z))
@@ -124,6 +144,12 @@ class RefusalTest(unittest.TestCase):
         ring = ShearCurve(z, np.full(30, 1e4), 1e3 * z)
         with self.assertRaisesRegex(ResultsError, "a ring under loads that differ by a factor of 1.5"):
             fit_shear([ring, ring])
+        with self.assertRaisesRegex(ResultsError, "curves within 10% of Bekker's law"):
+            fit_plates([PlateCurve(b, z, 1e6 * np.exp(-z / 0.01)) for b in (0.05, 0.1)])
+        first, second = (ShearCurve(z, np.full(30, load), np.full(30, load / 2), 0.1) for load in (1e4, 2e4))
+        fast = ShearCurve(z, first.normal, 2.5 * first.shear, 0.4)
+        with self.assertRaisesRegex(ResultsError, "a speed stress below 0.5 of the shear stress"):
+            fit_shear([first, second], fast)
         with self.assertRaisesRegex(ResultsError, "a cone whose base is below the surface"):
             cone_index(ConeCurve(-z, z))
 
