@@ -18,7 +18,8 @@ from furrow_post.read.results import Results
 from furrow_post.study.output import Output
 from furrow_post.study.runs import Run, Runs
 
-REFERENCE = read_rows(Path(__file__).resolve().parent / "reference.csv")
+HERE = Path(__file__).resolve().parent
+REFERENCE = read_rows(HERE / "reference.csv")
 # End of a run's name -> legend. 4 cm: slip length of the contact with the wheel
 LAWS = {"snow": "snow", "clay": "Cam clay", "snow4cm": "snow, 4 cm", "clay4cm": "Cam clay, 4 cm"}
 STRESSES = (10, 50, 100, 200, 500, 1000)  # [kPa] of the oedometer
@@ -29,6 +30,9 @@ NEAR = 2.5  # [mm] of sinkage around it that is averaged
 MODES = {"towed": "towed", "slip_0": "slip 0", "slip_10": "slip 0.1", "slip_30": "slip 0.3", "slip_60": "slip 0.6"}
 WINDOW = 0.5  # [m] of travel
 LOAD, RADIUS, WIDTH = 6237.0, 0.37, 0.272  # [N], [m] of the wheel
+TYRE_LOAD, TYRE_RADIUS = 6227.0, 0.3483  # [N], [m]
+TYRE_AREA = 0.03645  # [m2] on a hard surface at 179 kPa [Shoop2001] Table 6
+MEASURED_SNOW = 220.0  # [kg/m3] of the field tests that the stage field repeats
 Key = tuple[str, str, str]  # test, at, quantity
 Values = dict[Key, float]
 
@@ -89,17 +93,50 @@ def plate(run: Run) -> Values:
     return {("plate", f"{mm} mm", "pressure"): float(pressure[rows].mean()) for mm, rows in near.items()}
 
 
-def wheel(run: Run) -> Values:
+def wheel(run: Run, test: str = "wheel") -> Values:
     history = Results(run.folder).columns
     means = steady_columns(history, WINDOW)
     x = history["x"] - history["x"][0]
-    at = MODES[run.name.rpartition("_")[0]]
+    at = MODES[run.name.removeprefix("tyre_").rpartition("_")[0]]
     found: Values = {
-        ("wheel", at, "hub drop"): means["sinkage_m"],
-        ("wheel", at, "traction"): -means["resistance"],
+        (test, at, "hub drop"): means["sinkage_m"],
+        (test, at, "traction"): -means["resistance"],
     }
     if at != "towed":
-        found["wheel", at, "torque"] = float(history["drive_torque"][x > x[-1] - WINDOW].mean())
+        found[test, at, "torque"] = float(history["drive_torque"][x > x[-1] - WINDOW].mean())
+    return found
+
+
+def tyre(run: Run) -> Values:
+    return wheel(run, "tyre")
+
+
+def field_tests(runs: Sequence[Run]) -> list[dict[str, Any]]:
+    """The towed tyre by every law, a row for each test in snow of this density."""
+    means = {}
+    for run in runs:
+        law = run.name.rpartition("_")[2]
+        means[law, run.number("depth")] = steady_columns(Results(run.folder).columns, WINDOW)
+    laws = dict.fromkeys(law for law, _ in means)
+    rows = []
+    for test in read_rows(HERE.parent / "snow_wheel" / "reference.csv"):
+        depth = float(test["depth_m"])
+        if float(test["density_kgm3"]) != MEASURED_SNOW or any((law, depth) not in means for law in laws):
+            continue
+        row: dict[str, Any] = {name: test[name] for name in ("row", "depth_m", "sinkage_m", "resistance")}
+        for law in laws:
+            row |= {f"{law}_{name}": means[law, depth][name] for name in ("sinkage_m", "resistance")}
+        rows.append(row)
+    return rows
+
+
+def field_errors(rows: Sequence[dict[str, Any]], law: str) -> Values:
+    """Root mean squares over the tests."""
+    found: Values = {}
+    for name, quantity in (("sinkage_m", "rms of hub drop"), ("resistance", "rms of traction")):
+        if rows and f"{law}_{name}" in rows[0]:
+            off = np.array([float(row[f"{law}_{name}"]) - float(row[name]) for row in rows])
+            found["tyre", f"{MEASURED_SNOW:.0f} kg/m3", quantity] = float(np.sqrt(np.mean(off**2)))
     return found
 
 
@@ -121,6 +158,7 @@ EVALUATIONS: dict[str, Callable[[Run], Values]] = {
     "wheel": wheel,
     "wheel_clay": wheel,
     "wheel_mobilised": wheel,
+    "tyre": tyre,
 }
 
 
@@ -174,22 +212,23 @@ def matrix(laws: dict[str, Values]) -> list[dict[str, Any]]:
 
 def traction(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """Torque over radius and load, from rows of the matrix, and the formula for the traction of
-    vehicles. Its contact pressure is the load over the arc that touches the snow of the first law."""
-    found: dict[tuple[str, str], dict[str, Any]] = {
-        (row["at"], row["quantity"]): row for row in rows if row["test"] == "wheel"
-    }
+    vehicles. Its contact pressure is the load over the arc of the wheel that touches the snow of the
+    first law, or over the area of the tyre on a hard surface."""
+    found = {(row["test"], row["at"], row["quantity"]): row for row in rows}
     table = []
-    for at in ("slip 0.1", "slip 0.3", "slip 0.6"):
-        torque, drop = found[at, "torque"], found[at, "hub drop"][next(iter(LAWS))]
-        if drop == "":  # not run
-            continue
-        arc = RADIUS * math.acos(1 - float(drop) / RADIUS)
-        row: dict[str, Any] = {"at": at, "label": "known"}
-        for name in (*LAWS, "grains"):
-            value = number(str(torque[name]))
-            row[name] = "" if math.isnan(value) else round(value / (LOAD * RADIUS), 3)
-        row["formula"] = round(snow_traction("undisturbed", LOAD, WIDTH * arc).coefficient, 3)
-        table.append(row)
+    for test, load, radius in (("wheel", LOAD, RADIUS), ("tyre", TYRE_LOAD, TYRE_RADIUS)):
+        for at in ("slip 0.1", "slip 0.3", "slip 0.6"):
+            torque, drop = (found.get((test, at, quantity)) for quantity in ("torque", "hub drop"))
+            depth = number(str(drop[next(iter(LAWS))])) if drop else math.nan
+            if torque is None or math.isnan(depth):  # not run
+                continue
+            row: dict[str, Any] = {"test": test, "at": at, "label": "known"}
+            for name in (*LAWS, "grains"):
+                value = number(str(torque[name]))
+                row[name] = "" if math.isnan(value) else round(value / (load * radius), 3)
+            area = TYRE_AREA if test == "tyre" else WIDTH * radius * math.acos(1 - depth / radius)
+            row["formula"] = round(snow_traction("undisturbed", load, area).coefficient, 3)
+            table.append(row)
     return table
 
 
@@ -247,6 +286,10 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     for stage, evaluation in EVALUATIONS.items():
         for run in runs.done(stage):
             laws[run.name.rpartition("_")[2]].update(evaluation(run))
+    tests = field_tests(runs.done("field"))
+    for law, values in laws.items():
+        values.update(field_errors(tests, law))
+    output.table("tyre_tests.csv", tests)
     rows = matrix(laws)
     output.table("results.csv", rows)
     output.table("traction.csv", traction(rows))
