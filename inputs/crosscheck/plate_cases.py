@@ -10,10 +10,11 @@ from cases import BASE, INPUTS, Made, Planned
 from lines import OutputRow, line_of
 from wheel_cases import BEKKER
 
-from furrow_post.analyse import curves, empirical, plates
+from furrow_post.analyse import curves, plates
 from furrow_post.analyse.cost_table import Components
 from furrow_post.analyse.curves import Curve
 from furrow_post.analyse.entry import FORMULA, MEASURED, Entry
+from furrow_post.analyse.terrain_values import terrain
 from furrow_post.csv_table import read_numbers
 from furrow_post.figures.curves import Line, draw_curves
 from furrow_post.study.output import Output
@@ -63,7 +64,7 @@ class PlateCase:
         z = np.linspace(1e-3, max(LEVELS[self.case]), 60)
         radius = 0.5 * next(iter(self.curves.values())).facts["size"]
         return [
-            Line(f"Bekker, {name}", z, empirical.terrain(name).plate_pressure(z, radius))
+            Line(f"Bekker, {name}", z, terrain(name).plate_pressure(z, radius))
             for name in BEKKER
         ]
 

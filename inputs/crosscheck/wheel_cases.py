@@ -11,9 +11,10 @@ from lines import OutputRow, line_of, number_line
 
 from furrow_post.analyse import cost_table, empirical
 from furrow_post.analyse.comparison import Comparison, compare
-from furrow_post.analyse.empirical import Prediction
 from furrow_post.analyse.entry import BEST, RUN, Entry, formula_entries
 from furrow_post.analyse.flow import compare_flows
+from furrow_post.analyse.prediction import Prediction
+from furrow_post.analyse.terrain_values import terrain
 from furrow_post.analyse.verdict import QUANTITIES
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
@@ -55,7 +56,7 @@ def formulas(case: str, test: Test) -> list[Prediction]:
         }
     else:
         wanted = {
-            f"Bekker, {name}": partial(empirical.bekker, *wheel, empirical.terrain(name))
+            f"Bekker, {name}": partial(empirical.bekker, *wheel, terrain(name))
             for name in BEKKER
         }
     found = []

@@ -7,6 +7,7 @@ from ..errors import ResultsError
 from ..read.wheel_run import WheelRun
 from . import empirical
 from .prediction import Prediction
+from .terrain_values import terrain
 
 
 def predictions_for(run: WheelRun, names: Iterable[str], extrapolate: bool) -> list[Prediction]:
@@ -24,7 +25,7 @@ def require_formulas(names: Iterable[str]) -> None:
         if method == "nrmm":
             _nrmm_pressure(name)
         elif method in ("bekker", "wong_reece"):
-            empirical.terrain(what)
+            terrain(what)
         else:
             raise ResultsError(
                 f"there is no formula '{method}'; there are nrmm:PRESSURE, bekker:TERRAIN, "
@@ -58,7 +59,7 @@ def _prediction(run: WheelRun, name: str, extrapolate: bool) -> Prediction:
         return empirical.nrmm(
             load, run.radius, width, depth, density, pressure, extrapolate=extrapolate
         )
-    ground = empirical.terrain(what)
+    ground = terrain(what)
     if method == "bekker":
         return empirical.bekker(load, diameter, width, ground, extrapolate)
     slip = run.number("slip")

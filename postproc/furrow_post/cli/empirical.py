@@ -4,8 +4,10 @@
 import argparse
 import math
 from collections.abc import Callable
+from typing import Any, NamedTuple, Protocol
 
 from ..analyse import cone_formulas, empirical
+from ..analyse.terrain_values import terrain
 from ..arguments import at_least, between, positive
 from ..errors import ResultsError
 
@@ -37,26 +39,74 @@ FLAGS = {  # option -> meaning
 ON_CONE = ("cone_index", "load", "diameter", "width", "slip")
 DEFLECTED = ("section_height", "deflection")
 VEHICLE = ("weight", "axles", "tyres", "diameter", "width", "clearance", "power")
-NEEDED = {  # method -> what it cannot do without
-    "nrmm": ("load", "diameter", "width", "depth", "density", "pressure"),
-    "bekker": ("load", "diameter", "width", "terrain"),
-    "wong_reece": ("load", "diameter", "width", "terrain", "slip"),
-    "wismer_luth": ON_CONE,
-    "brixius": (*ON_CONE, *DEFLECTED),
-    "gee_clough": (*ON_CONE, *DEFLECTED),
-    "vti_clay": (*ON_CONE, *DEFLECTED),
-    "vci": VEHICLE,
-    "snow_traction": ("load", "contact_area", "surface"),
-}
-FURTHER = {  # method -> what it may have besides
-    "nrmm": ("sinkage",),
-    "brixius": ("radial",),
-    "vci": (*DEFLECTED, "manual", "chains"),
+
+
+class Report(Protocol):
+    def report(self) -> str:
+        ...
+
+
+class Method(NamedTuple):
+    """A formula: options that it cannot do without, those that it may have besides, its answer."""
+
+    needed: tuple[str, ...]
+    further: tuple[str, ...]
+    answer: Callable[[argparse.Namespace], Report]
+
+
+def _tyre(g: argparse.Namespace) -> cone_formulas.Tyre:
+    sizes = (g.load, g.diameter, g.width, g.section_height, g.deflection)
+    return cone_formulas.Tyre(*(math.nan if size is None else size for size in sizes))
+
+
+def _nrmm(g: argparse.Namespace) -> Report:
+    wheel = (g.load, 0.5 * g.diameter, g.width)
+    return empirical.nrmm(*wheel, g.depth, g.density, g.pressure, g.sinkage, g.extrapolate)
+
+
+def _bekker(g: argparse.Namespace) -> Report:
+    ground = terrain(g.terrain)
+    return empirical.bekker(g.load, g.diameter, g.width, ground, g.extrapolate)
+
+
+def _wong_reece(g: argparse.Namespace) -> Report:
+    ground = terrain(g.terrain)
+    return empirical.wong_reece(g.load, g.diameter, g.width, g.slip, ground, g.extrapolate)
+
+
+def _brixius(g: argparse.Namespace) -> Report:
+    return cone_formulas.brixius(g.cone_index, _tyre(g), g.slip, g.radial, g.extrapolate)
+
+
+def _vehicle_cone_index(g: argparse.Namespace) -> Report:
+    vehicle = (g.weight, g.axles, g.tyres, _tyre(g), g.clearance, g.power, g.manual, g.chains)
+    return cone_formulas.vehicle_cone_index(cone_formulas.WheeledVehicle(*vehicle))
+
+
+def _on_cone(formula: Callable[[float, cone_formulas.Tyre, float, bool], Report]) -> Any:
+    return lambda g: formula(g.cone_index, _tyre(g), g.slip, g.extrapolate)
+
+
+def _snow_traction(g: argparse.Namespace) -> Report:
+    return empirical.snow_traction(g.surface, g.load, g.contact_area)
+
+
+WHEEL = ("load", "diameter", "width")
+METHODS = {
+    "nrmm": Method((*WHEEL, "depth", "density", "pressure"), ("sinkage",), _nrmm),
+    "bekker": Method((*WHEEL, "terrain"), (), _bekker),
+    "wong_reece": Method((*WHEEL, "terrain", "slip"), (), _wong_reece),
+    "wismer_luth": Method(ON_CONE, (), _on_cone(cone_formulas.wismer_luth)),
+    "brixius": Method((*ON_CONE, *DEFLECTED), ("radial",), _brixius),
+    "gee_clough": Method((*ON_CONE, *DEFLECTED), (), _on_cone(cone_formulas.gee_clough)),
+    "vti_clay": Method((*ON_CONE, *DEFLECTED), (), _on_cone(cone_formulas.vti_clay)),
+    "vci": Method(VEHICLE, (*DEFLECTED, "manual", "chains"), _vehicle_cone_index),
+    "snow_traction": Method(("load", "contact_area", "surface"), (), _snow_traction),
 }
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("method", choices=NEEDED)
+    parser.add_argument("method", choices=METHODS)
     for name, unit in OPTIONS.items():
         parser.add_argument(f"--{name}", type=KINDS.get(name, positive), help=unit)
     terrains = "name in furrow_post/analyse/terrains.csv, e.g. 'LETE sand', or a soil card's file"
@@ -65,90 +115,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--surface", choices=empirical.TRACTION, help=surface)
     for name, meaning in FLAGS.items():
         parser.add_argument(f"--{name}", action="store_true", help=meaning)
-    parser.add_argument(
-        "--extrapolate",
-        action="store_true",
-        help="answer outside of the range of validity too, and say so",
-    )
+    outside = "answer outside of the range of validity too, and say so"
+    parser.add_argument("--extrapolate", action="store_true", help=outside)
 
 
 def run(arguments: argparse.Namespace) -> None:
+    method = METHODS[arguments.method]
     given = {name for name in (*OPTIONS, "terrain", "surface") if getattr(arguments, name) is not None}
     given |= {name for name in FLAGS if getattr(arguments, name)}
-    missing = [name for name in NEEDED[arguments.method] if name not in given]
+    missing = [f"--{name}" for name in method.needed if name not in given]
     if missing:
-        options = ", ".join(f"--{name}" for name in missing)
-        raise ResultsError(f"empirical {arguments.method} needs {options}")
-    unread = given - {*NEEDED[arguments.method], *FURTHER.get(arguments.method, ())}
+        raise ResultsError(f"empirical {arguments.method} needs {', '.join(missing)}")
+    unread = sorted(f"--{name}" for name in given - {*method.needed, *method.further})
     if unread:
-        options = ", ".join(f"--{name}" for name in sorted(unread))
+        options = ", ".join(unread)
         raise ResultsError(f"empirical {arguments.method} does not read {options}; leave it out")
-    print(_report(arguments))
-
-
-def _report(given: argparse.Namespace) -> str:
-    outside: bool = given.extrapolate
-    ground_formulas: dict[str, Callable[[], str]] = {
-        "wismer_luth": lambda: cone_formulas.wismer_luth(
-            given.cone_index, _tyre(given), given.slip, outside
-        ).report(),
-        "brixius": lambda: cone_formulas.brixius(
-            given.cone_index, _tyre(given), given.slip, given.radial, outside
-        ).report(),
-        "gee_clough": lambda: cone_formulas.gee_clough(
-            given.cone_index, _tyre(given), given.slip, outside
-        ).report(),
-        "vti_clay": lambda: cone_formulas.vti_clay(
-            given.cone_index, _tyre(given), given.slip, outside
-        ).report(),
-        "vci": lambda: _vehicle_cone_index(given),
-        "snow_traction": lambda: empirical.snow_traction(
-            given.surface, given.load, given.contact_area
-        ).report(),
-    }
-    if given.method in ground_formulas:
-        return ground_formulas[given.method]()
-    return _prediction(given).report()
-
-
-def _tyre(given: argparse.Namespace) -> cone_formulas.Tyre:
-    height, deflection = (
-        math.nan if value is None else value for value in (given.section_height, given.deflection)
-    )
-    load = math.nan if given.load is None else given.load
-    return cone_formulas.Tyre(load, given.diameter, given.width, height, deflection)
-
-
-def _vehicle_cone_index(given: argparse.Namespace) -> str:
-    vehicle = cone_formulas.WheeledVehicle(
-        given.weight,
-        given.axles,
-        given.tyres,
-        _tyre(given),
-        given.clearance,
-        given.power,
-        given.manual,
-        given.chains,
-    )
-    return cone_formulas.vehicle_cone_index(vehicle).report()
-
-
-def _prediction(given: argparse.Namespace) -> empirical.Prediction:
-    outside: bool = given.extrapolate
-    if given.method == "nrmm":
-        return empirical.nrmm(
-            given.load,
-            0.5 * given.diameter,
-            given.width,
-            given.depth,
-            given.density,
-            given.pressure,
-            given.sinkage,
-            outside,
-        )
-    ground = empirical.terrain(given.terrain)
-    if given.method == "bekker":
-        return empirical.bekker(given.load, given.diameter, given.width, ground, outside)
-    return empirical.wong_reece(
-        given.load, given.diameter, given.width, given.slip, ground, outside
-    )
+    print(method.answer(arguments).report())

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
-from furrow_post.analyse import comparison, comparison_report, conditions, empirical
+from furrow_post.analyse import comparison, comparison_report, conditions
 from furrow_post.analyse.comparison import Comparison, overall, overall_of_best_estimates
 from furrow_post.analyse.cost_table import Components, families
 from furrow_post.analyse.density import height_left
 from furrow_post.analyse.entry import FORMULA, BEST, MEASURED, RUN, Entry, best_estimates
 from furrow_post.analyse.judgement import judge
+from furrow_post.analyse.prediction import Prediction
 from furrow_post.analyse.verdict import COEFFICIENT, HUB_DROP, Agreement, Quantity
 from furrow_post.errors import ResultsError
 from furrow_post.read.results import Results, Surface
@@ -182,7 +183,7 @@ class CompareTest(FolderTest):
         self.assertEqual(overall_of_best_estimates(Comparison([run])), "")
 
     def test_formula_has_its_place_and_no_verdict(self) -> None:
-        prediction = empirical.Prediction("made", "nowhere", 0.04, 100.0, 1000.0)
+        prediction = Prediction("made", "nowhere", 0.04, 100.0, 1000.0)
         result = comparison.compare([self.read("a", "a")], formulas=[prediction])
         (found,) = result.of(HUB_DROP, FORMULA)
         self.assertEqual((found.source, found.value), ("made", 0.04))

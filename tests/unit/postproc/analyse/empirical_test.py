@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from furrow_post.analyse import empirical
-from furrow_post.analyse.empirical import OutOfRange, terrain
+from furrow_post.analyse.prediction import OutOfRange
+from furrow_post.analyse.terrain_values import terrain
 from furrow_post.analyse.statistics import rms
 from furrow_post.csv_table import read_numbers, read_rows
 from furrow_post.errors import ResultsError
