@@ -3,6 +3,7 @@
 tables of numbers."""
 
 import csv
+import io
 import math
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
@@ -84,10 +85,24 @@ def column_names(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     return list(dict.fromkeys(name for row in rows for name in row))
 
 
+def in_cells(row: Mapping[str, Any], digits: int) -> dict[str, Any]:
+    """A row whose floats have so many digits; NaN is an empty cell."""
+    return {
+        name: ("" if math.isnan(value) else f"{value:.{digits}g}") if isinstance(value, float) else value
+        for name, value in row.items()
+    }
+
+
 def write_rows(path: Path, rows: Sequence[Mapping[str, Any]], comments: Sequence[str] = ()) -> None:
-    """Writes rows that may lack columns of others; comments go above, each with its "#"."""
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        file.writelines(line.rstrip() + "\n" for line in comments)
-        writer = csv.DictWriter(file, column_names(rows), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    """Writes the text of rows_text()."""
+    path.write_text(rows_text(rows, comments), encoding="utf-8", newline="")
+
+
+def rows_text(rows: Sequence[Mapping[str, Any]], comments: Sequence[str] = ()) -> str:
+    """Of rows that may lack columns of others; comments go above, each with its "#"."""
+    file = io.StringIO()
+    file.writelines(line.rstrip() + "\n" for line in comments)
+    writer = csv.DictWriter(file, column_names(rows), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return file.getvalue()

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A comparison for a person and for programs: compare.txt, compare.csv, compare.h5."""
 
-import csv
 import math
 from pathlib import Path
 from typing import Any
@@ -9,6 +8,7 @@ from typing import Any
 import h5py
 import numpy as np
 
+from ..csv_table import in_cells, write_rows
 from ..formatting import duration, in_unit, with_error
 from .comparison import Comparison, overall, overall_of_best_estimates
 from .cost_table import Components
@@ -29,39 +29,29 @@ SHOWN_CONDITIONS = (
 )
 
 
-def table_rows(result: Comparison) -> list[dict[str, str | float]]:
+Line = dict[str, str | float]
+
+
+def table_rows(result: Comparison) -> list[Line]:
     """Lines of compare.csv: texts and SI numbers."""
-    nothing = {f"u_{part}": math.nan for part in Components.NAMES}
-    lines: list[dict[str, str | float]] = []
+    lines = []
     for e in result.entries:
-        known = {f"u_{part}": e.parts.part(part) for part in Components.NAMES}
-        lines.append(
-            {
-                "quantity": e.quantity.name,
-                "source": e.source,
-                "kind": e.kind,
-                "value": e.value,
-                "uncertainty": e.uncertainty,
-                **(known if e.of_run else nothing),
-                "cpu_time": e.cpu_time,
-                "note": e.note,
-            }
-        )
+        parts = e.parts if e.of_run else Components()
+        line = _line(e.quantity.name, e.source, e.kind, e.value, e.uncertainty, parts)
+        lines.append({**line, "cpu_time": e.cpu_time, "note": e.note})
     for label, (value, error) in result.tracks.items():
-        lines.append(
-            {
-                "quantity": "density under the track",
-                "source": label,
-                "kind": RUN,
-                "value": value,
-                "uncertainty": error,
-                **nothing,
-                "u_time": error,
-                "cpu_time": math.nan,
-                "note": "",
-            }
-        )
+        parts = Components(time=error)
+        lines.append(_line("density under the track", label, RUN, value, error, parts))
     return lines
+
+
+def _line(
+    quantity: str, source: str, kind: str, value: float, uncertainty: float, parts: Components
+) -> Line:
+    named: Line = {"quantity": quantity, "source": source, "kind": kind}
+    named |= {"value": value, "uncertainty": uncertainty}
+    named |= {f"u_{name}": parts.part(name) for name in Components.NAMES}
+    return {**named, "cpu_time": math.nan, "note": ""}
 
 
 def component_cells(entry: Entry) -> list[str]:
@@ -125,18 +115,13 @@ def write_comparison(result: Comparison, folder: Path) -> None:
     report = comparison_report(result)
     (folder / "compare.txt").write_text(report + "\n", encoding="utf-8")
     lines = table_rows(result)
-    with open(folder / "compare.csv", "w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, list(lines[0]), lineterminator="\n")
-        file.write("# SI units; uncertainties are standard deviations; empty: not known\n")
-        writer.writeheader()
-        for line in lines:
-            unknown = {k: "" for k, v in line.items() if isinstance(v, float) and math.isnan(v)}
-            writer.writerow({**line, **unknown})
+    head = "# SI units; uncertainties are standard deviations; empty: not known"
+    write_rows(folder / "compare.csv", [in_cells(line, 9) for line in lines], [head])
     with h5py.File(folder / "compare.h5", "w") as content:
         _write_hdf5(content, result, lines)
 
 
-def _write_hdf5(content: Any, result: Comparison, lines: list[dict[str, str | float]]) -> None:
+def _write_hdf5(content: Any, result: Comparison, lines: list[Line]) -> None:
     table = content.create_group("table")
     for name, sample in lines[0].items():
         values = [line[name] for line in lines]

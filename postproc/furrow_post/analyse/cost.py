@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Error against cost of the runs of one scene, and which run to take for a wanted error."""
 
-import csv
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
@@ -10,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..csv_table import in_cells, write_rows
 from ..errors import ResultsError
 from ..formatting import duration
 from ..read.wheel_run import cells_or_grains
@@ -239,22 +239,12 @@ def cost_report(assessed: Sequence[Assessed], error: float) -> str:
 
 def write_csv(path: Path, assessed: Sequence[Assessed]) -> None:
     """The assessed runs as a table."""
-
-    def number(value: float) -> str:
-        return f"{value:.6g}" if math.isfinite(value) else ""
-
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        file.write("# relative numerical errors, CPU seconds of one core; empty: not known\n")
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(
-            ["run", "ground", "model", "wheel", "size_m", "cpu_time_s", "pareto"]
-            + ["error_sinkage", "error_coefficient"]
-            + [f"{key}_{part}" for key in QUANTITY_KEYS for part in Components.NAMES]
-        )
-        for a in assessed:
-            writer.writerow(
-                [a.row.run, *a.row.family, number(a.row.size), number(a.row.cpu_time)]
-                + [int(a.pareto)]
-                + [number(a.errors[key]) for key in QUANTITY_KEYS]
-                + [number(part) for key in QUANTITY_KEYS for part in a.parts[key].parts()]
-            )
+    rows = []
+    for a in assessed:
+        row = {"run": a.row.run, **a.row.family._asdict()}
+        row |= {"size_m": a.row.size, "cpu_time_s": a.row.cpu_time, "pareto": int(a.pareto)}
+        row |= {f"error_{key}": a.errors[key] for key in QUANTITY_KEYS}
+        for key in QUANTITY_KEYS:
+            row |= {f"{key}_{part}": a.parts[key].part(part) for part in Components.NAMES}
+        rows.append(in_cells(row, 6))
+    write_rows(path, rows, ["# relative numerical errors, CPU seconds of one core; empty: not known"])

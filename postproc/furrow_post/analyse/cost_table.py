@@ -8,7 +8,6 @@ another domain or with another packing (seed) give those two components beside r
 of a domain the mean difference, of packings the standard deviation of one run.
 """
 
-import csv
 import math
 import shlex
 from collections.abc import Iterable, Sequence
@@ -16,7 +15,7 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple
 
-from ..csv_table import read_comments, read_rows
+from ..csv_table import read_comments, read_rows, write_rows
 from ..errors import ResultsError, content_of
 from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun
 from .grid_convergence import (
@@ -134,13 +133,11 @@ def wanted_wheel(comments: Iterable[str]) -> str:
 
 
 def write_table(path: Path, rows: Iterable[Row], comments: Sequence[str] = ()) -> None:
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        file.write("".join(line.rstrip() + "\n" for line in comments))
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(HEADER)
-        for row in rows:
-            values = (getattr(row, name) for name in HEADER)
-            writer.writerow([f"{v:.6g}" if isinstance(v, float) else v for v in values])
+    texts = [
+        {name: f"{v:.6g}" if isinstance(v, float) else v for name, v in vars(row).items()}
+        for row in rows
+    ]
+    write_rows(path, texts, comments)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,6 @@ Plates: pressure against sinkage. Their folder has curve.txt (fix ave/time: step
 folder is one of inputs/laboratory, or one of furrow-point (point.csv).
 """
 
-import csv
 import enum
 import math
 from collections.abc import Sequence
@@ -17,6 +16,7 @@ import h5py
 import numpy as np
 
 from ..arrays import Floats
+from ..csv_table import in_cells, write_rows
 from ..errors import ResultsError, content_of
 from ..formatting import percent
 from ..read.laboratory import LaboratoryTest, PointRun, cell_curve
@@ -235,15 +235,10 @@ def write_curves(result: CurveComparison, folder: Path) -> None:
     """compare.txt, compare.csv, compare.h5."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "compare.txt").write_text(curve_report(result) + "\n", encoding="utf-8")
-    with open(folder / "compare.csv", "w", encoding="utf-8", newline="") as file:
-        file.write(
-            "# plate: sinkage [m], pressure [Pa]; oedometer: axial stress [Pa], density over that "
-            "at the start\n"
-        )
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["level"] + [c.label for c in result.curves])
-        for level, row in zip(result.levels, result.values):
-            writer.writerow([f"{level:.6g}"] + [f"{v:.6g}" for v in row])
+    names = ["level", *(c.label for c in result.curves)]
+    rows = [dict(zip(names, row)) for row in np.column_stack([result.levels, result.values]).tolist()]
+    head = "# plate: sinkage [m], pressure [Pa]; oedometer: axial stress [Pa], density over that at the start"
+    write_rows(folder / "compare.csv", [in_cells(row, 6) for row in rows], [head])
     with h5py.File(folder / "compare.h5", "w") as content:
         for c in result.curves:
             group = content.create_group(f"curves/{c.label.replace('/', '_')}")

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/validation/experiments.csv: every value of every study, and how many have which verdict."""
 
-import csv
-import io
 from collections.abc import Iterable
 from pathlib import Path
 
+from ..csv_table import rows_text
 from .provenance import read_origins
 from .values import AGREE, VERDICTS, Registry, Value
 
@@ -35,13 +34,7 @@ def commits(value: Value) -> str:
 
 def experiments_text(registry: Registry) -> str:
     """The content of the file. @raises ResultsError"""
-    rows = [{**value.row(), "program": commits(value)} for value in registry]
-    file = io.StringIO()
-    file.writelines(f"{line}\n" for line in HEAD)
-    writer = csv.DictWriter(file, list(rows[0]) if rows else ["id"], lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return file.getvalue()
+    return rows_text([{**value.row(), "program": commits(value)} for value in registry], HEAD)
 
 
 def counts(values: Iterable[Value]) -> str:

@@ -10,10 +10,10 @@ import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 
 from ..arrays import Booleans, Floats
-from ..csv_table import read_numbers, write_rows
+from ..csv_table import in_cells, read_numbers, write_rows
 from ..errors import ResultsError
 from ..figures.style import annotate_panel, panel_letters, save, use_style
-from .mobility import Mobility, Vehicle, evaluate, mobility_of, tabulate
+from .mobility import Vehicle, evaluate, mobility_of, tabulate
 from .model import Surrogate
 from .raster import Raster, write_geotiff
 
@@ -157,14 +157,24 @@ def write_mobility_table(
     if not len(inside):
         soils = {}
     for soil, parameters in soils.items():
-        ground = {
-            "slope": inside,
-            **{name: np.full(len(inside), value) for name, value in parameters.items()},
-        }
-        fields = evaluate(surrogate, vehicle, ground)
+        constants = {name: np.full(len(inside), value) for name, value in parameters.items()}
+        fields = evaluate(surrogate, vehicle, {"slope": inside, **constants})
         result = mobility_of(fields, vehicle, inside)
-        for k, slope in enumerate(inside):
-            rows.append(_row(soil, parameters, float(slope), fields, result, k))
+        columns = {
+            **constants,
+            "slope_percent": 100 * np.tan(np.radians(inside)),
+            "slope_degrees": inside,
+            "traction_coefficient": fields["best"],
+            "traction_deviation": fields["deviation"],
+            "go_probability": result.probability,
+            "pull_N": result.pull,
+            "speed_m_per_s": result.speed,
+            "energy_J_per_m": result.energy,
+            "slip": result.slip,
+            "hub_drop_m": result.hub_drop,
+        }
+        for values in np.column_stack(list(columns.values())).tolist():
+            rows.append({"soil": soil, **in_cells(dict(zip(columns, values)), 6)})
     write_rows(
         file,
         rows,
@@ -175,30 +185,3 @@ def write_mobility_table(
         ),
     )
     return len(rows)
-
-
-def _row(
-    soil: str,
-    parameters: Mapping[str, float],
-    slope: float,
-    fields: Mapping[str, Floats],
-    result: Mobility,
-    k: int,
-) -> dict[str, str]:
-    numbers = {
-        **parameters,
-        "slope_percent": 100 * np.tan(np.radians(slope)),
-        "slope_degrees": slope,
-        "traction_coefficient": fields["best"][k],
-        "traction_deviation": fields["deviation"][k],
-        "go_probability": result.probability[k],
-        "pull_N": result.pull[k],
-        "speed_m_per_s": result.speed[k],
-        "energy_J_per_m": result.energy[k],
-        "slip": result.slip[k],
-        "hub_drop_m": result.hub_drop[k],
-    }
-    return {
-        "soil": soil,
-        **{name: "" if np.isnan(v) else f"{v:.6g}" for name, v in numbers.items()},
-    }

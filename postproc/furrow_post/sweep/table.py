@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 
 from ..analyse.cost_table import Components
-from ..csv_table import column_names, write_rows
+from ..csv_table import column_names, in_cells, write_rows
 from ..formatting import duration, value_text
 from .curves import CONDITIONS, Figure
 from .series import Series, SweepPoint
@@ -84,7 +84,7 @@ def write_table(series: Sequence[Series], csv: Path, hdf5: Path) -> None:
     names = column_names(rows)
     listed = [name for name in names if name in unit and "_error" not in name]
     comments = [*CSV_HEAD, *(f"# {name} [{unit[name]}]" for name in listed)]
-    write_rows(csv, [{k: _text(v) for k, v in row.items()} for row in rows], comments)
+    write_rows(csv, [in_cells(row, 8) for row in rows], comments)
     with h5py.File(hdf5, "w") as content:
         content.attrs["unit"] = "SI; errors are standard deviations, NaN: not known"
         for name in names:
@@ -98,12 +98,6 @@ def _write_column(content: Any, name: str, values: Sequence[Cell]) -> None:
         content[name] = np.array(texts, dtype=h5py.string_dtype())
     else:
         content[name] = np.array(values, dtype=np.float64)
-
-
-def _text(cell: Cell) -> str:
-    if isinstance(cell, str):
-        return cell
-    return "" if math.isnan(cell) else f"{cell:.8g}"
 
 
 def shown_rows(figure: Figure) -> tuple[list[str], list[list[str]]]:
