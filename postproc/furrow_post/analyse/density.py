@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.ndimage import gaussian_filter
 
 from ..arrays import Floats
 from ..read.terrain import read_terrain_fields
@@ -88,21 +89,10 @@ def ground_points(run: WheelRun) -> GroundPoints:
     return GroundPoints(x, substance * volume, volume, 2 * grains.radius, True)
 
 
-def _convolved(line: Floats, kernel: Floats, reach: int) -> Floats:
-    """Of the length of line, also where the kernel is longer."""
-    if len(line) >= len(kernel):
-        return np.convolve(line, kernel, "same")
-    return np.convolve(line, kernel, "full")[reach : reach + len(line)]
-
-
 def _blurred(image: Floats, reach: float) -> Floats:
     """Gaussian of reach cells along both axes, nothing beyond the edges."""
-    half = int(np.ceil(4 * reach))
-    kernel = np.exp(-0.5 * (np.arange(-half, half + 1) / max(reach, 1e-9)) ** 2)
-    kernel /= kernel.sum()
-    for axis in (0, 1):
-        image = np.apply_along_axis(_convolved, axis, image, kernel, half)
-    return image
+    blurred: Floats = gaussian_filter(image, max(reach, 1e-9), mode="constant")
+    return blurred
 
 
 def section(

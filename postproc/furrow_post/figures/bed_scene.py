@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A bed of grains that a wheel has rolled over: grains, how far each has moved, heights, the rut."""
 
+import warnings
+
 import numpy as np
 from matplotlib.colors import Normalize
+from numpy.lib.stride_tricks import sliding_window_view
+from scipy.ndimage import minimum_filter
 
 from ..arrays import Floats, Integers
 from ..read.results import Results
@@ -96,7 +100,7 @@ class BedScene:
         column = ((self.x[:, 0] - self.low[0]) / self.cell).astype(int).clip(0, columns - 1)
         row = ((self.x[:, 1] - self.low[1]) / self.cell).astype(int).clip(0, rows - 1)
         heights = np.nan_to_num(self.heights, nan=-np.inf)
-        lowest = _lowest_around(heights, int(depth / self.cell))
+        lowest = minimum_filter(heights, 2 * int(depth / self.cell) + 1, mode="nearest")
         shown = self.x[:, 2] > lowest[row, column] + self.bed_level - depth
         for axis in (0, 1):
             x, low, high = self.x[:, axis], self.low[axis], self.high[axis]
@@ -106,31 +110,13 @@ class BedScene:
         return np.flatnonzero(shown)
 
 
-def _lowest_around(image: Floats, reach: int) -> Floats:
-    """Least value within reach cells along both axes, the edge repeated."""
-    for axis in (0, 1):
-        first = np.repeat(image.take([0], axis), reach, axis)
-        last = np.repeat(image.take([-1], axis), reach, axis)
-        padded = np.concatenate([first, image, last], axis)
-        size = image.shape[axis]
-        shifted = [padded.take(range(k, k + size), axis) for k in range(2 * reach + 1)]
-        image = np.minimum.reduce(shifted)
-    return image
-
-
 def _median_around(image: Floats) -> Floats:
     """Median of the 3 x 3 cells about each cell that have a value; NaN where none has.
 
     Fills the pits between single grains.
     """
     padded = np.pad(image, 1, constant_values=np.nan)
-    rows, columns = image.shape
-    shifted = [padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
-    around = np.sort(shifted, axis=0)  # NaN last
-    count = np.isfinite(around).sum(axis=0)
-    low, high = (
-        np.take_along_axis(around, np.minimum(place, 8)[None], 0)[0]
-        for place in (np.maximum(count - 1, 0) // 2, count // 2)
-    )
-    median: Floats = 0.5 * (low + high)
+    around = sliding_window_view(padded, (3, 3)).reshape(*image.shape, 9)
+    with warnings.catch_warnings(action="ignore"):  # where none has a value
+        median: Floats = np.nanmedian(around, axis=2)
     return median

@@ -2,6 +2,7 @@
 """A shaded picture of spheres and triangles: one sun with shadow, ambient occlusion."""
 
 import numpy as np
+from scipy.ndimage import uniform_filter
 
 from ..arrays import Floats
 from ..read.results import Surface
@@ -34,18 +35,6 @@ def corner_normals(surface: Surface, crease: float = 40.0) -> Floats:
     length = np.linalg.norm(normals, axis=2, keepdims=True)
     unit_normals: Floats = normals / np.maximum(length, 1e-300)
     return unit_normals
-
-
-def _box_mean(image: Floats, reach: int) -> Floats:
-    """Over (2 reach + 1)^2 pixels, the edge repeated."""
-    for axis in (0, 1):
-        first = np.repeat(image.take([0], axis), reach + 1, axis)
-        last = np.repeat(image.take([-1], axis), reach, axis)
-        total = np.concatenate([first, image, last], axis).cumsum(axis)
-        size, window = image.shape[axis], 2 * reach + 1
-        sums = total.take(range(window, window + size), axis) - total.take(range(size), axis)
-        image = sums / window
-    return image
 
 
 def _bounds(view: View, x: Floats, margin: float) -> tuple[Floats, Floats]:
@@ -123,7 +112,10 @@ def _openness(canvas: Canvas, length: float) -> Floats:
     factor = np.ones_like(depth)
     for reach, strength in ((length, 0.10), (3 * length, 0.10)):
         cells = max(int(reach / (SUPERSAMPLE * canvas.pixel)), 1)
-        mean = _box_mean(filled, cells) / np.maximum(_box_mean(weight, cells), 1e-9)
+        around, known = (
+            uniform_filter(image, 2 * cells + 1, mode="nearest") for image in (filled, weight)
+        )
+        mean = around / np.maximum(known, 1e-9)
         buried = np.where(np.isfinite(depth), mean - filled, 0.0) / reach
         factor -= strength * np.clip(4.0 * buried, -0.6, 2.0)
     for axis in (0, 1):
