@@ -2,33 +2,28 @@
 """furrow-post compaction: stress and density at depth below the track, with formulas."""
 
 import argparse
-from pathlib import Path
 
 import numpy as np
 
 from ..analyse.compaction import Compaction, read_compaction, report, write_compaction
 from ..analyse.half_space import ELASTIC, SOEHNE
-from ..arguments import path
 from ..figures.compaction import draw_compaction
 from ..formatting import value_text
-from ..read.results import require_different
 from ..study.tables import in_columns
-from .comparison import labelled
+from .comparison import add_folders, beside_first, folders
+from .output import add_target
 
 LINES = 8  # of the table on the screen
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("results", nargs="+", type=labelled, help="results folders (LABEL=FOLDER)")
-    parser.add_argument(
-        "-o", "--output", type=path, help="folder to write (default: compaction beside the first)"
-    )
+    add_folders(parser)
+    add_target(parser, "folder to write (default: compaction beside the first)")
 
 
 def run(arguments: argparse.Namespace) -> None:
-    require_different([folder for folder, _ in arguments.results])
-    runs = [read_compaction(*given) for given in arguments.results]
-    target = arguments.output or Path(arguments.results[0].folder).resolve().parent / "compaction"
+    runs = [read_compaction(*given) for given in folders(arguments)]
+    target = beside_first(arguments, "compaction")
     target.mkdir(parents=True, exist_ok=True)
     write_compaction(runs, target / "compaction.csv")
     draw_compaction(runs, target / "compaction.png")

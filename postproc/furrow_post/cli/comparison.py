@@ -31,14 +31,30 @@ def labelled(text: str) -> Labelled:
     return Labelled(tail, head) if equals else Labelled(words(head), None)
 
 
+def add_folders(
+    parser: argparse.ArgumentParser, text: str = "results folder", count: str | int = "+"
+) -> None:
+    parser.add_argument("results", nargs=count, type=labelled, help=f"{text}, or LABEL=FOLDER")
+
+
+def folders(arguments: argparse.Namespace) -> list[Labelled]:
+    """@raises ResultsError where one is given twice"""
+    given: list[Labelled] = arguments.results
+    require_different([folder for folder, _ in given])
+    return given
+
+
+def beside_first(arguments: argparse.Namespace, name: str) -> Path:
+    """The folder to write: as asked for, or of this name next to the first one that is given."""
+    asked: Path | None = arguments.output
+    return asked or Path(arguments.results[0].folder).resolve().parent / name
+
+
 def add_comparison_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("results", nargs="+", type=labelled, help="results folder, or LABEL=FOLDER")
+    add_folders(parser)
     add_references(parser)
-    parser.add_argument(
-        "--measured",
-        type=path,
-        help="reference.csv with depth_m, sinkage_m, resistance, density_kgm3",
-    )
+    columns = "depth_m, sinkage_m, resistance, density_kgm3"
+    parser.add_argument("--measured", type=path, help=f"reference.csv with {columns}")
     parser.add_argument(
         "--anyway", action="store_true", help="compare runs whose conditions differ"
     )
@@ -46,26 +62,17 @@ def add_comparison_arguments(parser: argparse.ArgumentParser) -> None:
 
 def add_references(parser: argparse.ArgumentParser) -> None:
     """What runs are laid beside: errors of other sizes, formulas."""
-    parser.add_argument(
-        "--errors",
-        type=path,
-        help="table of runs of the scene (inputs/costs): errors of size, domain, packing",
-    )
-    parser.add_argument(
-        "--formula",
-        action="append",
-        default=[],
-        help="nrmm:PRESSURE, bekker:TERRAIN or wong_reece:TERRAIN; may be repeated",
-    )
-    parser.add_argument(
-        "--extrapolate", action="store_true", help="formulas outside of their range too"
-    )
+    table = "table of runs of the scene (inputs/costs): errors of size, domain, packing"
+    formula = "nrmm:PRESSURE, bekker:TERRAIN or wong_reece:TERRAIN; may be repeated"
+    outside = "formulas outside of their range too"
+    parser.add_argument("--errors", type=path, help=table)
+    parser.add_argument("--formula", action="append", default=[], help=formula)
+    parser.add_argument("--extrapolate", action="store_true", help=outside)
 
 
 def compared(arguments: argparse.Namespace) -> Comparison:
     """@raises ResultsError with every reason why the runs are not comparable"""
-    require_different([folder for folder, _ in arguments.results])
-    runs = [read_wheel_run(folder, label) for folder, label in arguments.results]
+    runs = [read_wheel_run(folder, label) for folder, label in folders(arguments)]
     table = cost_table.read_table(arguments.errors)[0] if arguments.errors else None
     formulas = predictions_for(runs[0], arguments.formula, arguments.extrapolate)
     return compare(runs, table, formulas, arguments.measured, arguments.anyway)

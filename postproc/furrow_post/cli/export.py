@@ -6,33 +6,29 @@ import csv
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..arguments import path, words
+from ..arguments import words
 from ..errors import ResultsError
 from ..formatting import in_unit
-from ..read.results import Results, require_different
-from .comparison import Labelled, labelled
+from ..read.results import Results
+from .comparison import add_folders, folders
+from .output import add_target
 
 TIME, RUN = "time", "run"  # the channel and the column that come first
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "results", nargs="+", type=labelled, help="results folder or history.h5, or LABEL=FOLDER"
-    )
+    add_folders(parser, "results folder or history.h5")
     parser.add_argument(
         "--channels",
         type=words,
         metavar="NAME,NAME,...",
         help="of the history, e.g. hub_drop,force_x (default: all); time always comes first",
     )
-    parser.add_argument(
-        "-o", "--output", type=path, help="file to write (default: history.csv in the first folder)"
-    )
+    add_target(parser, "file to write (default: history.csv in the first folder)")
 
 
 def run(arguments: argparse.Namespace) -> None:
-    given: list[Labelled] = arguments.results
-    require_different([folder for folder, _ in given])
+    given = folders(arguments)
     runs = [Results(folder) for folder, _ in given]
     target: Path = arguments.output or runs[0].folder / "history.csv"
     if target.suffix != ".csv" or target.is_dir() or not target.parent.is_dir():

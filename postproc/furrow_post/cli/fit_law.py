@@ -10,18 +10,13 @@ from ..analyse.law_fit import fit_law
 from ..analyse.law_fit_report import report, write_fit
 from ..analyse.point_curves import PROGRAM, PointCurves
 from ..arguments import path
+from .output import add_target
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "file", type=path, help="a YAML file with a fit; furrow-point paths lists its keys"
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=path,
-        help="the results folder; results/<name of the file> unless given",
-    )
+    file = "a YAML file with a fit; furrow-point paths lists its keys"
+    parser.add_argument("file", type=path, help=file)
+    add_target(parser, "the results folder; results/<name of the file> unless given")
     parser.add_argument("--no-plot", action="store_true", help="no figure")
 
 

@@ -3,34 +3,29 @@
 difference."""
 
 import argparse
-from pathlib import Path
 
 from ..analyse.comparison import uniquely_labelled
 from ..analyse.flow import compare_flows, flow_report, write_flow
-from ..arguments import path, positive
+from ..arguments import positive
 from ..figures.flow import draw_flow
-from ..read.results import require_different
 from ..read.wheel_run import read_wheel_run
-from .comparison import labelled
+from .comparison import add_folders, beside_first, folders
+from .output import add_target
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("results", nargs=2, help="results folders (LABEL=FOLDER)")
+    add_folders(parser, count=2)
     parser.add_argument(
         "--width",
         type=positive,
         help="standard deviation of the kernel [m] (default: the size of the coarser ground)",
     )
-    parser.add_argument(
-        "-o", "--output", type=path, help="folder to write (default: flow beside the first)"
-    )
+    add_target(parser, "folder to write (default: flow beside the first)")
 
 
 def run(arguments: argparse.Namespace) -> None:
-    given = [labelled(text) for text in arguments.results]
-    require_different([folder for folder, _ in given])
-    target = arguments.output or Path(given[0][0]).resolve().parent / "flow"
-    runs = uniquely_labelled([read_wheel_run(*item) for item in given])
+    runs = uniquely_labelled([read_wheel_run(*item) for item in folders(arguments)])
+    target = beside_first(arguments, "flow")
     result = compare_flows(runs, arguments.width)
     write_flow(result, target)
     draw_flow(result, target / "flow.png")

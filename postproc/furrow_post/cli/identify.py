@@ -6,39 +6,24 @@ from pathlib import Path
 
 import numpy as np
 
-from ..arguments import assignment, path
+from ..arguments import path
 from ..csv_table import write_rows
 from ..formatting import in_unit
 from ..study.tables import in_columns
 from ..surrogate.draw_posterior import draw_posterior
 from ..surrogate.model import read_surrogate
 from ..surrogate.posterior import identify, read_tests
+from .output import add_assignments, add_target
 
 QUANTILES = (2.5, 50.0, 97.5)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("surrogate", type=path, help="file of furrow-post surrogate")
-    parser.add_argument(
-        "tests",
-        type=path,
-        help="CSV: inputs, quantities and their errors of wheel tests on one soil",
-    )
-    parser.add_argument(
-        "--set",
-        nargs="+",
-        default=[],
-        type=assignment,
-        metavar="NAME=NUMBER",
-        help="inputs that are known in all tests",
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=path,
-        required=True,
-        help="folder to write: posterior.csv, posterior.png",
-    )
+    tests = "CSV: inputs, quantities and their errors of wheel tests on one soil"
+    parser.add_argument("tests", type=path, help=tests)
+    add_assignments(parser, "--set", "inputs that are known in all tests", default=[])
+    add_target(parser, "folder to write: posterior.csv, posterior.png", required=True)
 
 
 def run(arguments: argparse.Namespace) -> None:

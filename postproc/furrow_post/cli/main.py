@@ -17,15 +17,16 @@ DESCRIPTION = "Steady values, plots, pictures and comparisons of Furrow's result
 
 @dataclass(frozen=True)
 class Subcommand:
-    """One subcommand: the module of its name has its arguments and what it does."""
+    """One subcommand: the module of its name, or of this file, has its arguments and what it does."""
 
     name: str
     help: str
     aliases: tuple[str, ...] = ()
+    file: str = ""
 
     @property
     def module(self) -> str:
-        return self.name.replace("-", "_")
+        return self.file or self.name.replace("-", "_")
 
 
 class Module(Protocol):
@@ -64,9 +65,9 @@ SUBCOMMANDS = (
         "moduli, strengths, repose or run-out of laboratory tests with their errors "
         "-> laboratory.json, laboratory.png",
     ),
-    Subcommand("point", "the figure of furrow-point -> point.png or fit.png"),
-    Subcommand("sidewall", "the figure of furrow-sidewall -> sidewall.png"),
-    Subcommand("modes", "the natural modes of furrow-tyre --modes -> <state>_modes.png"),
+    Subcommand("point", "the figure of furrow-point -> point.png or fit.png", file="figure"),
+    Subcommand("sidewall", "the figure of furrow-sidewall -> sidewall.png", file="figure"),
+    Subcommand("modes", "the natural modes of furrow-tyre --modes -> <state>_modes.png", file="figure"),
     Subcommand(
         "fit-law",
         "parameters of a law from measured curves (furrow-point fit) "

@@ -9,21 +9,15 @@ from pathlib import Path
 
 import numpy as np
 
-from ..arguments import assignment, between, path, positive
+from ..arguments import between, path, positive
 from ..arrays import Booleans, Floats
 from ..errors import ResultsError
 from ..surrogate.mobility import Vehicle
 from ..surrogate.model import Surrogate, read_surrogate
 from ..surrogate.raster import read_raster, read_slope
-from ..surrogate.terrain_map import (
-    GO,
-    NO_GO,
-    UNCERTAIN,
-    make_map,
-    read_classes,
-    write_map,
-    write_mobility_table,
-)
+from ..surrogate.terrain_map import GO, NO_GO, UNCERTAIN, make_map, read_classes, write_map
+from ..surrogate.terrain_map import write_mobility_table
+from .output import add_assignments, add_target
 
 CHOSEN = ("slip", "load", "slope")  # inputs that the map finds for itself
 
@@ -39,45 +33,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("surrogate", type=path, help="file of furrow-post surrogate")
     add("elevation", type=path, help="elevation model in metres, any raster that GDAL reads")
-    add(
-        "-o",
-        "--output",
-        type=path,
-        required=True,
-        help="folder to write: map.tif, map.png, mobility.csv",
-    )
-    add(
-        "--raster",
-        action="append",
-        default=[],
-        type=_raster,
-        metavar="NAME=FILE",
-        help="raster of a soil parameter",
-    )
-    add(
-        "--classes",
-        nargs=2,
-        type=path,
-        metavar=("RASTER", "TABLE"),
-        help="raster of soil classes, and a CSV with their parameters",
-    )
-    add(
-        "--set",
-        nargs="+",
-        default=[],
-        type=assignment,
-        metavar="NAME=NUMBER",
-        help="soil parameters of all cells",
-    )
+    add_target(parser, "folder to write: map.tif, map.png, mobility.csv", required=True)
+    rasters = {"action": "append", "default": [], "metavar": "NAME=FILE"}
+    add("--raster", type=_raster, help="raster of a soil parameter", **rasters)
+    classes = "raster of soil classes, and a CSV with their parameters"
+    add("--classes", nargs=2, type=path, metavar=("RASTER", "TABLE"), help=classes)
+    add_assignments(parser, "--set", "soil parameters of all cells", default=[])
     add("--load", type=positive, help="N, weight on the wheel (default: that of the training runs)")
     add("--speed", type=positive, help="m/s, wanted (default: that of the training runs)")
     add("--power", type=positive, default=math.inf, help="W per wheel, limits speed and pull")
-    add(
-        "--confidence",
-        type=between(0.5, 1.0),
-        default=0.95,
-        help="probability that a go needs (default 0.95)",
-    )
+    sure = "probability that a go needs (default 0.95)"
+    add("--confidence", type=between(0.5, 1.0), default=0.95, help=sure)
 
 
 def run(arguments: argparse.Namespace) -> None:

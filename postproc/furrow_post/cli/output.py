@@ -4,7 +4,7 @@
 import argparse
 from pathlib import Path
 
-from ..arguments import at_least, path, words
+from ..arguments import assignment, at_least, path, words
 from ..errors import ResultsError
 
 FORMATS = ("png", "svg", "pdf")
@@ -19,6 +19,19 @@ def add_output(
 ) -> None:
     parser.add_argument("-o", "--output", type=path, help=text)
     parser.add_argument("--format", choices=FORMATS, help="default: that of --output, or png")
+
+
+def add_target(parser: argparse.ArgumentParser, text: str, required: bool = False) -> None:
+    """The option -o of commands that write other files than figures, or several."""
+    parser.add_argument("-o", "--output", type=path, required=required, help=text)
+
+
+def add_assignments(
+    parser: argparse.ArgumentParser, option: str, text: str, default: list[object] | None = None
+) -> None:
+    parser.add_argument(
+        option, nargs="+", type=assignment, metavar="NAME=NUMBER", default=default, help=text
+    )
 
 
 def add_pixels(parser: argparse.ArgumentParser) -> None:

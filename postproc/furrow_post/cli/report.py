@@ -10,7 +10,6 @@ from pathlib import Path
 from ..analyse import cost, cost_table
 from ..analyse.comparison import Comparison
 from ..analyse.comparison_report import write_comparison
-from ..arguments import path
 from ..errors import ResultsError
 from ..figures.comparison import draw_comparison
 from ..figures.cost import draw_cost
@@ -30,7 +29,7 @@ from ..read.motion import read_motion
 from ..read.summary import ResistanceParts, Summary
 from ..read.wheel_run import WheelRun
 from .comparison import add_comparison_arguments, compared
-from .output import prepare_page
+from .output import add_target, prepare_page
 
 COMPARISON_CAPTION = (
     "a, b: values with two standard deviations. c to e: histories, datum of the hub drop the top of "
@@ -43,12 +42,7 @@ WANTED_ERROR = 0.1  # relative, of the section on cost
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_comparison_arguments(parser)
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=path,
-        help="page to write (default: report.html in or beside the results)",
-    )
+    add_target(parser, "page to write (default: report.html in or beside the results)")
 
 
 def run(arguments: argparse.Namespace) -> None:

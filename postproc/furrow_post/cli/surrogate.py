@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from datetime import datetime, timezone
 from pathlib import Path
 
-from ..arguments import assignment, path
+from ..arguments import path
 from ..errors import ResultsError
 from ..formatting import in_unit, with_error
 from ..study.record import FINISHED, read_record
@@ -15,28 +15,14 @@ from ..surrogate.gaussian_process import Z_95, HeldOut
 from ..surrogate.held_out import draw_held_out
 from ..surrogate.model import Surrogate, fit, read_surrogate
 from ..surrogate.training import PULL, QUANTITIES, RADIUS, TORQUE, Training, read_training
+from .output import add_assignments, add_target
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "sources",
-        nargs="+",
-        type=path,
-        help="folders of sweeps or their sweep.csv; or a surrogate, with --at",
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=path,
-        help="file to write, .json (default: surrogate.json in the first folder)",
-    )
-    parser.add_argument(
-        "--at",
-        nargs="+",
-        type=assignment,
-        metavar="NAME=NUMBER",
-        help="predicts here: all inputs of the surrogate",
-    )
+    sources = "folders of sweeps or their sweep.csv; or a surrogate, with --at"
+    parser.add_argument("sources", nargs="+", type=path, help=sources)
+    add_target(parser, "file to write, .json (default: surrogate.json in the first folder)")
+    add_assignments(parser, "--at", "predicts here: all inputs of the surrogate")
 
 
 def run(arguments: argparse.Namespace) -> None:

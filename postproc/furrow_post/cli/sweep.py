@@ -4,16 +4,14 @@
 import argparse
 from pathlib import Path
 
-from ..arguments import path, words
-from ..read.results import require_different
+from ..arguments import words
 from ..sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
-from .comparison import Labelled, add_references, labelled
+from .comparison import add_folders, add_references, folders, labelled
+from .output import add_target
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "results", nargs="+", type=labelled, help="folder of a sweep or of runs, or LABEL=FOLDER"
-    )
+    add_folders(parser, "folder of a sweep or of runs")
     parser.add_argument(
         "--against",
         type=words,
@@ -28,14 +26,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=labelled,
         help="CSV with columns named as in sweep.csv, or LABEL=FILE; may be repeated",
     )
-    parser.add_argument(
-        "-o", "--output", type=path, help="folder to write (default: the first one)"
-    )
+    add_target(parser, "folder to write (default: the first one)")
 
 
 def run(arguments: argparse.Namespace) -> None:
-    given: list[Labelled] = arguments.results
-    require_different([folder for folder, _ in given])
+    given = folders(arguments)
     wanted = Wanted(
         arguments.against,
         arguments.errors,

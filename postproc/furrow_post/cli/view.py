@@ -9,18 +9,15 @@ from ..errors import ResultsError
 from ..figures.view import LARGEST, view_page
 from ..read.motion import read_motion
 from ..read.results import require_different
-from .output import prepare_page
+from .output import add_target, prepare_page
 
 MEGABYTE = 1e6
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "results", type=path, nargs="+", help="results folders, one or two: side by side"
-    )
-    parser.add_argument(
-        "-o", "--output", type=path, help="page to write (default: view.html in the first folder)"
-    )
+    both = "results folders, one or two: side by side"
+    parser.add_argument("results", type=path, nargs="+", help=both)
+    add_target(parser, "page to write (default: view.html in the first folder)")
     parser.add_argument(
         "--size",
         type=positive,
