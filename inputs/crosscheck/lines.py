@@ -15,7 +15,7 @@ from furrow_post.study.tables import markdown
 OutputRow = dict[str, str]
 
 HEAD = (
-    "# Written by run.py; SI units, uncertainties are standard deviations, their parts named",
+    "# Written by evaluate.py; SI units, uncertainties are standard deviations, their parts named",
     "# error_*; empty: not known. place: base, another law of the continuum, or the condition of a",
     "# point of a series; element: size of cells or grains; program: of the executable, SHA-256.",
 )

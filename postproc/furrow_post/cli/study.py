@@ -9,12 +9,12 @@ from ..arguments import words
 from ..errors import ResultsError
 from ..formatting import duration
 from ..study import pages
-from ..study.definition import load_study
+from ..study.definition import EVALUATION, load_study
 from ..study.experiments import counts, experiments_text, path_of
 from ..study.launch import project_root
 from ..study.repeat import known_cost, missed
 from ..study.study import add_study_arguments, carry_out
-from ..study.values import DEFINITION, Registry, load_yaml, values_of
+from ..study.values import Registry, values_of
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -50,8 +50,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def study_folders(root: Path) -> list[Path]:
     """Of all studies that have runs."""
-    files = (root / "inputs").rglob(DEFINITION)
-    return sorted(file.parent for file in files if "runs" in load_yaml(file))
+    return sorted(file.parent for file in (root / "inputs").rglob(EVALUATION))
 
 
 def folder_of(root: Path, name: str) -> Path:

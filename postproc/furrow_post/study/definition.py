@@ -14,7 +14,8 @@ A run is a LIGGGHTS script (script, variables, log), a path of a material point 
 material, path}), or a program with its arguments. Other keys are those of a Case; shares lists the
 variables that make equal what runs with the same script share. In texts {here} is
 the folder of the study, {inputs}, {materials}, {scenes}, {tyres} are those folders, {folder} that of
-the run, {run} its name, {what} its words, and every key of `with` stands for its value.
+the run, {run} its name, {what} its words, and every key of `with` stands for its value. A study whose
+runs are rows of a table has a function cases() in evaluate.py in the place of `runs`.
 """
 
 import importlib.util
@@ -28,9 +29,6 @@ from ..errors import ResultsError
 from .case import FOLDER, Case, Value
 from .furrow_cases import point_case, script_case
 from .launch import project_root
-from .output import Output
-from .runner import Runner
-from .runs import Runs
 from .study import Study
 from .values import DEFINITION, load_yaml
 
@@ -47,23 +45,9 @@ def load_study(folder: Path) -> Study:
     """@raises ResultsError"""
     folder = folder.resolve()
     content = load_yaml(folder / DEFINITION)
-    module, cases = evaluation_of(folder), cases_of(folder, content)
-
-    def evaluate(runner: Runner, output: Output) -> Sequence[str]:
-        missed: Sequence[str] = module.evaluate(Runs(cases, runner), output)
-        return missed
-
-    return Study(
-        folder / DEFINITION,
-        str(content.get("title", folder.name)),
-        cases,
-        evaluate,
-        checked=_chosen(content.get("checked")),
-    )
-
-
-def _chosen(names: Sequence[str] | None) -> Any:
-    return lambda case: names is None or case.name in names
+    module = evaluation_of(folder)
+    cases = tuple(module.cases()) if hasattr(module, "cases") else cases_of(folder, content)
+    return Study(folder, cases, module.evaluate, content.get("checked"))
 
 
 def evaluation_of(folder: Path) -> ModuleType:

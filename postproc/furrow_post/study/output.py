@@ -14,7 +14,7 @@ from .record import Record
 from .tables import aligned
 
 PAGE, SECTION = "README.md", "tables.md"
-BEGIN, END = "<!-- written by run.py -->", "<!-- end -->"
+BEGIN, END = "<!-- written by the study -->", "<!-- end -->"
 COLUMNS = 100  # of a page
 OF_RUNS = ("run", "case", "law")  # first column of a table with a row for each run
 

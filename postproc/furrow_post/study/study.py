@@ -1,26 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The command line that all studies under inputs share."""
+"""What is done with a study: its runs are listed, made and evaluated."""
 
 import argparse
 import fnmatch
 import sys
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from ..arguments import at_least, path, words
 from ..errors import ResultsError
-from ..program import run_program
 from .case import Case
 from .launch import Tools
 from .output import Output
 from .runner import Runner, State
+from .runs import Runs
 
-Evaluation = Callable[[Runner, Output], Sequence[str]]
-
-
-def every(case: Case) -> bool:
-    return True
+Evaluation = Callable[[Runs, Output], Sequence[str]]
 
 
 @dataclass(frozen=True)
@@ -28,18 +24,13 @@ class Study:
     """Runs and what is made of them.
 
     evaluate writes tables and figures of the runs that are there, and returns what misses a limit,
-    a sentence each; checked: the cases without which --check cannot pass.
+    a sentence each; checked: names of the runs without which --check cannot pass, None: all.
     """
 
-    file: Path  # the driver, in the folder of the study
-    description: str  # for --help
+    folder: Path
     cases: Sequence[Case]
     evaluate: Evaluation
-    checked: Callable[[Case], bool] = field(default=every)
-
-    @property
-    def folder(self) -> Path:
-        return self.file.resolve().parent
+    checked: Collection[str] | None = None
 
     def selected(self, names: Sequence[str]) -> list[Case]:
         """Cases whose stage or name is among names, which may be patterns; all of no names.
@@ -58,22 +49,6 @@ class Study:
 
 def _fits(case: Case, name: str) -> bool:
     return name == case.stage or fnmatch.fnmatchcase(case.name, name)
-
-
-def run_study(study: Study, arguments: Sequence[str] | None = None) -> int:
-    """The command line of a study; the result is the exit status."""
-    return run_program(
-        f"{study.folder.name}/{study.file.name}",
-        lambda: carry_out(study, _parser(study).parse_args(arguments)),
-    )
-
-
-def _parser(study: Study) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        description=study.description, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    add_study_arguments(parser)
-    return parser
 
 
 def add_study_arguments(parser: argparse.ArgumentParser) -> None:
@@ -114,12 +89,12 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
 
 def carry_out(study: Study, parsed: argparse.Namespace) -> int:
     """Makes the runs that are missing and evaluates them, or lists them; the exit status."""
-    tools = Tools.of(study.file, parsed.build)
+    tools = Tools.of(study.folder, parsed.build)
     results = parsed.results or tools.root / "results" / study.folder.name
     runner = Runner(results, tools, parsed.jobs, same_program=parsed.check, again=parsed.again)
     chosen = study.selected(parsed.names)
-    if parsed.check and not parsed.names:
-        chosen = [case for case in chosen if study.checked(case)]
+    if parsed.check and not parsed.names and study.checked is not None:
+        chosen = [case for case in chosen if case.name in study.checked]
     if parsed.list:
         for case in chosen:
             print(f"{runner.state(case).value:8} {case.name:40} {case.what}".rstrip())
@@ -141,7 +116,7 @@ def _evaluate(
     merge = merge and not complete and not check
     beside = (complete or merge) and not check
     with Output(study.folder if beside else runner.results, page=beside, merge=merge) as output:
-        missed = list(study.evaluate(runner, output))
+        missed = list(study.evaluate(Runs(study.cases, runner), output))
         records = [record for case in study.cases if (record := runner.record(case))]
         output.publish(records, runner.tools.root)
     if not beside:

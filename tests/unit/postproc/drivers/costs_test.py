@@ -1,18 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/costs: its tables are made of the runs that it lists, and --error can make them again."""
 
-import importlib.util
 import shlex
 import unittest
 
 from furrow_post.analyse import cost_table
+from furrow_post.study.definition import evaluation_of
 from support.command import SOURCE
 
 FOLDER = SOURCE / "inputs" / "costs"
-specification = importlib.util.spec_from_file_location("costs_run", FOLDER / "run.py")
-assert specification and specification.loader
-driver = importlib.util.module_from_spec(specification)
-specification.loader.exec_module(driver)
+driver = evaluation_of(FOLDER)
 
 
 class CostsTest(unittest.TestCase):

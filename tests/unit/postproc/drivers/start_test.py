@@ -9,9 +9,7 @@ import unittest
 from support.command import SOURCE, run_post
 
 INPUTS = SOURCE / "inputs"
-OTHERS = (INPUTS / "crosscheck" / "run.py", INPUTS / "costs" / "run.py")
-DRIVERS = OTHERS
-DEFINED = sorted(file.parent for file in INPUTS.glob("*/*/evaluate.py"))
+STUDIES = sorted(file.parent for file in INPUTS.rglob("evaluate.py"))
 TOOLS = (
     INPUTS / "laboratory" / "run.py",
     INPUTS / "laboratory" / "calibrate.py",
@@ -30,10 +28,10 @@ def start(*words: object) -> "subprocess.CompletedProcess[str]":
 
 class DriversTest(unittest.TestCase):
     def test_there_are_all_studies(self) -> None:
-        self.assertEqual(len(DRIVERS) + len(DEFINED), 22)
+        self.assertEqual(len(STUDIES), 22)
 
     def test_help(self) -> None:
-        for driver in (*DRIVERS, *TOOLS):
+        for driver in TOOLS:
             with self.subTest(driver=driver):
                 done = start(driver, "--help")
                 self.assertEqual(done.returncode, 0, done.stderr)
@@ -41,13 +39,9 @@ class DriversTest(unittest.TestCase):
 
     def test_list_names_every_run_once(self) -> None:
         with tempfile.TemporaryDirectory() as results:
-            for place in (*DRIVERS, *DEFINED):
+            for place in STUDIES:
                 with self.subTest(place=place):
-                    words = ("--list", "--results", results)
-                    if place in DRIVERS:
-                        done = start(place, *words)
-                    else:
-                        done = run_post("study", place, *words, folder=SOURCE)
+                    done = run_post("study", place, "--list", "--results", results, folder=SOURCE)
                     self.assertEqual(done.returncode, 0, done.stderr)
                     names = [line.split()[1] for line in done.stdout.splitlines()]
                     self.assertGreaterEqual(len(names), 4)

@@ -1,27 +1,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Studies: what a user gets wrong, and results of runs that somebody damaged or removed."""
 
-import importlib
 import os
-import sys
 import tempfile
 import unittest
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
 from pathlib import Path
-from unittest import mock
 
-from furrow_post.study import study as module
 from furrow_post.study.definition import load_study
 from furrow_post.study.launch import ERRORS, SCREEN, Tools
 from furrow_post.study.record import Record
-from furrow_post.study.study import Study, run_study
+from furrow_post.study.study import Study
 from support.command import SOURCE
+from support.evaluation import run_study
 from support.faults import FaultsTest, outcome
 
 INPUTS = SOURCE / "inputs"
-OTHERS = (INPUTS / "crosscheck" / "run.py", INPUTS / "costs" / "run.py")
-STUDIES = (*OTHERS, *(file.parent for file in sorted(INPUTS.glob("*/*/evaluate.py"))))
+STUDIES = sorted(file.parent for file in INPUTS.rglob("evaluate.py"))
 FILES = ("history.h5", "terrain.h5", "curve.txt", "facts.txt", "summary.json", "point.csv")
 
 # (words, what is said)
@@ -38,34 +32,9 @@ WORDS = (
 NEEDS_NO_RUNS = {"tyre_table6"}  # its results are on the screen of a run: a run without is missed
 
 
-@contextmanager
-def study_of(driver: Path) -> Iterator[Study]:
-    """The study of a folder with a study.yaml, or of a driver, with the modules of its folder."""
-    if driver.is_dir():
-        yield load_study(driver)
-        return
-    known = set(sys.modules)
-    found: list[Study] = []
-
-    def keep(study: Study, arguments: object = None) -> int:
-        found.append(study)
-        return 0
-
-    with mock.patch.object(sys, "path", [str(driver.parent), *sys.path]):
-        code = compile(driver.read_text(encoding="utf-8"), driver, "exec")
-        with mock.patch.object(module, "run_study", keep):
-            with suppress(SystemExit):
-                exec(code, {"__name__": "__main__", "__file__": str(driver)})
-        yield found[0]
-    for name in set(sys.modules) - known:
-        if str(driver.parent) in str(getattr(sys.modules[name], "__file__", "")):
-            del sys.modules[name]
-    importlib.invalidate_caches()
-
-
 def forge(study: Study, results: Path, content: str | None) -> None:
     """Folders of finished runs, of all cases but one, with this in every file, or without files."""
-    root = Tools.of(study.file).root
+    root = Tools.of(study.folder).root
     for case in study.cases[:-1]:
         folder = results / case.name
         folder.mkdir(parents=True, exist_ok=True)
@@ -79,21 +48,21 @@ def forge(study: Study, results: Path, content: str | None) -> None:
 
 class StudiesFaultsTest(FaultsTest):
     def test_words(self) -> None:
-        with study_of(OTHERS[0]) as study:
-            for word, message in WORDS:
-                self.expect(word, outcome(lambda: run_study(study, [word])), message)
+        study = load_study(INPUTS / "crosscheck")
+        for word, message in WORDS:
+            self.expect(word, outcome(lambda: run_study(study, [word])), message)
 
     def test_results_that_are_no_results(self) -> None:
-        for driver in STUDIES:
-            with study_of(driver) as study:
-                if study.folder.name in NEEDS_NO_RUNS:
-                    continue
-                for content in (None, "junk\n"):
-                    with tempfile.TemporaryDirectory() as results:
-                        forge(study, Path(results), content)
-                        words = ["--evaluate", "--results", results]
-                        found = outcome(lambda: run_study(study, words))
-                        self.expect(f"{study.folder.name}: {content}", found, results)
+        for folder in STUDIES:
+            study = load_study(folder)
+            if folder.name in NEEDS_NO_RUNS:
+                continue
+            for content in (None, "junk\n"):
+                with tempfile.TemporaryDirectory() as results:
+                    forge(study, Path(results), content)
+                    words = ["--evaluate", "--results", results]
+                    found = outcome(lambda: run_study(study, words))
+                    self.expect(f"{folder.name}: {content}", found, results)
         self.assertEqual(len(STUDIES), 22)
         self.assertNotIn("FURROW_TRACEBACK", os.environ)
 

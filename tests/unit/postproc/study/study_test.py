@@ -11,26 +11,19 @@ from pathlib import Path
 
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
-from furrow_post.study.case import Case
 from furrow_post.study.output import Output, merged
-from furrow_post.study.runner import Runner
-from furrow_post.study.study import Study, run_study
+from furrow_post.study.runs import Runs
+from furrow_post.study.study import Study
+from support.evaluation import run_study
 from support.fake import FakeTree
 
 
-def evaluate(runner: Runner, output: Output) -> Sequence[str]:
+def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     """A row per run that is there; a run called low misses its limit."""
-    rows = [
-        {"run": case.name, "value": record.facts["value"]}
-        for case in STUDIED
-        if (record := runner.record(case))
-    ]
+    rows = [{"run": run.name, "value": run.record.facts["value"]} for run in runs.done("*")]
     output.table("results.csv", rows)
     output.section([f"{len(rows)} runs"])
     return [f"{row['run']} is below 1" for row in rows if float(str(row["value"])) < 1]
-
-
-STUDIED: list[Case] = []
 
 
 class StudyTest(unittest.TestCase):
@@ -39,18 +32,18 @@ class StudyTest(unittest.TestCase):
         self.tree = FakeTree(Path(self.temporary.name))
         self.results = Path(self.temporary.name) / "results"
         self.page = self.tree.study / "README.md"
-        self.page.write_text("# Made\n\n<!-- written by run.py -->\nold\n<!-- end -->\n\nAfter.\n")
+        self.page.write_text("# Made\n\n<!-- written by the study -->\nold\n<!-- end -->\n\nAfter.\n")
 
     def tearDown(self) -> None:
         self.temporary.cleanup()
 
     def run_study(self, *words: str, **values: float) -> tuple[int, str]:
         """Runs of these values; status and what was printed."""
-        STUDIED[:] = [
+        cases = [
             replace(self.tree.case(name, value=value), stage=name[0], what=f"value {value:g}")
             for name, value in values.items()
         ]
-        study = Study(self.tree.study / "run.py", "made", STUDIED, evaluate)
+        study = Study(self.tree.study, cases, evaluate)
         options = ("--results", str(self.results), "--build", str(self.tree.build))
         printed = io.StringIO()
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
@@ -88,7 +81,7 @@ class StudyTest(unittest.TestCase):
         one = self.tree.case("a1")
         bad = self.tree.case("bad", fail="it broke")
 
-        def evaluate(runner: Runner, output: Output) -> list[str]:
+        def evaluate(runs: Runs, output: Output) -> list[str]:
             output.path("results.csv").write_text("new")
             return []
 
@@ -97,7 +90,7 @@ class StudyTest(unittest.TestCase):
             ("all runs failed", [replace(bad, may_fail=True)], True),
             ("a failure is a result", [one, replace(bad, may_fail=True)], False),
         ):
-            study = Study(self.tree.study / "run.py", "made", cases, evaluate)
+            study = Study(self.tree.study, cases, evaluate)
             with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
                 run_study(study, options)
             text = (self.tree.study / "results.csv").read_text()
@@ -108,11 +101,11 @@ class StudyTest(unittest.TestCase):
         (self.tree.study / "results.csv").write_text(old)
         options = ["--results", str(self.results), "--build", str(self.tree.build)]
 
-        def evaluate(runner: Runner, output: Output) -> list[str]:
+        def evaluate(runs: Runs, output: Output) -> list[str]:
             output.path("results.csv").write_text("new")
             raise ResultsError("the second table cannot be made")
 
-        study = Study(self.tree.study / "run.py", "made", [self.tree.case("a1")], evaluate)
+        study = Study(self.tree.study, [self.tree.case("a1")], evaluate)
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             self.assertEqual(run_study(study, options), 1)
         self.assertEqual((self.tree.study / "results.csv").read_text(), old)
@@ -121,7 +114,7 @@ class StudyTest(unittest.TestCase):
         status, _ = self.run_study(a1=1, b1=2)
         self.assertEqual(status, 0)
         page = self.page.read_text()
-        self.assertIn("<!-- written by run.py -->\n\n2 runs\n\n<!-- end -->\n\nAfter.\n", page)
+        self.assertIn("<!-- written by the study -->\n\n2 runs\n\n<!-- end -->\n\nAfter.\n", page)
         origins = {row["file"]: row for row in read_rows(self.tree.study / "provenance.csv")}
         self.assertEqual(set(origins), {"README.md", "results.csv"})
         origin = origins["results.csv"]
@@ -194,7 +187,7 @@ class StudyTest(unittest.TestCase):
         options = ["--results", str(self.results), "--build", str(self.tree.build)]
         for may_fail, expected in ((False, 1), (True, 0)):
             case = replace(bad, may_fail=may_fail)
-            study = Study(self.tree.study / "run.py", "made", [case], lambda runner, output: [])
+            study = Study(self.tree.study, [case], lambda runs, output: [])
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
                 self.assertEqual(run_study(study, options), expected)

@@ -1,17 +1,14 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Cross-checks: the same test on grains and on continuum, side by side. See README.md.
+"""The same test on grains and on continuum, side by side: results.csv, the page's table, figures.
 
-Makes the runs of cases.csv that are missing, compares the grounds with furrow-post's
-own comparison, and writes results.csv, README.md's table and the figures of this folder. Stages are
-the cases; '*/continuum_*' are the runs of one ground.
+Grounds are compared with furrow-post's own comparison. Stages are the cases.
 """
 
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postproc"))
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from cases import Made, plan
 from lines import HEAD, OutputRow, table
@@ -19,17 +16,21 @@ from plate_cases import PlateCase
 from series import draw_series, lines_of_series
 from wheel_cases import WheelCase, cited_lines, cited_table
 
+from furrow_post.study.case import Case
 from furrow_post.study.output import Output
-from furrow_post.study.runner import Runner
-from furrow_post.study.study import Study, run_study
+from furrow_post.study.runs import Runs
 
 
-def evaluate(runner: Runner, output: Output) -> Sequence[str]:
+def cases() -> list[Case]:
+    return [planned.run for planned in plan()]
+
+
+def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     lines: list[OutputRow] = list(cited_lines())
     plans = plan()
     for name in dict.fromkeys(planned.case for planned in plans):
         own = [planned for planned in plans if planned.case == name]
-        made = Made(runner, own)
+        made = Made(runs.runner, own)
         if own[0].of_wheel:
             wheels = WheelCase(name, made)
             if wheels.complete:
@@ -48,8 +49,3 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
     output.table("results.csv", lines, HEAD)
     output.section(table(lines))
     return []
-
-
-if __name__ == "__main__":
-    cases = tuple(planned.run for planned in plan())
-    sys.exit(run_study(Study(Path(__file__), __doc__ or "", cases, evaluate)))

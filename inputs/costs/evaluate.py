@@ -1,19 +1,14 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Error against cost: makes the runs of runs.csv that are missing and writes the tables of this
-folder from them. See README.md.
+"""Tables of error against cost, from the runs of runs.csv, whose stages are the tables.
 
-Stages are the tables. A table keeps the comments above its rows. The figure compares models of the
-ground: models.csv and the wheel on sand of the cross-check.
+A table keeps the comments above its rows. The figure compares models of the ground: models.csv and
+the wheel on sand of the cross-check.
 """
 
 import math
 import shlex
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postproc"))
 
 from furrow_post.analyse import cost, cost_table
 from furrow_post.csv_table import read_rows
@@ -22,8 +17,7 @@ from furrow_post.read.wheel_run import read_wheel_run
 from furrow_post.study.case import Case
 from furrow_post.study.furrow_cases import named_values, script_case
 from furrow_post.study.output import Output
-from furrow_post.study.runner import Runner, State
-from furrow_post.study.study import Study, run_study
+from furrow_post.study.runs import Runs
 
 HERE = Path(__file__).resolve().parent
 SCENES = HERE.parent / "scenes"
@@ -64,13 +58,18 @@ def hub_drops() -> tuple[list[Answer], tuple[float, float]]:
     return answers, found["continuum"].reference("sinkage")
 
 
-def evaluate(runner: Runner, output: Output) -> Sequence[str]:
+def cases() -> list[Case]:
+    return [make_case(row) for row in PLANNED]
+
+
+def evaluate(runs: Runs, output: Output) -> Sequence[str]:
+    planned = {make_case(row).name: row for row in PLANNED}
     for table in TABLES:
-        planned = [(row, make_case(row)) for row in PLANNED if row["table"] == table]
         rows = [
-            cost_table.row_of(read_wheel_run(runner.folder(case), row["run"]), options(row))
-            for row, case in planned
-            if runner.state(case) is State.DONE
+            cost_table.row_of(
+                read_wheel_run(run.folder, planned[run.name]["run"]), options(planned[run.name])
+            )
+            for run in runs.done(table)
         ]
         if not rows:
             continue
@@ -80,8 +79,3 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
         print(f"{table}\n{cost.cost_report(assessed, 0.1)}\n")
     draw_models(*hub_drops(), "hub drop", output.path("models.png"))
     return []
-
-
-if __name__ == "__main__":
-    cases = tuple(make_case(row) for row in PLANNED)
-    sys.exit(run_study(Study(Path(__file__), __doc__ or "", cases, evaluate)))
