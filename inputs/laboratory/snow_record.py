@@ -3,16 +3,15 @@
 confined compression; triaxial compression; tension, compression with free sides and shear of snow
 that was compressed in confined compression before."""
 
-import csv
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import astuple, dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from furrow_post.arrays import Floats
-from furrow_post.csv_table import read_rows
+from furrow_post.csv_table import in_cells, read_rows, write_rows
 from furrow_post.errors import ResultsError, content_of
 from furrow_post.laboratory.quantity import around_peak
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve
@@ -153,27 +152,12 @@ def row_of(place: Place, values: Sequence[float]) -> Row:
 
 
 def write_record(path: Path, rows: Sequence[Row]) -> None:
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        file.write("# Laboratory tests on grains, written by inputs/laboratory/identify_snow.py\n")
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(field.name for field in fields(Row))
-        for row in rows:
-            writer.writerow(f"{v:.4g}" if isinstance(v, float) else v for v in astuple(row))
+    head = "# Laboratory tests on grains, written by inputs/laboratory/identify_snow.py"
+    write_rows(path, [in_cells(asdict(row), 4) for row in rows], [head])
 
 
 def read_record(path: Path) -> list[Row]:
     """@raises OSError; ResultsError of a table with other columns"""
     with content_of(path, "make it again: identify_snow.py record"):
-        return [
-            Row(
-                row["test"],
-                float(row["compaction"]),
-                float(row["confinement"]),
-                float(row["level"]),
-                row["quantity"],
-                float(row["value"]),
-                float(row["scatter"]),
-                int(row["packings"]),
-            )
-            for row in read_rows(path)
-        ]
+        kinds: dict[str, Any] = {field.name: field.type for field in fields(Row)}
+        return [Row(**{n: kind(row[n]) for n, kind in kinds.items()}) for row in read_rows(path)]

@@ -45,12 +45,11 @@ DENSITIES = np.linspace(180, 500, 60)  # [kg/m3] of the measured curves
 class Fit(NamedTuple):
     """A measured strength: a power of density."""
 
-    kind: str
     snow: str
+    source: str
     coefficient: float  # [Pa]
     reference: float  # [kg/m3]
     exponent: float
-    source: str
 
     def at(self, density: Floats | float) -> Floats | float:
         """[Pa]"""
@@ -66,17 +65,13 @@ class Strengths(NamedTuple):
     scatter: Floats
 
 
-def measured() -> list[Fit]:
+def measured(kind: str) -> list[Fit]:
+    numbers = ("coefficient_Pa", "reference_kgm3", "exponent")
+    rows = read_rows(HERE / "snow_strength_reference.csv")
     return [
-        Fit(
-            row["quantity"],
-            row["snow"],
-            float(row["coefficient_Pa"]),
-            float(row["reference_kgm3"]),
-            float(row["exponent"]),
-            row["source"],
-        )
-        for row in read_rows(HERE / "snow_strength_reference.csv")
+        Fit(row["snow"], row["source"], *(float(row[name]) for name in numbers))
+        for row in rows
+        if row["quantity"] == kind
     ]
 
 
@@ -125,7 +120,7 @@ def table(clusters: dict[str, dict[str, Strengths]], laws: dict[str, dict[str, S
     """Markdown, strengths in kPa."""
     lines = []
     for kind in KINDS:
-        fits = [fit for fit in measured() if fit.kind == kind]
+        fits = measured(kind)
         for ground, found in clusters.items():
             law = laws[ground][kind]
             for density, strength, scatter in zip(*found[kind]):
@@ -145,7 +140,7 @@ def draw_kind(
     laws: dict[str, dict[str, Strengths]],
 ) -> None:
     styles = ("-", "--", "-.", ":")
-    for fit, style in zip((fit for fit in measured() if fit.kind == kind), styles):
+    for fit, style in zip(measured(kind), styles):
         label = f"measured: {fit.snow} [{fit.source}]"
         strength = KILOPASCAL * np.asarray(fit.at(DENSITIES))
         axes.semilogy(DENSITIES, strength, style, color="0.35", lw=1.2, label=label)

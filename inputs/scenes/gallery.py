@@ -25,7 +25,7 @@ from furrow_post.errors import ResultsError
 from furrow_post.figures.moving import MovingPictures
 from furrow_post.program import run_program
 from furrow_post.read.motion import read_motion
-from furrow_post.scene.catalogue import GROUPS
+from furrow_post.scene.catalogue import GROUPS, head_of
 
 PAGE = HERE / "README.md"
 PICTURES = HERE / "pictures"
@@ -46,32 +46,14 @@ Expected values are those of the full version. Pictures show the quick one. `gal
 """
 
 
-def head_of(script: Path) -> tuple[str, dict[str, str]]:
-    """The title of a scene and the entries of its head. @raises ResultsError"""
-    title, entries, last = "", dict[str, str](), ""
-    for line in script.read_text(encoding="utf-8").splitlines():
-        if not line.startswith("#"):
-            break
-        text = line[1:].strip()
-        name, colon, rest = text.partition(":")
-        if not title:
-            title = rest.strip()
-        elif colon and line.startswith("# ") and line[2] != " " and name[:1].isupper():
-            last = name
-            entries[last] = rest.strip()
-        elif last and text:
-            entries[last] += f" {text}"
-    for name in ("Group", "Shows", "Run time", "Expect"):
-        if name not in entries:
-            raise ResultsError(f"{script}: its head has no '{name}:'")
-    return title, entries
-
-
 def page() -> str:
     """The page of all scenes that are there."""
     groups: dict[str, list[str]] = {group: [] for group in GROUPS}
     for script in sorted(HERE.glob("*.lig")):
         title, entries = head_of(script)
+        for name in ("Group", "Shows", "Run time", "Expect"):
+            if name not in entries:
+                raise ResultsError(f"{script}: its head has no '{name}:'")
         if entries["Group"] not in groups:
             raise ResultsError(f"{script}: its group is none of {', '.join(GROUPS)}")
         groups[entries["Group"]].append(_entry(script, title, entries))

@@ -3,7 +3,6 @@
 
 import difflib
 import shlex
-from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import ResultsError, content_of
@@ -65,10 +64,23 @@ def head_lines(script: Path) -> list[str]:
     return found
 
 
+def head_of(script: Path) -> tuple[str, dict[str, str]]:
+    """Title, and what stands behind each "# Name:" with its indented lines. @raises ResultsError"""
+    lines = head_lines(script)
+    entries, last = dict[str, str](), ""
+    for line in lines[1:]:
+        name, colon, rest = line.partition(":")
+        if colon and name[:1].isupper():
+            last = name
+            entries[last] = rest.strip()
+        elif last and line.startswith(" "):
+            entries[last] += f" {line.strip()}"
+    return "".join(lines[:1]).partition(":")[2].strip(), entries
+
+
 def head_entry(script: Path, name: str) -> str:
     """What stands behind "# NAME:" in the head; empty where there is no such line."""
-    start = f"{name}:"
-    return next((x[len(start) :].strip() for x in head_lines(script) if x.startswith(start)), "")
+    return head_of(script)[1].get(name, "")
 
 
 def quick_variables(script: Path) -> Variables:
@@ -90,11 +102,7 @@ def listing() -> str:
     for name in scene_names() if folder else ():
         assert folder
         script = folder / f"{name}.lig"
-        title = "".join(head_lines(script)[:1]).partition(":")[2].strip()
+        title, entries = head_of(script)
         line = f"    {name:{INDENT}}{title}"
-        grouped.setdefault(head_entry(script, "Group") or "Others", []).append(line)
-    return "\n".join(_group(name, lines) for name, lines in grouped.items() if lines)
-
-
-def _group(name: str, lines: Sequence[str]) -> str:
-    return "\n".join([f"  {name}:", *lines])
+        grouped.setdefault(entries.get("Group", "Others"), []).append(line)
+    return "\n".join("\n".join([f"  {name}:", *lines]) for name, lines in grouped.items() if lines)

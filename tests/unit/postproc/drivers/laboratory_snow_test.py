@@ -155,7 +155,7 @@ class FitTest(FolderTest):
             float(re.findall(rf"{key}: +\[?({NUMBER})", text)[0]) for key in ("M", "tension_ratio", "p")
         )
         self.assertAlmostEqual(law.strength[0] / shear_strength(M, beta, p0, 100.0), 1.0, delta=5e-3)
-        slabs = next(fit for fit in snow_strength.measured() if fit.kind == "tension")
+        slabs = snow_strength.measured("tension")[0]
         self.assertAlmostEqual(float(slabs.at(200.0)), 5.85e3, delta=10)
 
     def test_preset_is_that_of_its_record(self) -> None:
