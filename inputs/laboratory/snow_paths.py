@@ -2,7 +2,6 @@
 """The laboratory tests on clusters of snow as paths of a material point, run by furrow-point."""
 
 import math
-import subprocess
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
@@ -10,9 +9,9 @@ import numpy as np
 
 from snow_record import STRAINS, TRIAXIAL_STRAIN, Row, Values
 
+from furrow_post.analyse.law_fit import NotComputed
+from furrow_post.analyse.point_curves import run_path
 from furrow_post.arrays import Floats
-from furrow_post.csv_table import read_columns
-from furrow_post.study.furrow_cases import point_text
 from furrow_post.study.launch import Tools
 
 TENSION_STRAIN = 0.03  # in which every law here has its tensile strength
@@ -32,13 +31,12 @@ class Points:
 
     def run(self, sections: str, path: str) -> Columns | None:
         """Columns of point.csv; None where the law finds no state on the path."""
-        material, script = self.folder / "material.yaml", self.folder / "path.yaml"
+        material = self.folder / "material.yaml"
         material.write_text(f"title: snow\n{sections}", encoding="utf-8")
-        script.write_text(point_text("snow", material, path), encoding="utf-8")
-        words = (self.program, "run", script, "-o", self.folder / "point", "--no-plot")
-        command = [str(word) for word in words]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        return None if done.returncode else read_columns(self.folder / "point" / "point.csv")
+        try:
+            return run_path(material, path, self.program)
+        except NotComputed:
+            return None
 
 
 def confined(stresses: Iterable[float]) -> str:

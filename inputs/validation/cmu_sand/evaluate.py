@@ -2,9 +2,7 @@
 """Plates and the wheels of CMU's tests with the measurements; finer grains, other laws and the
 continuum; the wheel with grousers; the smooth wheel at a slip angle."""
 
-import csv
 import math
-import subprocess
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -148,12 +146,8 @@ def cpu_time(run: Run) -> float:
 
 def steady_values(runs: Runs, run: Run, window: Sequence[float]) -> dict[str, float]:
     """furrow-resistance's own evaluation over a part of the travel [m]."""
-    program = runs.runner.tools.program("furrow-resistance")
-    ends = [f"{end:.4g}" for end in window]
-    command = [str(program), "--csv", "--distance", *ends, str(run.folder)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    row = next(csv.DictReader(done.stdout.splitlines()))
-    return {key: float(value) for key, value in row.items() if key != "folder"}
+    (row,) = runs.resistance(run, "--csv", "--distance", *(f"{end:.4g}" for end in window))
+    return row
 
 
 # ---- plates

@@ -18,28 +18,17 @@ import numpy as np
 from furrow_post.analyse.statistics import rms
 from furrow_post.arguments import path, positive
 from furrow_post.arrays import Floats
-from furrow_post.csv_table import read_numbers
-from furrow_post.errors import ResultsError
+from furrow_post.csv_table import read_matrix, read_numbers
 from furrow_post.program import run_program
 
 RADIUS = 0.1016  # [m] of the plate
 EDGE = 0.8  # of it: beyond is the edge, as in plate_variants
 LAYERS = 10  # from the plate to the base
-REMEDY = "run plate_snow_grains.lig with this folder as its variable results"
-
-
-def table(file: Path, head: int) -> Floats:
-    """Numbers below some lines. @raises ResultsError"""
-    try:
-        rows: Floats = np.loadtxt(file, skiprows=head, ndmin=2)
-    except (OSError, ValueError) as fault:
-        raise ResultsError(f"{file}: {fault}; {REMEDY}") from None
-    return rows
 
 
 def clusters(file: Path) -> Floats:
     """(n, 4) x, y, z, radius [m] in the order of their numbers."""
-    rows = table(file, 9)
+    rows = read_matrix(file, 5, head=9)
     ordered: Floats = rows[np.argsort(rows[:, 0]), 1:]
     return ordered
 
@@ -65,8 +54,8 @@ def numbers(folder: Path, density: float) -> Floats:
     """Peak [N]; ten layers [kg/m3]; outwards [mm]: clusters under the edge, and the mean of the
     tenth of the height that went farthest, under the whole plate; mass left, a share."""
     before, after = clusters(folder / "before.txt"), clusters(folder / "after.txt")
-    curve = table(folder / "curve.txt", 0)
-    bed = float(table(folder / "bed_level.txt", 0)[0, 0])
+    curve = read_matrix(folder / "curve.txt", 3)
+    bed = float(read_matrix(folder / "bed_level.txt", 1)[0, 0])
     plate = bed - float(curve[-1, 1])
     r, now = (np.hypot(x[:, 0], x[:, 1]) for x in (before, after))
     out = 1e3 * (now - r)

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pull, torque and hub drop of one run with a ramp of the slip, at the slips of steady runs."""
 
-import csv
 import math
-import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -11,9 +9,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 
-from furrow_post.errors import ResultsError
 from furrow_post.figures.style import annotate_panel, save, use_style
-from furrow_post.programs import find_program
 from furrow_post.study.output import Output
 from furrow_post.study.runs import Run, Runs
 
@@ -22,18 +18,6 @@ QUANTITIES = {"net_traction_coefficient": 0.02, "drive_torque": 0.05, "hub_drop"
 RELATIVE = ("drive_torque", "hub_drop")  # whose limit is a share of the value
 
 Row = dict[str, float]
-
-
-def evaluated(folder: Path, *options: str) -> list[Row]:
-    """The lines that furrow-resistance prints of a run. @raises ResultsError"""
-    program = find_program("furrow-resistance")
-    done = subprocess.run([str(program), *options, str(folder)], capture_output=True, text=True)
-    if done.returncode:
-        raise ResultsError(f"{folder}: {done.stderr.strip() or program} (status {done.returncode})")
-    return [
-        {name: float(text) for name, text in row.items() if name != "folder" and text}
-        for row in csv.DictReader(done.stdout.splitlines())
-    ]
 
 
 def at_slip(curve: Sequence[Row], slip: float, quantity: str) -> tuple[float, float]:
@@ -46,10 +30,10 @@ def at_slip(curve: Sequence[Row], slip: float, quantity: str) -> tuple[float, fl
     return mean, error
 
 
-def rows_of(ground: str, steady: Sequence[Run], curve: Sequence[Row]) -> list[dict[str, Any]]:
+def rows_of(runs: Runs, ground: str, steady: Sequence[Run], curve: Sequence[Row]) -> list[dict[str, Any]]:
     rows = []
     for run in steady:
-        (point,) = evaluated(run.folder, "--csv")
+        (point,) = runs.resistance(run, "--csv")
         for quantity, limit in QUANTITIES.items():
             value, error = point[quantity], point[f"{quantity}_error"]
             ramp, ramp_error = at_slip(curve, point["slip"], quantity)
@@ -100,8 +84,8 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
         steady = [run for run in runs.done(ground) if run is not ramp and not run.name.endswith("ramp")]
         if ramp is None or len(steady) < 3:
             return [f"not every run on {ground} is there"]
-        curves[ground] = evaluated(ramp.folder, "--curve", str(stretches))
-        rows += rows_of(ground, steady, curves[ground])
+        curves[ground] = runs.resistance(ramp, "--curve", stretches)
+        rows += rows_of(runs, ground, steady, curves[ground])
     output.table("results.csv", rows)
     draw(curves, rows, output.path("curves.png"))
     return [

@@ -34,7 +34,7 @@ Line = dict[str, str | float]
 
 def table_rows(result: Comparison) -> list[Line]:
     """Lines of compare.csv: texts and SI numbers."""
-    lines = []
+    lines: list[Line] = []
     for e in result.entries:
         parts = e.parts if e.of_run else Components()
         line = _line(e.quantity.name, e.source, e.kind, e.value, e.uncertainty, parts)

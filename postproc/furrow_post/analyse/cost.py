@@ -241,7 +241,7 @@ def write_csv(path: Path, assessed: Sequence[Assessed]) -> None:
     """The assessed runs as a table."""
     rows = []
     for a in assessed:
-        row = {"run": a.row.run, **a.row.family._asdict()}
+        row: dict[str, object] = {"run": a.row.run, **a.row.family._asdict()}
         row |= {"size_m": a.row.size, "cpu_time_s": a.row.cpu_time, "pareto": int(a.pareto)}
         row |= {f"error_{key}": a.errors[key] for key in QUANTITY_KEYS}
         for key in QUANTITY_KEYS:

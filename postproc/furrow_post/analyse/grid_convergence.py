@@ -188,17 +188,12 @@ def _weights(f: Floats, u: Floats) -> Floats:
     return weights
 
 
-def _design(h: npt.ArrayLike, weights: Floats, order: float) -> Floats:
-    sizes = np.asarray(h, float)
-    design: Floats = np.column_stack([np.ones_like(sizes), sizes**order]) * weights[:, None]
-    return design
-
-
 def _fit(
     h: npt.ArrayLike, f: npt.ArrayLike, weights: Floats, order: float
 ) -> tuple[float, float, float]:
     """f0, a, and the weighted sum of squares that is left."""
-    design, target = _design(h, weights, order), np.asarray(f, float) * weights
+    sizes, target = np.asarray(h, float), np.asarray(f, float) * weights
+    design = np.column_stack([np.ones_like(sizes), sizes**order]) * weights[:, None]
     scale = np.abs(design).max(axis=0)
     solution, *_ = np.linalg.lstsq(design / scale, target, rcond=None)
     solution = solution / scale

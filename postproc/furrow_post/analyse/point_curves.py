@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The curves of a fit, computed by a furrow-point that stays open: `furrow-point curves FILE`."""
+"""Paths of a law by furrow-point: one path, and the curves of a fit by one program that stays open."""
 
 import json
 import math
 import subprocess
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
@@ -12,11 +13,28 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Floats
+from ..csv_table import read_columns
 from ..errors import ResultsError
 from ..programs import find_program
+from ..study.furrow_cases import point_text
 from .law_fit import Curve, NotComputed, Parameter
 
 PROGRAM = "furrow-point"
+
+
+def run_path(material: Path, path: str, program: Path | None = None) -> dict[str, Floats]:
+    """Columns of point.csv; path: its YAML mapping, "{type: ..., ...}".
+
+    @raises NotComputed with what furrow-point says where the law finds no state on the path
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        file, results = Path(folder) / "path.yaml", Path(folder) / "results"
+        file.write_text(point_text("path", material.resolve(), path), encoding="utf-8")
+        command = (program or find_program(PROGRAM), "run", file, "-o", results, "--no-plot")
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+        if done.returncode:
+            raise NotComputed(f"{material}: {' '.join(done.stderr.split())}")
+        return read_columns(results / "point.csv")
 
 
 class PointCurves:

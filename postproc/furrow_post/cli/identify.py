@@ -10,7 +10,7 @@ from ..arguments import path
 from ..csv_table import write_rows
 from ..formatting import in_unit
 from ..study.tables import in_columns
-from ..surrogate.draw_posterior import draw_posterior
+from ..surrogate.figures import draw_posterior
 from ..surrogate.model import read_surrogate
 from ..surrogate.posterior import identify, read_tests
 from .output import add_assignments, add_target

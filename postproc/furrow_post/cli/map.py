@@ -34,8 +34,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("surrogate", type=path, help="file of furrow-post surrogate")
     add("elevation", type=path, help="elevation model in metres, any raster that GDAL reads")
     add_target(parser, "folder to write: map.tif, map.png, mobility.csv", required=True)
-    rasters = {"action": "append", "default": [], "metavar": "NAME=FILE"}
-    add("--raster", type=_raster, help="raster of a soil parameter", **rasters)
+    raster = "NAME=FILE, raster of a soil parameter; may be repeated"
+    add("--raster", action="append", default=[], type=_raster, metavar="RASTER", help=raster)
     classes = "raster of soil classes, and a CSV with their parameters"
     add("--classes", nargs=2, type=path, metavar=("RASTER", "TABLE"), help=classes)
     add_assignments(parser, "--set", "soil parameters of all cells", default=[])

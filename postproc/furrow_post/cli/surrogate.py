@@ -11,8 +11,8 @@ from ..errors import ResultsError
 from ..formatting import in_unit, with_error
 from ..study.record import FINISHED, read_record
 from ..study.tables import in_columns
+from ..surrogate.figures import draw_held_out
 from ..surrogate.gaussian_process import Z_95, HeldOut
-from ..surrogate.held_out import draw_held_out
 from ..surrogate.model import Surrogate, fit, read_surrogate
 from ..surrogate.training import PULL, QUANTITIES, RADIUS, TORQUE, Training, read_training
 from .output import add_assignments, add_target

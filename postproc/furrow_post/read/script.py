@@ -115,6 +115,16 @@ def require_files(
         )
 
 
+def as_word(script: Path, value: str) -> str:
+    """LIGGGHTS splits a value at blanks: the path of a file gets quotes, and is right from anywhere."""
+    if len(value.split()) > 1:
+        if (script.parent / value).exists():
+            return f'"{value}"'
+        if Path(value).exists():
+            return f'"{Path(value).resolve()}"'
+    return value
+
+
 def _listed(names: Sequence[str]) -> str:
     return ", ".join(names) if names else "no variables"
 

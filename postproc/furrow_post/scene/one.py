@@ -12,7 +12,7 @@ from pathlib import Path
 from ..errors import ResultsError
 from ..json_text import parse_json
 from ..programs import PACKAGE, find_program
-from ..read.script import script_variables
+from ..read.script import as_word, script_variables
 from ..study.launch import is_busy
 from ..sweep.continued import CONTINUED, RESULTS, continued_script
 from .catalogue import Variables, is_shipped
@@ -94,23 +94,13 @@ def _script(run: SceneRun, folder: Path) -> Path:
 
 def _values(run: SceneRun, folder: Path) -> dict[str, str]:
     """Of the variables, as LIGGGHTS gets them; folder: of the results as it is called from there."""
-    given = [(name, _as_word(run.script, value)) for name, value in run.variables]
+    given = [(name, as_word(run.script, value)) for name, value in run.variables]
     if run.continue_from:
         given.insert(0, continuation(run.script, str(folder / run.continue_from.name)))
     values = dict(reversed(given))
     if RESULTS in script_variables(run.script, dict(run.variables)).settable:
         values[RESULTS] = str(folder)
     return values
-
-
-def _as_word(script: Path, value: str) -> str:
-    """LIGGGHTS splits a value at blanks: the path of a file gets quotes, and is right from anywhere."""
-    if len(value.split()) > 1:
-        if (script.parent / value).exists():
-            return f'"{value}"'
-        if Path(value).exists():
-            return f'"{Path(value).resolve()}"'
-    return value
 
 
 def post(*words: object, shown: bool = True) -> None:

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The runs of a study that are there, as its evaluation takes them."""
 
+import csv
 import fnmatch
+import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..errors import ResultsError
 from .case import Case
 from .record import Record
 from .runner import Runner
@@ -56,6 +59,19 @@ class Runs:
     def done(self, *names: str) -> list[Run]:
         """The same, without those that failed."""
         return [run for run in self.ended(*names) if not run.error]
+
+    def resistance(self, run: Run, *options: object) -> list[dict[str, float]]:
+        """The lines that furrow-resistance prints of a run, with --csv or --curve. @raises ResultsError"""
+        program = self.runner.tools.program("furrow-resistance")
+        command = [str(word) for word in (program, *options, run.folder)]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode:
+            cause = done.stderr.strip() or f"status {done.returncode}"
+            raise ResultsError(f"{run.folder}: furrow-resistance stopped: {cause}")
+        return [
+            {name: float(text) for name, text in row.items() if name != "folder" and text}
+            for row in csv.DictReader(done.stdout.splitlines())
+        ]
 
     def one(self, name: str) -> Run | None:
         """The finished run of this name."""

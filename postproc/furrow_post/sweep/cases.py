@@ -10,6 +10,7 @@ from ..errors import ResultsError
 from ..read.script import (
     RESERVED,
     ScriptVariables,
+    as_word,
     check_variables,
     require_files,
     script_variables,
@@ -131,7 +132,7 @@ def case_of(plan: Plan, point: Point) -> Case:
     return script_case(
         point.folder,
         run,
-        {name: _as_word(script, value) for name, value in variables.items()},
+        {name: as_word(script, value) for name, value in variables.items()},
         log=True,
         files=files,
         ranks=plan.ranks,
@@ -139,13 +140,6 @@ def case_of(plan: Plan, point: Point) -> Case:
         # A run until it is steady ends by itself
         time_limit=math.inf if plan.until_steady or not plan.time_limit else plan.time_limit,
     )
-
-
-def _as_word(script: Path, value: str) -> str:
-    """LIGGGHTS splits a value at blanks: the path of a file that is there gets quotes."""
-    if len(value.split()) > 1 and (script.parent / value).exists():
-        return f'"{value}"'
-    return value
 
 
 def _files_of(script: Path, given: Mapping[str, str]) -> list[Path]:
