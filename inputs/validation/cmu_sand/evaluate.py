@@ -338,6 +338,14 @@ def accuracy_of_wheels(rows: Sequence[Row], checks: Sequence[Row]) -> list[Row]:
     ]
 
 
+def draw_rows(
+    axes: Axes, rows: Sequence[Row], x: str, key: str, bars: float = 1.0, **look: Any
+) -> None:
+    """A quantity of ERRORS over a column, 0 where a row has none. bars: in standard errors"""
+    y, errors = ([row[name] for row in rows] for name in (key, ERRORS[key]))
+    axes.errorbar([row.get(x, 0.0) for row in rows], y, bars * np.array(errors, float), **look)
+
+
 def draw_comparison(runs: Runs, path: Path, surface: float, rows: Sequence[Row]) -> None:
     figure, (plates, pull, sink) = plt.subplots(1, 3, figsize=(13, 4.2), constrained_layout=True)
     draw_plates(plates, runs, surface)
@@ -392,19 +400,11 @@ def draw_computed_wheels(
     pull: Axes, sink: Axes, kind: str, colour: str, rows: Sequence[Row]
 ) -> None:
     """Bars: two standard errors."""
-    slips = [row["slip"] for row in rows]
     look = {"marker": "s", "mfc": "none", "capsize": 3, "color": colour}
-    force, force_error = (
-        [factor * row[key] for row in rows]
-        for key, factor in (("fx_over_fz", 1), ("fx_over_fz_error", 2))
-    )
-    sinkage, sinkage_error = (
-        [factor * row[key] for row in rows]
-        for key, factor in (("sinkage_mm", 1), ("sinkage_error_mm", 2))
-    )
-    pull.errorbar(slips, force, force_error, label=f"{kind} computed", **look)
-    sink.errorbar(slips, sinkage, sinkage_error, **look)
+    draw_rows(pull, rows, "slip", "fx_over_fz", 2.0, label=f"{kind} computed", **look)
+    draw_rows(sink, rows, "slip", "sinkage_mm", 2.0, **look)
     from_mass = [row["sinkage_from_mass_mm"] for row in rows]
+    slips = [row["slip"] for row in rows]
     sink.plot(slips, from_mass, ":", color=colour, label=f"{kind}, from the level of the mass")
 
 
@@ -606,18 +606,14 @@ def draw_grounds(path: Path, rows: Sequence[Row], limits: Sequence[Row]) -> None
     figure, axes = plt.subplots(
         2, len(slips), figsize=(4 * len(slips), 6), sharex=True, sharey="row", squeeze=False
     )
-    for line, (key, error), label in zip(axes, QUANTITIES.items(), ("Fx/Fz", "sinkage [mm]")):
+    for line, key, label in zip(axes, QUANTITIES, ("Fx/Fz", "sinkage [mm]")):
         for panel, slip in zip(line, slips):
             for ground, colour in COLOURS.items():
                 for table, marker in ((rows, "o"), (limits, "D")):
                     mine = [r for r in table if r["ground"] == ground and r["slip"] == slip]
-                    panel.errorbar(
-                        [r.get("size_mm", 0.0) for r in mine],
-                        [r[key] for r in mine],
-                        [r[error] for r in mine],
-                        fmt=marker, color=colour, ms=5, capsize=3,
-                        label=ground if marker == "o" and mine else None,
-                    )  # fmt: skip
+                    look: dict[str, Any] = {"fmt": marker, "color": colour, "ms": 5, "capsize": 3}
+                    label_of_ground = ground if marker == "o" and mine else None
+                    draw_rows(panel, mine, "size_mm", key, label=label_of_ground, **look)
             measured = next(r["measured_" + key] for r in rows if r["slip"] == slip)
             panel.axhline(measured, color="black", lw=1, label="measured")
             panel.grid(alpha=0.3)
@@ -706,13 +702,9 @@ def draw_grousers(path: Path, rows: Sequence[Row]) -> None:
         panel.errorbar(slips, values, errors, fmt="s-", color="black", capsize=3, label="measured")
         for size, unsorted in by_size(rows).items():
             mine = sorted(unsorted, key=lambda row: float(row["slip"]))
-            panel.errorbar(
-                [row["slip"] for row in mine],
-                [row[key] for row in mine],
-                [row[QUANTITIES[key]] for row in mine],
-                fmt="o--" if size else "D", ms=4, capsize=3,
-                label=f"{mine[0]['ground']}, {f'{size:g} mm' if size else 'best estimate'}",
-            )  # fmt: skip
+            name = f"{mine[0]['ground']}, {f'{size:g} mm' if size else 'best estimate'}"
+            mark = "o--" if size else "D"
+            draw_rows(panel, mine, "slip", key, fmt=mark, ms=4, capsize=3, label=name)
         panel.set(xlabel="slip", ylabel=label)
         panel.grid(alpha=0.3)
     panels[0].legend(fontsize=7)
@@ -750,12 +742,8 @@ def draw_slip_angle(path: Path, rows: Sequence[Row], limits: Sequence[Row]) -> N
         for ground, colour in SIDE_COLOURS.items():
             for found, marker, name in ((rows, "o", ground), (best, "D", None)):
                 mine = [row for row in found if row["ground"] == ground]
-                panel.errorbar(
-                    [row["size_mm"] for row in mine],
-                    [row[key] for row in mine],
-                    [row[ERRORS[key]] for row in mine],
-                    fmt=marker, color=colour, ms=5, capsize=3, label=name,
-                )  # fmt: skip
+                look: dict[str, Any] = {"fmt": marker, "color": colour, "ms": 5, "label": name}
+                draw_rows(panel, mine, "size_mm", key, capsize=3, **look)
         panel.set(xlabel="grains [mm]; 0: best estimate", ylabel=label)
         panel.grid(alpha=0.3)
     panels[1].legend(fontsize=7)
