@@ -320,14 +320,6 @@ def least_error(
     return rms(wanted - np.clip(wanted.mean(), *DEFLECTIONS)), rms(own)
 
 
-def trend(rows: Sequence[Mapping[str, float]]) -> tuple[float, float, float]:
-    """Straight line of the measured thickness over the mass: at no mass [m], slope as an apparent
-    density [kg/m3], rms distance [m]."""
-    slope, start = np.polyfit(areal_mass(rows), thickness(rows), 1)
-    left = thickness(rows) - start - slope * areal_mass(rows)
-    return float(start), float(1 / slope), rms(left)
-
-
 def mass_table(choices: Mapping[str, Sequence[Mapping[str, float]]]) -> list[Row]:
     """Least errors over each choice of rows, for densities within the goal."""
     found = []
