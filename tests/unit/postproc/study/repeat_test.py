@@ -47,12 +47,13 @@ class GuardTest(FolderTest):
 
     def test_what_is_no_longer_stored_is_found(self) -> None:
         stored, made = self.folder / "stored", self.folder / "made"
-        for folder, text in ((stored, "run,z,e\na,1.0,0.1\n"), (made, "run,z,e\na,{},0.1\n")):
+        for folder, text in ((stored, "run,z,e,f\na,1.0,0.1,0.01\n"), (made, "")):
             folder.mkdir()
             (folder / "results.csv").write_text(text, encoding="utf-8")
         ours = Stored(stored / "results.csv", {"run": "a"}, "z")
         value = Value("study.z", ours, reference=1.1)
-        limit = Value("study.z", ours, reference=1.1, limit="upper")
+        known = Stored(ours.table, ours.row, "f")
+        limit = Value("study.z", ours, error=known, reference=1.1, limit="upper")
         noisy = Value("study.z", ours, error=Stored(ours.table, ours.row, "e"), reference=1.1)
         for number, (again, given, expected) in enumerate((
             ("1.02", value, ""),
@@ -63,7 +64,7 @@ class GuardTest(FolderTest):
         )):
             folder = self.folder / str(number)
             folder.mkdir()
-            text = f"run,z,e\na,{again},0.1\n"
+            text = f"run,z,e,f\na,{again},0.1,0.01\n"
             (folder / "results.csv").write_text(text, encoding="utf-8")
             with self.subTest(again=again):
                 self.assertEqual(difference(given, folder), expected)
