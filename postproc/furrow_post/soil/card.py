@@ -112,7 +112,7 @@ class SoilCard:
         lines = [self.title]
         for name, text in self.texts().items():
             lines.append(f"  {name:12} {text:>22} {UNITS[name]}")
-        lines += [f"  {instrument}: failed, {why}" for instrument, why in self.failures().items()]
+        lines += [f"  {instrument}: no result, {why}" for instrument, why in self.failures().items()]
         for meaning, span, unit in self.ranges():
             lines.append(f"  {meaning:28} {span.low:.3g} to {span.high:.3g} {unit}")
         return "\n".join([*lines, *(f"  note: {note}" for note in self.notes)])
@@ -136,7 +136,7 @@ def markdown(cards: Sequence[SoilCard]) -> str:
     ]
     for card in cards:
         texts = card.texts()
-        cells = [Path(card.ground).stem, *(texts.get(name, "failed") for name in names)]
+        cells = [Path(card.ground).stem, *(texts.get(name, "none") for name in names)]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
 

@@ -93,11 +93,11 @@ def write_altair(card: SoilCard, path: Path) -> None:
 
 
 def write_table(card: SoilCard, path: Path) -> None:
-    """One row for each parameter, and a comment for each instrument that failed."""
+    """One row for each parameter, and a comment for each instrument without a result."""
     with open(path, "w", encoding="utf-8", newline="") as file:
         file.write(f"# {' '.join(card.title.split())}\n")
         for instrument, why in card.failures().items():
-            file.write(f"# {instrument}: failed, {why}\n")
+            file.write(f"# {instrument}: no result, {why}\n")
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(("name", "value", "error", "unit"))
         for name, fitted in card.parameters().items():

@@ -19,6 +19,7 @@ from ..errors import ResultsError
 FIRST = 0.05  # of the greatest sinkage: where a fit begins, behind first touch
 LARGEST_CONDITION = 1e14  # of the normal equations
 DISTINCT_LOADS = 1.5  # greatest over smallest normal stress, as the ground carried them
+LARGEST_OFF_LOAD = 2.0  # ratio of what a ring carries and its load
 LARGEST_SPEED_STRESS = 0.5  # of the shear stress under the first load
 LARGEST_RESIDUAL = 0.1  # rms over the largest value of a curve
 INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
@@ -62,11 +63,12 @@ class ShearCurve:
     normal: Floats
     shear: Floats
     speed: float = 0.0
+    load: float = 0.0  # [Pa] that the drive should hold; 0: not known
 
     def sheared(self) -> "ShearCurve":
         """The second half of the displacement, where the strength is mobilised."""
         use = self.displacement > 0.5 * self.displacement.max()
-        return ShearCurve(self.displacement[use], self.normal[use], self.shear[use], self.speed)
+        return ShearCurve(self.displacement[use], self.normal[use], self.shear[use], self.speed, self.load)
 
 
 @dataclass(frozen=True)
@@ -209,6 +211,9 @@ def fit_shear(curves: Sequence[ShearCurve], fast: ShearCurve | None = None) -> S
 
 def _fit_shear(curves: Sequence[ShearCurve]) -> Shear:
     means = [float(np.mean(curve.normal)) for curve in curves]
+    for curve, mean in zip(curves, means):
+        held = not curve.load or curve.load / LARGEST_OFF_LOAD < mean < curve.load * LARGEST_OFF_LOAD
+        _require(held, f"a ring that holds its load: it carries {mean:.0f} Pa in place of {curve.load:.0f} Pa")
     distinct = len(curves) > 1 and max(means) > DISTINCT_LOADS * min(means)
     _require(distinct, f"a ring under loads that differ by a factor of {DISTINCT_LOADS:g}")
     top = max(float(curve.shear.max()) for curve in curves)

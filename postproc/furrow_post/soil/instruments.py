@@ -108,7 +108,7 @@ def ring_test(
     turning = rows[rows[:, 5] > 0]
     # tau = T / (2 pi integral r^2 dr), which is uniform stress
     tau = -turning[:, 4] / (2 / 3 * math.pi * (outer**3 - inner**3))
-    return ShearCurve(turning[:, 5] * middle, turning[:, 3], tau, speed)
+    return ShearCurve(turning[:, 5] * middle, turning[:, 3], tau, speed, pressure)
 
 
 def cone_test(bench: Bench, depth: float, cells: int, runs: Runs) -> ConeCurve:

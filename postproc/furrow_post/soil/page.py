@@ -67,7 +67,7 @@ def write_page(card: SoilCard, picture: Path, target: Path) -> None:
         html_table(("parameter", "value ± standard error", "unit"), rows),
         "<h2>Range of the tests</h2>",
         html_table(("quantity", "from", "to", "unit"), spans, (1, 2)),
-        *(paragraph(f"The {name} failed: {why}") for name, why in card.failures().items()),
+        *(paragraph(f"No result of the {name}: {why}") for name, why in card.failures().items()),
         *(paragraph(note) for note in card.notes),
     ]
     target.write_text(document(card.title, f"Ground: {card.ground}", parts), encoding="utf-8")

@@ -117,11 +117,11 @@ class SoilCardTest(FolderTest):
         write_card(WITHOUT_RING, self.path)
         self.assertEqual(read_card(self.path), WITHOUT_RING)
         self.assertEqual(WITHOUT_RING.failures(), {"ring": "the ring sank through"})
-        self.assertIn("ring: failed, the ring sank through", WITHOUT_RING.report())
-        self.assertEqual(markdown([WITHOUT_RING]).splitlines()[-1].count("| failed"), 3)
+        self.assertIn("ring: no result, the ring sank through", WITHOUT_RING.report())
+        self.assertEqual(markdown([WITHOUT_RING]).splitlines()[-1].count("| none"), 3)
         target = self.folder / "card.csv"
         write_table(WITHOUT_RING, target)
-        self.assertIn("# ring: failed, the ring sank through", target.read_text())
+        self.assertIn("# ring: no result, the ring sank through", target.read_text())
         self.assertEqual(
             {row["name"] for row in read_rows(target)}, {"k_c", "k_phi", "n", "index", "gradient"}
         )

@@ -150,6 +150,9 @@ class RefusalTest(unittest.TestCase):
         fast = ShearCurve(z, first.normal, 2.5 * first.shear, 0.4)
         with self.assertRaisesRegex(ResultsError, "a speed stress below 0.5 of the shear stress"):
             fit_shear([first, second], fast)
+        high = ShearCurve(z, np.full(30, 5e3), np.full(30, 2e3), 0.1, 1e3)
+        with self.assertRaisesRegex(ResultsError, "holds its load: it carries 5000 Pa in place of 1000 Pa"):
+            fit_shear([first, high])
         with self.assertRaisesRegex(ResultsError, "a cone whose base is below the surface"):
             cone_index(ConeCurve(-z, z))
 
