@@ -35,7 +35,7 @@ class Side:
     """One of the three simulations."""
 
     def __init__(self, kind: str, cell: float, results: str) -> None:
-        variables = {"cell": cell, "vtk": 0, "motion": "mode slip slip 0.1", "results": f"{results}/{kind}"}
+        variables = {"cell": cell, "vtk": 0, "motion": "mode slip slip 0.1", "results": f"{results}/{KINDS.index(kind)}"}
         self.kind, self.run = kind, furrow.Simulation(SCENE, variables=variables)
         self.wheel, self.soil = self.run.wheels["wheel"], self.run.terrains["soil"]
 
