@@ -6,11 +6,11 @@
 
 Three simulations of wheel_on_snow run side by side in this process. A round advances each by the same steps, in
 random order. One call takes all steps of the first. Each step of the others has a call. In the third, Python then
-reads the force on the wheel and two arrays. All three compute the same bits, so a difference of a round is that of
-Python and of the machine. CELL is the size of a cell [m].
+reads the force on the wheel and two arrays, which is timed alone. All three compute the same bits, so a difference
+of a round is that of the calls and of the machine. CELL is the size of a cell [m].
 
-Other programs on the machine disturb some rounds by far. The difference is therefore the mean of the middle half
-of all rounds. Its standard error is that of 2000 bootstrap samples of the rounds.
+Other programs on the machine disturb some rounds by far. A result is therefore the mean of the middle half of all
+rounds. Its standard error is that of 2000 bootstrap samples of the rounds.
 """
 
 import contextlib
@@ -39,38 +39,41 @@ class Side:
         self.kind, self.run = kind, furrow.Simulation(SCENE, variables=variables)
         self.wheel, self.soil = self.run.wheels["wheel"], self.run.terrains["soil"]
 
-    def advance(self) -> bool:
-        """@return False at the end of the script"""
+    def times(self) -> tuple[float, float]:
+        """Processor times [s] of a step and of its reading; NaN at the end of the script."""
+        before, reading, done = time.process_time(), 0.0, 0
         if self.kind == "one call":
-            return self.run.step(STEPS) == STEPS
-        for _ in range(STEPS):
-            if not self.run.step():
-                return False
-            if self.kind == "steps":
-                continue
-            if not np.isfinite(self.wheel.force[2] + self.wheel.nodes[0, 0] + self.soil.nodes.size):
-                sys.exit("the run has numbers that are not finite")
-        return True
+            done = self.run.step(STEPS)
+        else:
+            for _ in range(STEPS):
+                done += self.run.step()
+                if self.kind == "steps and reads":
+                    reading += self.read()
+        whole = time.process_time() - before - reading
+        return (whole / STEPS, reading / STEPS) if done == STEPS else (np.nan, np.nan)
 
-    def time(self) -> float:
-        """Processor time of a step [s]; NaN at the end of the script."""
+    def read(self) -> float:
+        """@return its processor time [s]"""
+        time.process_time()  # the first call after a step is slow
         before = time.process_time()
-        going = self.advance()
-        return (time.process_time() - before) / STEPS if going else np.nan
+        if not np.isfinite(self.wheel.force[2] + self.wheel.nodes[0, 0] + self.soil.nodes.size):
+            sys.exit("the run has numbers that are not finite")
+        return time.process_time() - before
 
 
 def rounds_of_run(cell: float, count: int) -> list[list[float]]:
-    """Processor times of a step of each kind [s], of at most so many rounds."""
+    """Processor times [s] of a step of each kind, and of reading, of at most so many rounds."""
     rounds: list[list[float]] = []
     with tempfile.TemporaryDirectory() as results, contextlib.ExitStack() as stack:
         sides = [Side(kind, cell, results) for kind in KINDS]
         for side in sides:
             stack.callback(side.run.close)
         while len(rounds) < count:
-            times = {side.kind: side.time() for side in random.sample(sides, len(sides))}
-            if not np.isfinite(list(times.values())).all():
+            times = {side.kind: side.times() for side in random.sample(sides, len(sides))}
+            row = [*(times[kind][0] for kind in KINDS), times[KINDS[-1]][1]]
+            if not np.isfinite(row).all():
                 break
-            rounds.append([times[kind] for kind in KINDS])
+            rounds.append(row)
         force = [side.wheel.force for side in sides]
         if not force[0] == force[1] == force[2]:
             sys.exit("the simulations differ")
@@ -89,13 +92,13 @@ def main() -> None:
     rounds: list[list[float]] = []
     while len(rounds) < count:
         rounds += rounds_of_run(cell, count - len(rounds))
-    times = np.array(rounds)
-    whole = float(trim_mean(times[:, 0], OUTSIDE))
-    print(f"{len(times)} rounds, a step in one call takes {1e6 * whole:.0f} us")
-    for k, kind in enumerate(KINDS[1:], 1):
-        mean, error = middle_mean(times[:, k] - times[:, 0])
-        print(f"{kind}: {1e6 * mean:.0f} +- {1e6 * error:.0f} us more, "
-              f"{100 * mean / whole:.2f} +- {100 * error / whole:.2f} %")
+    whole, steps, beside_reads, reads = np.array(rounds).T
+    step = float(trim_mean(whole, OUTSIDE))
+    print(f"{len(rounds)} rounds, a step in one call takes {1e6 * step:.0f} us")
+    for name, more in (("a call for each step", 0.5 * (steps + beside_reads) - whole), ("reads", reads)):
+        mean, error = middle_mean(more)
+        print(f"{name}: {1e6 * mean:.1f} +- {1e6 * error:.1f} us, "
+              f"{100 * mean / step:.2f} +- {100 * error / step:.2f} %")
 
 
 if __name__ == "__main__":
