@@ -256,7 +256,8 @@ TEST(WheelMesh, DepthBelowTheCentreIsThatOfTheTrueShape) {
   fine.element_size = 0.004;
   const Vector3 axle = Vector3(0.3, 0.9, 0.25).normalized();
   const Surface surface = make_wheel_mesh(fine);
-  const Quaternion turn = Quaternion::FromTwoVectors(Vector3::UnitY(), axle);
+  const Vector3 about = Vector3::UnitY().cross(axle);
+  const Eigen::AngleAxisd turn(std::atan2(about.norm(), axle.y()), about.normalized());
   double lowest = 0.0;
   for (Eigen::Index node = 0; node < surface.x.cols(); ++node)
     lowest = std::min(lowest, (turn * Vector3(surface.x.col(node))).z());

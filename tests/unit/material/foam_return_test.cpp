@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "material/models/crushable_foam/crushable_foam.h"
-#include "paths.h"
+#include "tests/support/paths.h"
 
 namespace furrow {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "paths.h"
+#include "tests/support/paths.h"
 
 namespace furrow {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "paths.h"
+#include "tests/support/paths.h"
 #include "tests/support/max_error.h"
 
 namespace furrow {

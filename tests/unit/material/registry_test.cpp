@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "paths.h"
+#include "tests/support/paths.h"
 #include "tests/support/error_of.h"
 
 namespace furrow {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "paths.h"
+#include "tests/support/paths.h"
 
 namespace furrow::testing_paths {
 

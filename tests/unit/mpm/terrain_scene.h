@@ -12,7 +12,7 @@
 #include "bodies/coupled_system.h"
 #include "mpm/contact/terrain_contact.h"
 #include "mpm/continuum_terrain.h"
-#include "../material/paths.h"
+#include "tests/support/paths.h"
 
 namespace furrow::testing_terrain {
 

@@ -7,7 +7,7 @@
 
 #include "material/models/crushable_foam/crushable_foam.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
-#include "../../unit/material/paths.h"
+#include "tests/support/paths.h"
 
 namespace furrow {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "../../unit/material/paths.h"
+#include "tests/support/paths.h"
 
 namespace furrow {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../../unit/material/paths.h"
+#include "tests/support/paths.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "material/section/section.h"
 

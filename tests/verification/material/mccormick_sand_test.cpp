@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "rate_reference.h"
-#include "../../unit/material/paths.h"
+#include "tests/support/paths.h"
 #include "tests/support/max_error.h"
 
 namespace furrow {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "../../unit/material/paths.h"
+#include "tests/support/paths.h"
 #include "io/csv_file.h"
 
 namespace furrow {
