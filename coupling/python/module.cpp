@@ -178,9 +178,9 @@ PYBIND11_MODULE(furrow, module) {
     try {
       std::rethrow_exception(thrown);
     } catch (const RunError& problem) {
-      error(problem.text.c_str());
+      PyErr_SetString(error.ptr(), problem.text.c_str());
     } catch (const furrow::Error& problem) {
-      error(problem.what());
+      PyErr_SetString(error.ptr(), problem.what());
     }
   });
 
