@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/soil_card_file.h"
 
+#include <fmt/format.h>
+
+#include "core/error.h"
 #include "io/yaml_tree.h"
 
 namespace furrow {
@@ -22,6 +25,12 @@ std::map<std::string, double> read_soil_card(const std::string& path) {
   const YamlTree card = read_yaml(path);
   const YamlTree& plate = card.map("pressure_sinkage", what_a_card_is);
   const YamlTree& shear = card.map("shear", what_a_card_is);
+  for (const YamlTree* part : {&plate, &shear})
+    if (const YamlTree* failed = part->find("failed"))
+      throw InputError(failed->origin,
+                       fmt::format("has no values, because the test failed: {}", failed->text),
+                       "a card with the values of plates and ring",
+                       "take another card, or give k_phi, n, c, phi and K by hand");
   std::map<std::string, double> values;
   for (const char* name : {"k_c", "k_phi"})
     values[name] = value_of(plate.map(name, what_a_card_is), name, Range::any());

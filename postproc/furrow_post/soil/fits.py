@@ -20,6 +20,7 @@ FIRST = 0.05  # of the greatest sinkage: where a fit begins, behind first touch
 LARGEST_CONDITION = 1e14  # of the normal equations
 DISTINCT_LOADS = 1.5  # greatest over smallest normal stress, as the ground carried them
 LARGEST_OFF_LOAD = 2.0  # ratio of what a ring carries and its load
+LARGEST_SINKING = 0.2  # of the shear displacement: friction then appears a tenth smaller
 LARGEST_SPEED_STRESS = 0.5  # of the shear stress under the first load
 LARGEST_RESIDUAL = 0.1  # rms over the largest value of a curve
 INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
@@ -64,11 +65,13 @@ class ShearCurve:
     shear: Floats
     speed: float = 0.0
     load: float = 0.0  # [Pa] that the drive should hold; 0: not known
+    sinking: float = 0.0  # sinkage over shear displacement in its second half
 
     def sheared(self) -> "ShearCurve":
         """The second half of the displacement, where the strength is mobilised."""
         use = self.displacement > 0.5 * self.displacement.max()
-        return ShearCurve(self.displacement[use], self.normal[use], self.shear[use], self.speed, self.load)
+        late = (self.displacement[use], self.normal[use], self.shear[use])
+        return ShearCurve(*late, self.speed, self.load, self.sinking)
 
 
 @dataclass(frozen=True)
@@ -214,6 +217,11 @@ def _fit_shear(curves: Sequence[ShearCurve]) -> Shear:
     for curve, mean in zip(curves, means):
         held = not curve.load or curve.load / LARGEST_OFF_LOAD < mean < curve.load * LARGEST_OFF_LOAD
         _require(held, f"a ring that holds its load: it carries {mean:.0f} Pa in place of {curve.load:.0f} Pa")
+        _require(
+            curve.sinking < LARGEST_SINKING,
+            f"a ring that sinks by less than {LARGEST_SINKING:g} of its shear displacement: under {mean:.0f} Pa "
+            f"it sinks by {curve.sinking:.2f} of it",
+        )
     distinct = len(curves) > 1 and max(means) > DISTINCT_LOADS * min(means)
     _require(distinct, f"a ring under loads that differ by a factor of {DISTINCT_LOADS:g}")
     top = max(float(curve.shear.max()) for curve in curves)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..analyse.statistics import line_fit
 from ..arrays import Floats
 from ..csv_table import read_matrix
 from ..errors import ResultsError
@@ -108,7 +109,9 @@ def ring_test(
     turning = rows[rows[:, 5] > 0]
     # tau = T / (2 pi integral r^2 dr), which is uniform stress
     tau = -turning[:, 4] / (2 / 3 * math.pi * (outer**3 - inner**3))
-    return ShearCurve(turning[:, 5] * middle, turning[:, 3], tau, speed, pressure)
+    late = turning[turning[:, 5] > 0.5 * turning[-1, 5]]
+    sinking = line_fit(late[:, 5] * middle, late[:, 1])[0]
+    return ShearCurve(turning[:, 5] * middle, turning[:, 3], tau, speed, pressure, sinking)
 
 
 def cone_test(bench: Bench, depth: float, cells: int, runs: Runs) -> ConeCurve:

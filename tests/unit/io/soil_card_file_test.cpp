@@ -61,6 +61,9 @@ TEST_F(SoilCardFile, RefusalsNameFileLineAndKey) {
   EXPECT_THAT(refusal("shear:", "sheer:"), HasSubstr("shear"));
   EXPECT_THAT(refusal("{value: 29.7, error: 0.6, unit: degree}", "29.7"), HasSubstr("phi"));
   EXPECT_THAT(refusal("value: 1.23", "value: -1"), HasSubstr("card.yaml, line 8"));
+  EXPECT_THAT(
+      refusal("  c: {value: 3695.0, error: 134.0, unit: Pa}", "  failed: the ring sank through"),
+      HasSubstr("card.yaml, line 11 has no values, because the test failed: the ring sank"));
   EXPECT_THAT(refusal("stiffness: 1.8e8", "stiffness: soft"), HasSubstr("stiffness"));
 }
 

@@ -153,6 +153,9 @@ class RefusalTest(unittest.TestCase):
         high = ShearCurve(z, np.full(30, 5e3), np.full(30, 2e3), 0.1, 1e3)
         with self.assertRaisesRegex(ResultsError, "holds its load: it carries 5000 Pa in place of 1000 Pa"):
             fit_shear([first, high])
+        sinks = ShearCurve(z, second.normal, second.shear, 0.1, sinking=0.3)
+        with self.assertRaisesRegex(ResultsError, "under 20000 Pa it sinks by 0.30 of it"):
+            fit_shear([first, sinks])
         with self.assertRaisesRegex(ResultsError, "a cone whose base is below the surface"):
             cone_index(ConeCurve(-z, z))
 

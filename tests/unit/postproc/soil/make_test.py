@@ -53,6 +53,12 @@ class MakeTest(FolderTest):
         self.assertTrue(0.03 < between < 0.045)
         self.assertEqual(read_material(self.file).density, 1600)
 
+    def test_norsand_has_its_own_elasticity(self) -> None:
+        material = read_material(SOURCE / "inputs" / "materials" / "norsand_dry.yaml")
+        # by hand: G = 1.54 MPa at 100 kPa, n = 0.464, so 0.529 MPa at 10 kPa; nu = 0.256
+        self.assertAlmostEqual(material.young / 1.329e6, 1, places=3)
+        self.assertAlmostEqual(material.wave_speed, 32.74, places=1)
+
     def test_a_modulus_gives_janbus_curve(self) -> None:
         made = from_strength("mine", 0.0, 33.0, 1600.0, None, 1.2e7)
         self.file.write_text(made.text(), encoding="utf-8")
