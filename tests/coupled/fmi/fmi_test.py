@@ -215,7 +215,7 @@ class States(Case):
         rest = advance(wheel, 3, 5)
         wheel.set_state(state)
         self.assertEqual(advance(wheel, 3, 5), rest)
-        self.assertGreater(float.fromhex(rest[-1][2]), 50.0)
+        self.assertGreater(float.fromhex(rest[-1][2]), 10.0)  # N: the wheel is in contact
         wheel.free_state(state)
 
     def test_script_without_begin_has_no_states(self) -> None:
