@@ -14,8 +14,8 @@
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "material/models/neo_hookean/neo_hookean_parameters.h"
 #include "material/models/norsand/norsand.h"
-#include "tests/support/paths.h"
 #include "simd/dispatch.h"
+#include "tests/support/paths.h"
 
 namespace furrow {
 namespace {

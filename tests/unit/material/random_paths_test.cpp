@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/paths.h"
 #include "tests/support/max_error.h"
+#include "tests/support/paths.h"
 
 namespace furrow {
 namespace {

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "tests/support/paths.h"
 #include "tests/support/error_of.h"
+#include "tests/support/paths.h"
 
 namespace furrow {
 namespace {

@@ -4,11 +4,12 @@
 
 #include <random>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "tests/support/paths.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "material/section/section.h"
+#include "tests/support/paths.h"
 
 namespace furrow {
 namespace {

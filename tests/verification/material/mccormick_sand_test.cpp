@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "rate_reference.h"
-#include "tests/support/paths.h"
 #include "tests/support/max_error.h"
+#include "tests/support/paths.h"
 
 namespace furrow {
 namespace {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/paths.h"
 #include "io/csv_file.h"
+#include "tests/support/paths.h"
 
 namespace furrow {
 namespace {
