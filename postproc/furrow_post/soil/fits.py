@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 from scipy.optimize import least_squares
 
 from ..analyse.statistics import line_fit
@@ -67,9 +68,13 @@ class ShearCurve:
     load: float = 0.0  # [Pa] that the drive should hold; 0: not known
     sinking: float = 0.0  # sinkage over shear displacement in its second half
 
+    def late(self) -> npt.NDArray[np.bool_]:
+        """Points in the second half of the displacement, where the strength is mobilised."""
+        late: npt.NDArray[np.bool_] = self.displacement > 0.5 * self.displacement.max()
+        return late
+
     def sheared(self) -> "ShearCurve":
-        """The second half of the displacement, where the strength is mobilised."""
-        use = self.displacement > 0.5 * self.displacement.max()
+        use = self.late()
         late = (self.displacement[use], self.normal[use], self.shear[use])
         return ShearCurve(*late, self.speed, self.load, self.sinking)
 

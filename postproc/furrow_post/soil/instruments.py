@@ -3,7 +3,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -109,9 +109,9 @@ def ring_test(
     turning = rows[rows[:, 5] > 0]
     # tau = T / (2 pi integral r^2 dr), which is uniform stress
     tau = -turning[:, 4] / (2 / 3 * math.pi * (outer**3 - inner**3))
-    late = turning[turning[:, 5] > 0.5 * turning[-1, 5]]
-    sinking = line_fit(late[:, 5] * middle, late[:, 1])[0]
-    return ShearCurve(turning[:, 5] * middle, turning[:, 3], tau, speed, pressure, sinking)
+    curve = ShearCurve(turning[:, 5] * middle, turning[:, 3], tau, speed, pressure)
+    late = curve.late()
+    return replace(curve, sinking=line_fit(curve.displacement[late], turning[late, 1])[0])
 
 
 def cone_test(bench: Bench, depth: float, cells: int, runs: Runs) -> ConeCurve:
