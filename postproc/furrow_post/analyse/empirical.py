@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 from ..arrays import Floats
 from ..errors import ResultsError
 from .prediction import Limit, OutOfRange, Prediction, Result, require_positive, require_range
-from .terrain_values import TerrainValues, terrain as terrain, terrains
+from .terrain_values import TerrainValues, terrains
 
 # ---- snow
 

@@ -8,6 +8,7 @@ import unittest
 from dataclasses import replace
 
 from furrow_post.analyse import empirical
+from furrow_post.analyse.terrain_values import terrain
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.soil.card import UNITS, NoResult, SoilCard, markdown, read_card, write_card
@@ -102,7 +103,7 @@ class SoilCardTest(FolderTest):
             self.assertEqual(rows[name]["unit"], UNITS[name])
 
     def test_bekkers_formula_takes_a_card_as_terrain(self) -> None:
-        ground = empirical.terrain(str(self.path))
+        ground = terrain(str(self.path))
         plate, shear = PLATE, SHEAR
         found = (ground.k_1, ground.k_2, ground.n, ground.c, ground.phi, ground.K)
         card = (plate.k_c, plate.k_phi, plate.n, shear.c, shear.phi, shear.K)
@@ -129,7 +130,7 @@ class SoilCardTest(FolderTest):
             with self.assertRaisesRegex(ResultsError, "no values of the ring .the ring sank through"):
                 write(WITHOUT_RING, target)
         with self.assertRaisesRegex(ResultsError, "card.yaml: the ring failed: the ring sank through"):
-            empirical.terrain(str(self.path))
+            terrain(str(self.path))
 
     def test_wrong_cards_are_refused_with_the_key(self) -> None:
         text = self.path.read_text()

@@ -6,6 +6,7 @@ import unittest
 from dataclasses import replace
 
 from furrow_post.analyse import empirical
+from furrow_post.analyse.terrain_values import terrain
 from furrow_post.csv_table import read_rows
 from furrow_post.soil.card import NoResult, markdown, read_card
 from furrow_post.soil.material import read_material
@@ -34,7 +35,7 @@ class LibraryTest(unittest.TestCase):
         self.assertIn(markdown(cards), (SOILS / "README.md").read_text(encoding="utf-8"))
 
     def test_bekker_wong_with_a_card_against_the_wheel(self) -> None:
-        ground = empirical.terrain(str(SOILS / "dry_sand_smooth.yaml"))
+        ground = terrain(str(SOILS / "dry_sand_smooth.yaml"))
         text = TUTORIAL.read_text(encoding="utf-8")
         rows = read_rows(SOILS / "wheel_on_dry_sand.csv")
         self.assertEqual(len(rows), 2)
