@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Results folder of furrow-point run:
-/// - point.csv: every channel at every step
-/// - point.h5: the same as /point/<channel>, with unit and meaning. /point has law and path.
-///   /yield_surface/<n> has p and q of the yield surface after a segment; its attribute names it.
-/// - material.yaml and run.yaml: the effective input. `furrow-point run run.yaml` repeats the run.
+/// Results folder of furrow-point run. point.csv has every channel at every step.
+///
+/// point.h5 has the same channels as /point/<channel>, with unit and meaning. The group /point has
+/// the law and the path. /yield_surface/<n> has p and q of the yield surface after a segment, which
+/// its attribute names.
+///
+/// material.yaml and run.yaml are the effective input: `furrow-point run run.yaml` repeats the run.
 
 #include <string>
 

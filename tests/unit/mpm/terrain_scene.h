@@ -66,8 +66,9 @@ inline void set_boundary(TerrainParameters& ground, const FaceArray<const char*>
   for (const Face face : all_faces) ground.boundary[face] = boundary_kind(kinds[face]);
 }
 
-/// Weightless ground of this length, width and depth, symmetric about y = 0, on a rough base
-/// between smooth sides; with a sheet, a trough along x, and a grid that goes on to `top`.
+/// Weightless ground with a trough along x, symmetric about y = 0. Its base is rough, its sides are
+/// smooth, and a sheet covers it. The grid goes on above it, to `top`.
+/// @param size length, width and depth
 inline TerrainParameters ground_with_trough(const std::string& material, const Vector3& size,
                                             double top, const Trough& trough, double cell) {
   TerrainParameters ground = box(material_of(material), {0.0, -0.5 * size.y(), 0.0},
