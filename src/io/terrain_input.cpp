@@ -310,6 +310,11 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
               "factor on Young's modulus, for longer steps")
       .by_default(1.0);
   schema
+      .number("sleep_tolerance", "", Range{0.0, 0.1, true, false},
+              "leaves out ground at rest: allowed neglected force over the force of the contacts, "
+              "and energy over their work; without: all is computed")
+      .optional();
+  schema
       .numbers("blocks", 2, "", Range::closed(1.0, max_blocks),
                "blocks along x and along y that the ranks share; by default chosen by Furrow")
       .optional()
@@ -371,6 +376,7 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
                      "ground without grains takes its own step anyway");
   ground.cfl = options.number("cfl");
   ground.remap_interval = static_cast<int>(options.integer("transfer_interval"));
+  if (options.given("sleep_tolerance")) ground.sleep_tolerance = options.number("sleep_tolerance");
   ground.blocks = read_blocks(options);
   return ground;
 }

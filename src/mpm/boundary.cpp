@@ -206,6 +206,37 @@ bool Boundary::is_fixed(const Grid& grid, const std::array<int, 3>& node, int co
   return false;
 }
 
+Vector3 Boundary::hold(const Grid& grid, const NodeIndex& node, double mass, Vector3 force,
+                       FaceArray<Vector3>& reactions) const {
+  for (const Face face : all_faces) {
+    const FacePlane plane = plane_of(grid, face);
+    const auto along = [&](int axis) { return node[static_cast<std::size_t>(axis)]; };
+    if (kinds_[face] == BoundaryKind::free || along(plane.axis) != plane.plane) continue;
+    const bool absorbs = kinds_[face] == BoundaryKind::absorbing;
+    const FarField& far = far_[0][face];
+    const auto number =
+        static_cast<std::size_t>(along(plane.slow) * grid.nodes(plane.fast) + along(plane.fast));
+    for (int c = 0; c < 3; ++c) {
+      double reaction = 0.0;
+      if (kinds_[face] == BoundaryKind::rough || (!absorbs && c == plane.axis))
+        reaction = -force[c];
+      else if (absorbs && !is_fixed(grid, node, c)) {
+        const std::size_t n = 3 * number + static_cast<std::size_t>(c);
+        const double speed = speed_of(far, node, c);
+        reaction = far.initial_force[n] - mass * speed * speed * far.inverse_extent *
+                                              far.inverse_length * far.displacement[n];
+      }
+      reactions[face][c] += reaction;
+      force[c] += reaction;
+    }
+  }
+  return force;
+}
+
+void Boundary::add_impulses(const FaceArray<Vector3>& forces, double dt) {
+  for (const Face face : all_faces) impulse_[face] += dt * forces[face];
+}
+
 void Boundary::absorb(Grid& grid, int field, Face face, const NodeBlock& local,
                       const NodeBlock& owned, double dt) {
   FarField& far = far_[static_cast<std::size_t>(field)][face];

@@ -70,6 +70,15 @@ class Boundary {
   /// Changes the velocities of the face nodes over a step dt [s].
   void apply(Grid& grid, const NodeBlock& local, const NodeBlock& owned, double dt);
 
+  /// Of a node that is kept at rest: what its faces give it. The far field keeps its displacement.
+  /// @param mass, force  of all particles at the node; gravity is in the force [kg], [N]
+  /// @param reactions  get the forces of the faces [N]
+  /// @return the force that no face balances [N]
+  Vector3 hold(const Grid& grid, const std::array<int, 3>& node, double mass, Vector3 force,
+               FaceArray<Vector3>& reactions) const;
+  /// Adds to the impulses what the faces gave to nodes that apply() does not see [N s].
+  void add_impulses(const FaceArray<Vector3>& forces, double dt);
+
   /// Impulse that a face gave to the ground since the start, this rank's share [N s].
   const Vector3& impulse(Face face) const { return impulse_[face]; }
   /// Work of the absorbing faces on the ground since the start, this rank's share [J].

@@ -42,6 +42,32 @@ void check_both_sides(const Discretisation& discretisation, const std::string& w
                      "look at the surface's place, and at 'centre' and 'surface' of the ground");
 }
 
+/// Those parts of a terrain do not know sleeping ground. @throws InputError for a terrain with them
+void check_active(const TerrainParameters& parameters, const std::string& where) {
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    throw InputError(where + ", keyword 'sleep_tolerance'", "is given with " + what,
+                     "ground of one piece that stays where it is, carries no grains and does not "
+                     "creep",
+                     remedy);
+  };
+  if (parameters.window) refuse("'follow'", "remove one of the two");
+  if (parameters.slide) refuse("a slide surface", "remove one of the two");
+  if (parameters.surface_mesh) refuse("'surface_mesh yes'", "remove one of the two");
+  for (const TerrainLayer& layer : parameters.layers)
+    if (layer.material->rate_dependent())
+      refuse("a material that depends on the rate",
+             "remove 'sleep_tolerance', or 'relaxation_time' of the material");
+}
+
+std::optional<ActiveGround> make_active(const TerrainParameters& parameters,
+                                        Discretisation& discretisation, Boundary& boundary,
+                                        const TerrainEnergy& energy, const std::string& where) {
+  if (!(parameters.sleep_tolerance > 0.0)) return {};
+  check_active(parameters, where);
+  return ActiveGround(parameters.sleep_tolerance, parameters.gravity, discretisation, boundary,
+                      energy);
+}
+
 }  // namespace
 
 ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Communicator& ranks,
@@ -55,8 +81,9 @@ ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Co
       remap_(discretisation_, parameters.remap_interval),
       loads_(discretisation_, remap_),
       slide_(parameters.slide),
+      active_(make_active(parameters, discretisation_, boundary_, energy_, where)),
       step_(discretisation_, boundary_, distribution_, remap_, loads_, energy_, parameters.gravity,
-            slide_ ? &*slide_ : nullptr),
+            slide_ ? &*slide_ : nullptr, active_ ? &*active_ : nullptr),
       window_(parameters, discretisation_, distribution_, boundary_, fill_, energy_, where) {
   fill(where);
   step_.capture_initial_tractions();
@@ -80,6 +107,7 @@ void ContinuumTerrain::place_surface_mesh() {
 
 void ContinuumTerrain::sort_particles() {
   distribution_.sort();
+  if (active_) active_->rebuild();
   if (free_surface_.exists()) free_surface_.attach(discretisation_.groups);
 }
 
@@ -90,15 +118,11 @@ void ContinuumTerrain::sort_particles() {
 /// (coupling/terrain/fix_terrain_continuum.md).
 double ContinuumTerrain::stable_step_now() const {
   double wave_speed = 0.0;
-  for (const ParticleGroup& group : discretisation_.groups) {
-    if (group.particles.size() == 0) continue;
-    std::vector<double*> pointers;
-    const_cast<Particles&>(group.particles).state_pointers(0, pointers);
-    PointBlock block;
-    block.size = group.particles.size();
-    block.state = pointers.data();
-    wave_speed = std::max(wave_speed, group.material->largest_wave_speed(block));
-  }
+  for (const ParticleGroup& group : discretisation_.groups)
+    group.for_awake([&](std::size_t from, std::size_t to) {
+      wave_speed = std::max(wave_speed, group.largest_wave_speed(from, to));
+    });
+  if (active_) wave_speed = std::max(wave_speed, active_->resting_wave_speed());
   return parameters_.cfl * grid().shortest_cell() /
          ranks().max(wave_speed + remap_.largest_speed());
 }
@@ -126,7 +150,8 @@ void ContinuumTerrain::step(double dt, const Matrix3X& surface_forces) {
   if (!remap_.interval_running()) {
     const bool moved = window_.move();
     if (moved) place_surface_mesh();
-    if (moved || distribution_.sorting_due()) sort_particles();
+    const bool decided = active_ && active_->decide();
+    if (moved || decided || distribution_.sorting_due()) sort_particles();
   }
   if (free_surface_.exists()) {
     step_.grid_to_particles();
@@ -147,6 +172,12 @@ void ContinuumTerrain::interpolate_motion(const std::vector<ParticleIndex>& part
 void ContinuumTerrain::add_point_force(const ParticleIndex& near, const Vector3& force,
                                        const Vector3& point, double* work) {
   loads_.add(near, force, point, work);
+}
+
+void ContinuumTerrain::keep_awake_near(const Surface& surface) {
+  if (!active_ || remap_.interval_running()) return;
+  const auto [lower, upper] = surface.bounds();
+  active_->keep_awake(lower, upper);
 }
 
 EnergyBudget ContinuumTerrain::energy_budget() const {
@@ -194,6 +225,7 @@ void ContinuumTerrain::checkpoint(Checkpoint& state) {
   if (parameters_.multirate) multirate_.checkpoint(state, free_surface_.surface().x.cols());
   checkpoint_boundary(state);
   discretisation_.exchange.checkpoint(state, ranks());
+  if (active_) active_->checkpoint(state);
   distribution_.checkpoint_drift(state);
   distribution_.checkpoint_particles(state, *std::exchange(particle_numbers_, nullptr));
   if (!state.saving()) resume();
@@ -226,6 +258,7 @@ void ContinuumTerrain::match_layer(const TerrainLayer& layer, Checkpoint& state)
 
 /// What follows from the restored particles and nodes.
 void ContinuumTerrain::resume() {
+  if (active_) active_->resume();
   step_.restore_stress_forces();
   if (!free_surface_.exists()) return;
   place_surface_mesh();

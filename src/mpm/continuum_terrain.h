@@ -10,6 +10,7 @@
 
 #include "bodies/body.h"
 #include "core/communicator.h"
+#include "mpm/active_ground.h"
 #include "mpm/boundary.h"
 #include "mpm/discretisation.h"
 #include "mpm/free_surface_mesh.h"
@@ -33,6 +34,7 @@ namespace furrow {
 ///   SlideContact          friction between two pieces of ground
 ///   TerrainStep           one step; RemapControl: when particles and grid are remapped
 ///   PointLoads            forces at points and the motion there: contact
+///   ActiveGround          ground at rest that is not computed
 ///   MovingWindow          ground that moves along with a body, and the rut behind it
 ///   FreeSurfaceMesh       triangles for grains that lie on the terrain
 ///   Multirate             one step of the terrain for several of these grains
@@ -107,6 +109,13 @@ class ContinuumTerrain : public Body {
   void add_point_force(const ParticleIndex& near, const Vector3& force, const Vector3& point,
                        double* work = nullptr);
 
+  // ---- active ground; not collective ------------------------------------------------------------
+
+  /// Keeps the ground around a surface awake; to be called before each step.
+  void keep_awake_near(const Surface& surface);
+  /// Null: all of the ground is computed.
+  const ActiveGround* active() const { return active_ ? &*active_ : nullptr; }
+
   // ---- moving window; not collective ------------------------------------------------------------
 
   /// The middle of the terrain follows this x [m], by whole cells or slabs, from the next remap on.
@@ -134,6 +143,7 @@ class ContinuumTerrain : public Body {
   RemapControl remap_;
   PointLoads loads_;
   std::optional<SlideContact> slide_;
+  std::optional<ActiveGround> active_;
   TerrainStep step_;
   MovingWindow window_;
   FreeSurfaceMesh free_surface_;

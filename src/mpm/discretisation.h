@@ -3,6 +3,7 @@
 /// What all parts of a terrain work on: the grid, the particles of each layer, and who computes
 /// which of them.
 
+#include <optional>
 #include <vector>
 
 #include "mpm/grid.h"
@@ -12,6 +13,12 @@
 
 namespace furrow {
 
+/// Columns of nodes of all ranks.
+struct AwakeNodes {
+  std::vector<NodeBlock> all;     ///< that computed particles reach
+  std::vector<NodeBlock> moving;  ///< those of them that are not held
+};
+
 /// The grid is replicated in size on every rank, but only the nodes of partition.local_nodes()
 /// have values here; `groups` holds this rank's particles.
 struct Discretisation {
@@ -20,12 +27,35 @@ struct Discretisation {
   std::vector<ParticleGroup> groups;
   Partition partition;
   NodeExchange exchange = {};
+  std::optional<AwakeNodes> awake_nodes = {};  ///< of active_ground.h; without: all
 
   const Communicator& ranks() const { return partition.ranks(); }
+  /// Calls visit(local, owned) for blocks that together are the nodes that computed particles
+  /// reach.
+  template <class Visit>
+  void for_awake_nodes(Visit&& visit) const {
+    for_blocks(awake_nodes ? &awake_nodes->all : nullptr, visit);
+  }
+  /// The same for those that are not held.
+  template <class Visit>
+  void for_moving_nodes(Visit&& visit) const {
+    for_blocks(awake_nodes ? &awake_nodes->moving : nullptr, visit);
+  }
   /// Completes the sums of the nodes that other ranks have too. Collective.
   void add_shared_sums() { exchange.add_shared_sums(grid, partition); }
   /// The grid as this rank's kernels may use it: particles in its block and one cell beyond.
   GridView local_view(int field = 0);
+
+ private:
+  template <class Visit>
+  void for_blocks(const std::vector<NodeBlock>* blocks, Visit&& visit) const {
+    const NodeBlock local = partition.local_nodes(), owned = partition.owned_nodes();
+    if (!blocks) {
+      visit(local, owned);
+      return;
+    }
+    for (const NodeBlock& block : *blocks) visit(overlap(block, local), overlap(block, owned));
+  }
 };
 
 }  // namespace furrow

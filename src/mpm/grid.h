@@ -4,6 +4,7 @@
 /// nodes. Ground that slides on a surface inside of it has two velocity fields, one for each side
 /// (slide_contact.h); otherwise there is one.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -49,6 +50,13 @@ struct NodeBlock {
   bool contains(int i, int j) const { return x.contains(i) && y.contains(j); }
 };
 
+inline NodeRange overlap(const NodeRange& a, const NodeRange& b) {
+  return {std::max(a.from, b.from), std::min(a.to, b.to)};
+}
+inline NodeBlock overlap(const NodeBlock& a, const NodeBlock& b) {
+  return {overlap(a.x, b.x), overlap(a.y, b.y)};
+}
+
 class Grid {
  public:
   /// @param fields  velocity fields at each node
@@ -62,6 +70,9 @@ class Grid {
 
   NodeSum& sum(int i, int j, int k, int field = 0) { return sums_[index(i, j, k, field)]; }
   NodeMotion& motion(int i, int j, int k, int field = 0) { return motions_[index(i, j, k, field)]; }
+  const NodeDisplacement& displacement(int i, int j, int k, int field = 0) const {
+    return displacements_[index(i, j, k, field)];
+  }
   /// Of the columns from j on in the plane i of nodes across x: four numbers a node.
   double* column_sums(int i, int j, int field) { return sums_[index(i, j, 0, field)].total; }
 

@@ -60,6 +60,10 @@ void ParticleDistribution::sort_by_cell(ParticleGroup& group) {
   order_.resize(n);
   for (std::size_t p = 0; p < n; ++p) order_[start_[cell_[p]]++] = p;
   group.particles.reorder(order_);
+  if (!group.awake) return;
+  // start_ has the ends of the cells after the loop above
+  group.column_start.assign(nx * ny + 1, 0);
+  for (std::size_t c = 1; c <= nx * ny; ++c) group.column_start[c] = start_[c * nz - 1];
 }
 
 /// Of all ranks.
@@ -181,7 +185,7 @@ void ParticleDistribution::restore_particles(RankNumbers& numbers, const GroupLe
     if (!same_layout || r == static_cast<std::size_t>(ranks.rank()))
       read_rank(numbers, lengths, r, same_layout);
   const double drift = drift_;
-  if (!same_layout && ranks.size() > 1) sort();
+  if (!same_layout) sort();
   drift_ = drift;
   ++generation_;
 }

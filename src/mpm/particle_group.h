@@ -4,11 +4,18 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "material/material.h"
 #include "mpm/particles.h"
 
 namespace furrow {
+
+/// A half-open range of particles.
+struct ParticleRange {
+  std::size_t from = 0, to = 0;
+};
 
 /// All particles of one material (one layer) on this rank; of those on one side of a slide surface,
 /// where there is one.
@@ -17,7 +24,23 @@ struct ParticleGroup {
   Particles particles;
   std::size_t layer = 0;  ///< from the top
   int field = 0;          ///< of the velocity fields of the grid
+  /// ranges that are computed, in their order (active_ground.h); without: all
+  std::optional<std::vector<ParticleRange>> awake = {};
+  /// where `awake` is given: first particle of each column of cells at the last sorting, y running
+  /// fastest, and the number of particles
+  std::vector<std::size_t> column_start = {};
 
+  /// Calls visit(from, to) for the ranges that are computed.
+  template <class Visit>
+  void for_awake(Visit&& visit) const {
+    if (!awake) {
+      visit(std::size_t(0), particles.size());
+      return;
+    }
+    for (const ParticleRange& range : *awake) visit(range.from, range.to);
+  }
+  /// Of the particles of a range [m/s].
+  double largest_wave_speed(std::size_t from, std::size_t to) const;
   double mass(std::size_t particle) const {  ///< [kg]
     return material->density() * particles.data(column::volume)[particle];
   }

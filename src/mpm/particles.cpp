@@ -107,7 +107,18 @@ VectorX Particles::state(std::size_t i) const {
   return state;
 }
 
+/// Particles that stay where they are, at both ends, are not touched if they are many: those of
+/// ground at rest.
 void Particles::reorder(const std::vector<std::size_t>& order) {
+  if (order.size() == size_) {
+    std::size_t first = 0, last = size_;
+    while (first < last && order[first] == first) ++first;
+    while (last > first && order[last - 1] == last - 1) --last;
+    if (2 * (last - first) < size_) {
+      reorder_some(order, first, last);
+      return;
+    }
+  }
   for_each_column([&](Column& c) {
     const auto n = static_cast<std::size_t>(c.components);
     scratch_.resize(order.size() * n);
@@ -116,6 +127,17 @@ void Particles::reorder(const std::vector<std::size_t>& order) {
     c.values.swap(scratch_);
   });
   size_ = order.size();
+}
+
+void Particles::reorder_some(const std::vector<std::size_t>& order, std::size_t first,
+                             std::size_t last) {
+  for_each_column([&](Column& c) {
+    const auto n = static_cast<std::size_t>(c.components);
+    scratch_.resize((last - first) * n);
+    for (std::size_t i = first; i < last; ++i)
+      std::copy_n(c.values.data() + n * order[i], n, scratch_.data() + n * (i - first));
+    std::copy(scratch_.begin(), scratch_.end(), c.values.data() + n * first);
+  });
 }
 
 void Particles::pack(std::size_t i, std::vector<double>& buffer) const {

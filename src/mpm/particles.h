@@ -119,6 +119,7 @@ class Particles {
   void state_pointers(std::size_t first, std::vector<double*>& pointers);
 
  private:
+  void reorder_some(const std::vector<std::size_t>& order, std::size_t first, std::size_t last);
   std::vector<double> zeros(int components) const {
     return std::vector<double>(size_ * static_cast<std::size_t>(components), 0.0);
   }

@@ -15,6 +15,12 @@ void PointLoads::add(const ParticleIndex& near, const Vector3& force, const Vect
   loads_.push_back({near, force, point, work});
 }
 
+Vector3 PointLoads::total_force() const {
+  Vector3 total = Vector3::Zero();
+  for (const PointLoad& load : loads_) total += load.force;
+  return total;
+}
+
 void PointLoads::scatter_to_grid() {
   for (std::vector<PointForce>& forces : forces_) forces.clear();
   for (const PointLoad& load : loads_) {

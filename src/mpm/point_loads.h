@@ -34,6 +34,8 @@ class PointLoads {
   void add(const ParticleIndex& near, const Vector3& force, const Vector3& point,
            double* work = nullptr);
 
+  Vector3 total_force() const;  ///< of the forces added for the next step [N]
+
   /// Adds the forces to the sums of the nodes; force and moment are kept.
   void scatter_to_grid();
   /// The work of the forces over a step of dt [s] that the nodes have taken; the forces are

@@ -22,12 +22,14 @@ void RemapControl::begin_interval(double dt) {
   for (const ParticleGroup& group : discretisation_.groups) {
     const double* v = group.particles.data(column::velocity);
     const double* ratio = group.particles.data(column::state + field::volume_ratio);
-    for (std::size_t p = 0; p < group.particles.size(); ++p) {
-      const double square =
-          v[4 * p] * v[4 * p] + v[4 * p + 1] * v[4 * p + 1] + v[4 * p + 2] * v[4 * p + 2];
-      max_square = std::max(max_square, square);
-      max_square_over_ratio = std::max(max_square_over_ratio, square / (ratio[p] * ratio[p]));
-    }
+    group.for_awake([&](std::size_t from, std::size_t to) {
+      for (std::size_t p = from; p < to; ++p) {
+        const double square =
+            v[4 * p] * v[4 * p] + v[4 * p + 1] * v[4 * p + 1] + v[4 * p + 2] * v[4 * p + 2];
+        max_square = std::max(max_square, square);
+        max_square_over_ratio = std::max(max_square_over_ratio, square / (ratio[p] * ratio[p]));
+      }
+    });
   }
   largest_speed_ = std::sqrt(max_square);
   travel_ = 0.0;

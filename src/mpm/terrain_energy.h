@@ -43,6 +43,7 @@ class TerrainEnergy {
     vertical_stress_work_ += 0.5 * work.vertical;
   }
   void add_contact_work(double work) { contact_work_ += work; }
+  double contact_work() const { return contact_work_; }  ///< this rank's share [J]
   void add_gravity_work(double work) { gravity_work_ += work; }
   /// What friction on a slide surface turned into heat in a step [J].
   void add_slide_loss(double loss) { slide_loss_ += loss; }

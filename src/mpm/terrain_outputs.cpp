@@ -32,6 +32,14 @@ const Outputs<TerrainReading>& terrain_outputs() {
       {"halo_messages", "", "messages per rank and sub-step for shared nodes, mean so far",
        [](R& r) { return r.halo().messages; }},
       {"halo_bytes", "B", "size of these messages", [](R& r) { return r.halo().bytes; }},
+      {"awake_share", "", "share of the particles that are computed",
+       [](R& r) { return r.terrain().active() ? r.terrain().active()->awake_share() : 1.0; }},
+      {"neglected_force", "N", "force that holds sleeping ground at rest, mean over a period",
+       [](R& r) { return r.neglect().force; }},
+      {"largest_neglected_force", "N", "largest of these means so far",
+       [](R& r) { return r.neglect().largest_force; }},
+      {"neglected_energy", "J", "kinetic energy of ground that fell asleep, since the start",
+       [](R& r) { return r.neglect().energy; }},
   };
   return list;
 }

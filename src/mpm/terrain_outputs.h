@@ -23,6 +23,10 @@ class TerrainReading {
     if (!energy_) energy_ = terrain_.energy_budget();
     return *energy_;
   }
+  /// Zero where all of the ground is computed.
+  ActiveGround::Neglect neglect() const {
+    return terrain_.active() ? terrain_.active()->neglect() : ActiveGround::Neglect{};
+  }
   /// Of a sub-step. Collective.
   const HaloTraffic& halo() {
     if (!halo_) {

@@ -18,7 +18,8 @@ constexpr std::size_t chunk = 256;
 
 TerrainStep::TerrainStep(Discretisation& discretisation, Boundary& boundary,
                          ParticleDistribution& distribution, RemapControl& remap, PointLoads& loads,
-                         TerrainEnergy& energy, const Vector3& gravity, const SlideContact* slide)
+                         TerrainEnergy& energy, const Vector3& gravity, const SlideContact* slide,
+                         ActiveGround* active)
     : discretisation_(discretisation),
       boundary_(boundary),
       distribution_(distribution),
@@ -27,6 +28,7 @@ TerrainStep::TerrainStep(Discretisation& discretisation, Boundary& boundary,
       energy_(energy),
       gravity_(gravity),
       slide_(slide),
+      active_(active),
       kernels_(transfer_kernels()),
       gradient_storage_(9 * chunk),
       weights_(batches(chunk)) {
@@ -46,7 +48,7 @@ void TerrainStep::advance(double dt) {
 void TerrainStep::begin_remap_interval(double dt) {
   remap_.begin_interval(dt);
   set_quadrature_positions(0.5 * (remap_.steps_left() - 1) * dt);
-  discretisation_.grid.clear_displacement(discretisation_.partition.local_nodes());
+  clear_displacement();
   particles_to_grid();
 }
 
@@ -58,29 +60,37 @@ void TerrainStep::sum_nodal_forces() {
 
 void TerrainStep::accelerate_nodes(double dt) {
   Grid& grid = discretisation_.grid;
-  const NodeBlock local = discretisation_.partition.local_nodes();
-  const NodeBlock owned = discretisation_.partition.owned_nodes();
-  boundary_.renew_tractions(grid, local, gravity_);
-  grid.accelerate(local, dt, gravity_);
-  if (slide_) energy_.add_slide_loss(slide_->apply(grid, boundary_, local, owned));
-  boundary_.apply(grid, local, owned, dt);
+  boundary_.renew_tractions(grid, discretisation_.partition.local_nodes(), gravity_);
+  if (active_) active_->hold_border(dt);
+  discretisation_.for_moving_nodes([&](const NodeBlock& local, const NodeBlock& owned) {
+    grid.accelerate(local, dt, gravity_);
+    if (slide_) energy_.add_slide_loss(slide_->apply(grid, boundary_, local, owned));
+    boundary_.apply(grid, local, owned, dt);
+  });
 }
 
 void TerrainStep::move_nodes(double dt) {
-  const Partition& partition = discretisation_.partition;
-  node_totals_ = discretisation_.grid.move(partition.local_nodes(), partition.owned_nodes(), dt);
+  node_totals_ = {};
+  discretisation_.for_moving_nodes([&](const NodeBlock& local, const NodeBlock& owned) {
+    const NodeTotals totals = discretisation_.grid.move(local, owned, dt);
+    node_totals_.momentum += totals.momentum;
+    node_totals_.kinetic_energy += totals.kinetic_energy;
+  });
   remap_.grid_moved();
 }
 
 void TerrainStep::update_particles(double dt) {
   for (ParticleGroup& group : discretisation_.groups) {
     const GridView view = discretisation_.local_view(group.field);
-    for (std::size_t first = 0; first < group.particles.size(); first += chunk)
-      update_particles(group, first, view, dt);
+    group.for_awake([&](std::size_t from, std::size_t to) {
+      for (std::size_t first = from; first < to; first += chunk)
+        update_particles(group, first, std::min(chunk, to - first), view, dt);
+    });
   }
 }
 
 void TerrainStep::count_energies(double dt) {
+  if (active_) active_->count_load(loads_.total_force(), dt);
   energy_.set_node_totals(node_totals_);
   energy_.add_gravity_work(dt * gravity_.dot(node_totals_.momentum));
   loads_.count_work(dt, energy_);
@@ -103,10 +113,12 @@ void TerrainStep::set_quadrature_positions(double time) {
       const double upper = axis.upper();
       const double* x = group.particles.data(column::x + a);
       double* shape = group.particles.data(column::quadrature_x + a);
-      for (std::size_t p = 0; p < group.particles.size(); ++p) {
-        const double later = x[p] + time * v[4 * p + a];
-        shape[p] = later >= lower && later <= upper ? later : x[p];
-      }
+      group.for_awake([&](std::size_t from, std::size_t to) {
+        for (std::size_t p = from; p < to; ++p) {
+          const double later = x[p] + time * v[4 * p + a];
+          shape[p] = later >= lower && later <= upper ? later : x[p];
+        }
+      });
     }
   }
 }
@@ -114,14 +126,18 @@ void TerrainStep::set_quadrature_positions(double time) {
 /// A fresh grid: masses, velocities and the forces of the stress.
 void TerrainStep::particles_to_grid() {
   Grid& grid = discretisation_.grid;
-  const Partition& partition = discretisation_.partition;
-  grid.clear_sums(partition.local_nodes());
+  clear_sums();
   for (ParticleGroup& group : discretisation_.groups)
-    if (kernels_.scatter_momentum(discretisation_.local_view(group.field), group.particles.view(),
-                                  group.material->density()) > 0)
-      distribution_.report_outside(group);
+    group.for_awake([&](std::size_t from, std::size_t to) {
+      if (kernels_.scatter_momentum(discretisation_.local_view(group.field),
+                                    group.particles.view(from, to - from),
+                                    group.material->density()) > 0)
+        distribution_.report_outside(group);
+    });
   discretisation_.add_shared_sums();
-  grid.compute_velocities(partition.local_nodes());
+  discretisation_.for_awake_nodes(
+      [&](const NodeBlock& local, const NodeBlock&) { grid.compute_velocities(local); });
+  if (active_) active_->stop_border();
   scatter_stress_forces();
 }
 
@@ -129,20 +145,20 @@ void TerrainStep::particles_to_grid() {
 void TerrainStep::scatter_stress_forces() {
   for (ParticleGroup& group : discretisation_.groups) {
     const GridView view = discretisation_.local_view(group.field);
-    for (std::size_t first = 0; first < group.particles.size(); first += chunk) {
-      const ParticleView particles =
-          group.particles.view(first, std::min(chunk, group.particles.size() - first));
-      kernels_.find_weights(view, particles, weights_.data());
-      kernels_.scatter_force(view, particles, weights_.data());
-    }
+    group.for_awake([&](std::size_t from, std::size_t to) {
+      for (std::size_t first = from; first < to; first += chunk) {
+        const ParticleView particles = group.particles.view(first, std::min(chunk, to - first));
+        kernels_.find_weights(view, particles, weights_.data());
+        kernels_.scatter_force(view, particles, weights_.data());
+      }
+    });
   }
 }
 
 /// Strain, stress and, unless this step ends the interval, the force of the new stress for the next
-/// step; of the chunk of particles that begins at `first`.
-void TerrainStep::update_particles(ParticleGroup& group, std::size_t first, const GridView& grid,
-                                   double dt) {
-  const std::size_t count = std::min(chunk, group.particles.size() - first);
+/// step; of a chunk of particles.
+void TerrainStep::update_particles(ParticleGroup& group, std::size_t first, std::size_t count,
+                                   const GridView& grid, double dt) {
   const ParticleView particles = group.particles.view(first, count);
   kernels_.find_weights(grid, particles, weights_.data());
   kernels_.gather_strain(grid, particles, weights_.data(), dt, gradient_.data());
@@ -174,9 +190,24 @@ void TerrainStep::update_stress(ParticleGroup& group, std::size_t first, std::si
 void TerrainStep::grid_to_particles() {
   if (!remap_.particles_lag()) return;
   remap_.particles_updated();
+  if (active_) active_->add_motion();
   for (ParticleGroup& group : discretisation_.groups)
-    kernels_.gather_motion(discretisation_.local_view(group.field), group.particles.view());
-  discretisation_.grid.clear_displacement(discretisation_.partition.local_nodes());
+    group.for_awake([&](std::size_t from, std::size_t to) {
+      kernels_.gather_motion(discretisation_.local_view(group.field),
+                             group.particles.view(from, to - from));
+    });
+  clear_displacement();
+}
+
+void TerrainStep::clear_sums() {
+  discretisation_.for_awake_nodes(
+      [&](const NodeBlock& local, const NodeBlock&) { discretisation_.grid.clear_sums(local); });
+}
+
+void TerrainStep::clear_displacement() {
+  discretisation_.for_awake_nodes([&](const NodeBlock& local, const NodeBlock&) {
+    discretisation_.grid.clear_displacement(local);
+  });
 }
 
 void TerrainStep::capture_initial_tractions() {
@@ -190,7 +221,7 @@ void TerrainStep::capture_initial_tractions() {
 
 void TerrainStep::restore_stress_forces() {
   if (!remap_.interval_running()) return;
-  discretisation_.grid.clear_sums(discretisation_.partition.local_nodes());
+  clear_sums();
   scatter_stress_forces();
 }
 

@@ -27,6 +27,7 @@
 #include <array>
 #include <vector>
 
+#include "mpm/active_ground.h"
 #include "mpm/boundary.h"
 #include "mpm/discretisation.h"
 #include "mpm/particle_distribution.h"
@@ -43,9 +44,11 @@ class TerrainStep {
  public:
   /// The other parts must outlive the step.
   /// @param gravity  [m/s^2]; @param slide  null: the ground is of one piece
+  /// @param active  null: all of the ground is computed
   TerrainStep(Discretisation& discretisation, Boundary& boundary,
               ParticleDistribution& distribution, RemapControl& remap, PointLoads& loads,
-              TerrainEnergy& energy, const Vector3& gravity, const SlideContact* slide);
+              TerrainEnergy& energy, const Vector3& gravity, const SlideContact* slide,
+              ActiveGround* active);
 
   /// From t_n to t_n + dt [s]. Afterwards particles are up to date only if
   /// remap.interval_running() is false. @throws StateError when a particle leaves the grid or a
@@ -76,7 +79,10 @@ class TerrainStep {
   void set_quadrature_positions(double time);
   void particles_to_grid();
   void scatter_stress_forces();
-  void update_particles(ParticleGroup& group, std::size_t first, const GridView& grid, double dt);
+  void clear_sums();
+  void clear_displacement();
+  void update_particles(ParticleGroup& group, std::size_t first, std::size_t count,
+                        const GridView& grid, double dt);
   void update_stress(ParticleGroup& group, std::size_t first, std::size_t count, double dt);
 
   Discretisation& discretisation_;
@@ -87,6 +93,7 @@ class TerrainStep {
   TerrainEnergy& energy_;
   Vector3 gravity_;  // [m/s^2]
   const SlideContact* slide_;
+  ActiveGround* active_;
   const TransferKernels& kernels_;
   NodeTotals node_totals_;  // of this rank's nodes after they have moved
 

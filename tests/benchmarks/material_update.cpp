@@ -209,7 +209,7 @@ void measure(benchmark::State& timer, const Material& material, double strain, d
 // Steps of 1e-4, as an explicit scene takes them. Unless the name says so every point is on its
 // own: the worst order for vectors.
 void BM_elastic(benchmark::State& timer) { measure(timer, *elastic(), 1e-4, 0.0); }
-/// The same law written point by point, with seven variables of its own.
+/// The same law written point by point, with seven separate variables.
 void BM_elastic_pointwise(benchmark::State& timer) {
   const auto material =
       make_material(PlainElastic::model(), entries_of_text("density 200 E 13.79e6 nu 0.3"));

@@ -26,6 +26,7 @@ TerrainContact::TerrainContact(Body& body, ContinuumTerrain& terrain,
 }
 
 void TerrainContact::apply(double dt) {
+  terrain_.keep_awake_near(body_.surface());
   if (search_.is_outdated()) search();
   search_.add_terrain_travel(terrain_.largest_speed() * dt);
   select_active();

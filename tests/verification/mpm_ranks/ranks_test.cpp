@@ -56,6 +56,9 @@ struct Variant {
   bool window, slide, sheet;
   const char* ends;
   std::string material = snow();
+  double sleep_tolerance = 0.0;
+  double upper = 0.2;   // end of the bed along x [m]
+  double speed = -2.0;  // of the plate [m/s]
 };
 
 /// A plate pressed into snow beside the middle of a bed with absorbing sides, then shaken:
@@ -64,27 +67,30 @@ struct Scene {
   Scene(const Communicator& ranks, const Variant& variant, const BlockLayout& blocks = {})
       : ground(parameters(variant, blocks), ranks),
         plate({PlateShape::square, 0.1, 0.05, 4}, {0.03, 0.0, 0.1 + 1e-4}),
-        contact(plate, ground, ContactParameters{}, true, "foot") {
+        contact(plate, ground, ContactParameters{}, true, "foot"),
+        speed(variant.speed) {
     system.add(plate, "plate");
     system.add(ground, "ground");
     system.add(contact, "foot");
   }
   static TerrainParameters parameters(const Variant& variant, const BlockLayout& blocks) {
     const double cell = 0.02;
-    TerrainParameters p = box(material_of(variant.material), {-0.2, 0.0, 0}, {0.2, 0.1, 0.1}, cell);
+    TerrainParameters p =
+        box(material_of(variant.material), {-0.2, 0.0, 0}, {variant.upper, 0.1, 0.1}, cell);
     p.z = even(0, 0.14, cell);
     p.gravity = {0, 0, -standard_gravity};
     p.initial_stress = true;
     p.window = variant.window;
     p.surface_mesh = variant.sheet;
     p.blocks = blocks;
+    p.sleep_tolerance = variant.sleep_tolerance;
     if (variant.slide) p.slide = SlideSurface{SlideBox{0.03, 0.0, 0.1, 0.1}, 0.3};
     set_boundary(p, {variant.ends, variant.ends, "smooth", "absorbing", "rough", "free"});
     return p;
   }
   void run(int intervals) {
     for (int n = 0; n < intervals; ++n) {
-      plate.prescribe(-2.0);
+      plate.prescribe(speed);
       if (ground.parameters().window) ground.follow(plate.centre().x() + 0.002 * ++steps);
       // as grains do that lie on the sheet [N]
       if (ground.parameters().surface_mesh) ground.surface().f.row(2).setConstant(-0.05);
@@ -95,6 +101,7 @@ struct Scene {
   RigidPlate plate;
   TerrainContact contact;
   CoupledSystem system;
+  double speed;  // [m/s]
   int steps = 0;
 };
 
@@ -308,6 +315,45 @@ TEST(Blocks, ContinueInAnotherLayout) {
   first.run(7);
   turned.run(7);
   expect_alike(Answer(turned), Answer(first));
+}
+
+const Variant sleeping = {"sleeping", false, false, false, "absorbing", snow(), 0.1, 1.0, -0.2};
+
+TEST(SleepingGround, GivesTheAnswerOfOneRank) {
+  const std::unique_ptr<Scene> one = scene_of_one(sleeping);
+  if (one) one->run(60);
+  for (const BlockLayout& layout : layouts()) {
+    SCOPED_TRACE(::testing::Message() << layout.x << " x " << layout.y << " blocks");
+    Scene many(world_ranks(), sleeping, layout);
+    many.run(60);
+    EXPECT_LT(many.ground.active()->awake_share(), 0.9);
+    expect_alike(many, one.get());
+    if (!one) continue;
+    const ActiveGround::Neglect &a = many.ground.active()->neglect(),
+                                &b = one->ground.active()->neglect();
+    EXPECT_GT(b.energy, 0.0);
+    expect_near(a.force, b.force, b.largest_force, "neglected force");
+    expect_near(a.energy, b.energy, b.energy, "neglected energy");
+  }
+}
+
+TEST(SleepingGround, ContinuesOnRanks) {
+  const BlockLayout layout = layouts().front();
+  Scene first(world_ranks(), sleeping, layout), second(world_ranks(), sleeping, layout),
+      turned(world_ranks(), sleeping, {layout.y, layout.x});
+  first.run(53);
+  EXPECT_LT(first.ground.active()->awake_share(), 0.9);
+  const State state(first);
+  state.restore(second);
+  state.restore(turned);
+  std::unique_ptr<Scene> one = scene_of_one(sleeping);
+  if (one) state.restore(*one);
+  for (Scene* scene : {&first, &second, &turned, one.get()})
+    if (scene) scene->run(17);
+  EXPECT_TRUE(State(first) == State(second));
+  const Answer answer(first);
+  expect_alike(Answer(turned), answer);
+  if (one) expect_alike(Answer(*one), answer);
 }
 
 /// Every column of nodes in use has one owner, and blocks are as equal as cells allow.

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Active ground: leaves out of the steps what is at rest, and counts what that neglects.
+///
+/// The ground is cut into tiles of some cells along x and y, over the full depth. Particles of a
+/// sleeping tile keep place and stress and lose their velocity. Nodes that they reach are held: the
+/// awake ground ends there as at a rough face. Decisions are made between two intervals of steps,
+/// and weighed over a period of some intervals:
+///
+///   neglected force   sum over the tiles of |mean of the force that holds their nodes|. That force
+///                     is zero while tile and awake ground are in equilibrium: it has the stress
+///                     of both, gravity and what the faces of the grid give
+///   neglected energy  kinetic energy of the tiles that fall asleep, since the start
+///
+/// With the tolerance tau, the mean force F of the contacts, and their work W since the start:
+///   asleep  no body is near; stretching the tile by its mean displacement u in the period takes
+///           m c^2 u/L^2 <= tau F/10 (mass m, wave speed c, edge L); and the kinetic energy of the
+///           tiles that fall asleep at once is at most tau times the mean work in a period, so that
+///           the neglected energy stays below tau W
+///   awake   a body comes near, or the neglected force exceeds tau F: then the tiles with the
+///           largest shares awake
+/// A tile that woke without a body waits for twice as many periods each time.
+///
+/// For a body that is pressed by d into linearly elastic ground at rest, held nodes with forces f_i
+/// change its force P by sum f_i u_i/d (Betti), where u_i is what the nodes would move by if
+/// they were free. As |u_i| <= d, the neglected force bounds the change.
+
+#include <array>
+#include <vector>
+
+#include "core/checkpoint.h"
+#include "mpm/boundary.h"
+#include "mpm/discretisation.h"
+#include "mpm/terrain_energy.h"
+#include "mpm/transfer.h"
+
+namespace furrow {
+
+/// For ground without window and slide surface. Tiles are the same on all ranks.
+class ActiveGround {
+ public:
+  /// What the sleeping ground neglects.
+  struct Neglect {
+    double force = 0.0;          ///< mean over the last period [N]
+    double largest_force = 0.0;  ///< of all periods [N]
+    double energy = 0.0;         ///< since the start [J]
+  };
+
+  /// All parts must outlive this. From then on sorting records the columns of particles.
+  /// @param tolerance  tau > 0; @param gravity  [m/s^2]
+  ActiveGround(double tolerance, const Vector3& gravity, Discretisation& discretisation,
+               Boundary& boundary, const TerrainEnergy& energy);
+
+  const Neglect& neglect() const { return neglect_; }
+  double awake_share() const;  ///< of the particles; collective
+  /// The fastest in sleeping ground of this rank [m/s].
+  double resting_wave_speed() const { return resting_wave_speed_; }
+  bool asleep(double x, double y) const;  ///< whether the ground there is [m]
+
+  /// Keeps the ground in and around a box awake, until the next decision. To be called on all
+  /// ranks. [m]
+  void keep_awake(const Vector3& lower, const Vector3& upper);
+
+  // ---- parts of a step
+  /// The forces of this rank's contacts in a step [N].
+  void count_load(const Vector3& force, double dt) { load_impulse_ += dt * force; }
+  /// After the nodes have mass and velocity: those of the border lose their velocity.
+  void stop_border();
+  /// Counts the forces on the border, which the nodes do not follow.
+  void hold_border(double dt);
+  /// At the end of an interval, before the displacements of the nodes are cleared: how the tiles
+  /// move.
+  void add_motion();
+
+  // ---- between two intervals; collective
+  /// Decides which tiles awake or fall asleep. @return whether any does: particles must be sorted
+  bool decide();
+  /// After particles were sorted.
+  void rebuild();
+
+  void checkpoint(Checkpoint& state);
+  /// After particles and nodes are restored.
+  void resume();
+
+ private:
+  /// What a tile does in an interval; of the nodes of this rank, then of all.
+  struct Motion {
+    double kinetic = 0.0;                    // at the end [J]
+    Vector3 moved = Vector3::Zero();         // sum of mass times displacement [kg m]
+    Vector3 held_impulse = Vector3::Zero();  // of the force that holds its nodes [N s]
+    static constexpr std::size_t numbers = 7;
+  };
+  struct Tile {
+    bool asleep = false;
+    bool near_body = false;
+    int wait = 0;                            // periods until it may fall asleep
+    int last_wait = 0;                       // of the last time that it woke without a body
+    double largest_kinetic = 0.0;            // in this period [J]
+    Vector3 moved = Vector3::Zero();         // as above, in this period
+    Vector3 held_impulse = Vector3::Zero();  // as above, in this period
+  };
+  struct HeldNode {
+    std::array<int, 3> node;
+    std::size_t tile;
+    double resting_mass;                 // of sleeping particles [kg]
+    Vector3 resting_force;               // of their stress [N]
+    Vector3 momentum = Vector3::Zero();  // that awake particles brought to it [N s]
+  };
+
+  int tile_of_cell(int axis, int cell) const;
+  std::size_t tile_of_node(int i, int j) const;
+  CellRange cells_of(int axis, int tile) const;
+  std::size_t number(int a, int b) const { return static_cast<std::size_t>(a * count_[1] + b); }
+  template <class Visit>
+  void for_tiles(Visit&& visit);
+  template <class Visit>
+  void for_particles(const ParticleGroup& group, bool asleep, Visit&& visit) const;
+  template <class Visit>
+  void for_own_columns(Visit&& visit) const;
+  char state_of(int i, int j) const {
+    return node_state_[static_cast<std::size_t>(i * discretisation_.grid.nodes(1) + j)];
+  }
+
+  double force_limit() const;
+  double held_force() const;
+  void sum_over_ranks();
+  bool wake_near_bodies();
+  bool wake_for_force();
+  bool fall_asleep();
+  void wake(Tile& tile, bool for_a_body);
+  void begin_period();
+
+  void find_awake_particles();
+  void bring_to_rest();
+  void find_nodes();
+  std::size_t sleeping_tile_at(int i, int j) const;
+  template <class Pass>
+  std::vector<NodeBlock> find_blocks(Pass pass) const;
+  void find_resting_sums();
+  std::vector<double> count_in_columns(const ParticleGroup& group) const;
+
+  double tolerance_;
+  Vector3 gravity_;  // [m/s^2]
+  Discretisation& discretisation_;
+  Boundary& boundary_;
+  const TerrainEnergy& energy_;
+  std::array<int, 2> count_;  // of tiles along x and y
+  std::vector<Tile> tiles_;
+  std::vector<HeldNode> held_;           // of this rank
+  std::vector<char> node_state_;         // of each column of nodes, y running fastest
+  FaceArray<Vector3> resting_reaction_;  // of the faces on sleeping nodes off the border [N]
+  double resting_wave_speed_ = 0.0;      // [m/s]
+  std::vector<std::vector<double>> saved_counts_;  // of particles in columns, until resume()
+
+  // this rank's, since the last decision
+  std::vector<Motion> motion_;  // of the tiles
+  Vector3 load_impulse_ = Vector3::Zero();
+  double lost_energy_ = 0.0;
+  // of all ranks
+  int steps_ = 0;                              // in this period
+  double elapsed_ = 0.0;                       // in this period [s]
+  double interval_ = 0.0;                      // since the last decision [s]
+  Vector3 contact_impulse_ = Vector3::Zero();  // since the first contact [N s]
+  double contact_time_ = 0.0;                  // [s]
+  double contact_work_ = 0.0;                  // [J]
+  Neglect neglect_;
+};
+
+}  // namespace furrow
