@@ -141,7 +141,7 @@ def field_errors(rows: Sequence[dict[str, Any]], law: str) -> Values:
 
 
 def choice_row(run: Run) -> dict[str, Any]:
-    """A towed wheel on another reading of the laboratory tests."""
+    """A towed wheel or tyre on another reading of the tests."""
     means = steady_columns(Results(run.folder).columns, WINDOW)
     row: dict[str, Any] = {"run": run.name, "what": run.what or "`snow`"}
     return row | {name: means[name] for name in ("sinkage_m", "resistance")}
@@ -294,5 +294,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     output.table("results.csv", rows)
     output.table("traction.csv", traction(rows))
     output.table("choices.csv", [choice_row(run) for run in runs.done("choices", "towed_snow")])
+    field = runs.done("field_choices", "field_20cm_*")
+    output.table("field_choices.csv", [choice_row(run) for run in field])
     draw(laws, runs, output.path("matrix.png"))
     return []
