@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tables of error against cost, from the runs of runs.csv, whose stages are the tables.
 
-A table keeps the comments above its rows. The figure compares models of the ground: models.csv and
-the wheel on sand of the cross-check.
+A table keeps the comments above its rows. The figure and the table of errors compare models of
+the ground. They take models.csv and the wheel on sand of the cross-check.
 """
 
 import math
@@ -11,7 +11,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from furrow_post.analyse import cost, cost_table
-from furrow_post.csv_table import read_rows
+from furrow_post.csv_table import read_rows, write_rows
+from furrow_post.errors import ResultsError
 from furrow_post.figures.cost import Answer, draw_models
 from furrow_post.read.wheel_run import read_wheel_run
 from furrow_post.study.case import Case
@@ -23,6 +24,13 @@ HERE = Path(__file__).resolve().parent
 SCENES = HERE.parent / "scenes"
 SAND = HERE.parent / "crosscheck" / "wheel_on_sand_runs.csv"
 PLANNED = read_rows(HERE / "runs.csv")
+CASES = read_rows(HERE.parent / "crosscheck" / "cases.csv")
+MODELS = "errors_wheel_on_scm.csv"
+MODELS_HEAD = (
+    "# reference: the continuum in cells of 33 mm",
+    "# Rigid wheel on dry sand, 0.74 m x 0.272 m, 3120 N, slip 0, 1 m/s. hub_drop_error: difference from the",
+    "# reference, numerical error and that of the reference (root sum square); cpu_time: s of one core.",
+)
 TABLES = tuple(dict.fromkeys(row["table"] for row in PLANNED))
 
 
@@ -42,7 +50,7 @@ def make_case(row: Mapping[str, str]) -> Case:
 
 
 def hub_drops() -> tuple[list[Answer], tuple[float, float]]:
-    """Of the wheel on sand by every model of the ground [m], and the reference with its error: the
+    """Of the wheel on sand by every model of the ground [m]. The reference with its error is the
     continuum in the finest cells."""
     rows, _ = cost_table.read_table(SAND)
     found = {key.ground: family for key, family in cost_table.families(rows).items()}
@@ -56,6 +64,37 @@ def hub_drops() -> tuple[list[Answer], tuple[float, float]]:
             label = f"{1000 * row.size:.0f}"
             answers.append(Answer(ground, label, row.cpu_time, row.sinkage, error))
     return answers, found["continuum"].reference("sinkage")
+
+
+def options_of(answer: Answer) -> str:
+    """Scene and options of inputs/run that make a run of the cross-check."""
+    size, here = 1e-3 * float(answer.label), "{inputs}/crosscheck"
+    for row in CASES:
+        variables = {name: str(value) for name, value in named_values(row["variables"]).items()}
+        own = row["case"] == "wheel_on_sand" and row["ground"] == answer.model
+        if not own or not row["role"].startswith(("base", "size")):
+            continue
+        if math.isclose(float(variables.get("cell") or variables["diameter"]), size, rel_tol=0.02):
+            given = [word for pair in variables.items() for word in ("-v", *pair)]
+            return shlex.join([f"{here}/{row['script']}.lig", "-v", "here", here, *given])
+    raise ResultsError(f"{HERE}: no run of the cross-check has {answer.model} of {answer.label} mm")
+
+
+def model_errors() -> list[dict[str, str | float]]:
+    """Rows of errors_wheel_on_scm.csv. An error is the root sum square of three parts: the difference
+    from the reference and both numerical errors."""
+    answers, (value, error) = hub_drops()
+    simple = {row["model"]: row["options"] for row in read_rows(HERE / "models.csv")}
+    return [
+        {
+            "run": f"{a.label} mm" if a.label else "card of the sand",
+            "ground": a.model,
+            "hub_drop_error": round(math.hypot(a.value - value, error, 0.0 if math.isnan(a.error) else a.error) / value, 3),
+            "cpu_time": a.cpu_time,
+            "options": simple.get(a.model) or options_of(a),
+        }
+        for a in answers
+    ]
 
 
 def cases() -> list[Case]:
@@ -77,5 +116,6 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
         cost_table.write_table(output.path(f"{table}.csv"), rows, comments)
         assessed = cost.assess(rows, cost_table.wanted_wheel(comments))
         print(f"{table}\n{cost.cost_report(assessed, 0.1)}\n")
+    write_rows(output.path(MODELS), model_errors(), MODELS_HEAD)
     draw_models(*hub_drops(), "hub drop", output.path("models.png"))
     return []

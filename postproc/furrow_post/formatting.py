@@ -25,9 +25,11 @@ def value_text(value: float, error: float) -> str:
 
 
 def duration(seconds: float) -> str:
-    """ "90 s", "12.5 min", "2.1 h"; empty where it is not known."""
+    """ "0.4 s", "90 s", "12.5 min", "2.1 h"; empty where it is not known."""
     if not math.isfinite(seconds):
         return ""
+    if seconds < 1:
+        return f"{seconds:.1g} s"
     if seconds < 120:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.1f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"

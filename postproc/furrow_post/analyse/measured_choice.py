@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What to model for a wanted error against a measurement, from a table whose runs were compared
-with one.
+"""What to model for a wanted error against a measurement or another reference, from a table whose
+runs were compared with it.
 
-A comment "# measured: WHAT" names the measurement. Columns are run, wheel, cpu_time, options and
-one or more NAME_error: largest relative error of that quantity, without sign.
+A comment "# measured: WHAT" or "# reference: WHAT" names it. Columns are run, wheel or ground, cpu_time,
+options and one or more NAME_error: largest relative error of that quantity, without sign.
 """
 
 import math
@@ -21,13 +21,13 @@ SUFFIX = "_error"
 
 @dataclass(frozen=True)
 class Compared:
-    """A run whose errors against the measurement are known."""
+    """A run whose errors against the reference are known."""
 
     run: str
-    wheel: str
+    kind: str  # of the wheel or of the ground
     errors: dict[str, float]  # relative, by quantity
     cpu_time: float  # [s] of one core
-    options: str  # scene and options of inputs/run
+    options: str  # scene and options of inputs/run, or a command of furrow-post; {inputs}: the folder
 
     @property
     def error(self) -> float:
@@ -35,18 +35,19 @@ class Compared:
 
     def describe(self) -> str:
         errors = ", ".join(f"{what} {100 * error:.1f} %" for what, error in self.errors.items())
-        return f"{self.wheel} ({self.run}): {errors}; {duration(self.cpu_time)} of one core"
+        return f"{self.kind} ({self.run}): {errors}; {duration(self.cpu_time)} of one core"
 
 
 def measurement(comments: Iterable[str]) -> str:
     """What the table was compared with; empty where it holds numerical errors."""
-    found = [line.partition(":")[2].strip() for line in comments if line.startswith("# measured:")]
+    heads = ("# measured:", "# reference:")
+    found = [line.partition(":")[2].strip() for line in comments if line.startswith(heads)]
     return found[0] if found else ""
 
 
 def read_compared(path: Path) -> list[Compared]:
     """Rows of such a table. @raises ResultsError"""
-    columns = f"columns are run, wheel, NAME{SUFFIX}, cpu_time, options"
+    columns = f"columns are run, wheel or ground, NAME{SUFFIX}, cpu_time, options"
     with content_of(path, columns):
         found = [_parsed(row) for row in read_rows(path)]
     if not found:
@@ -68,7 +69,8 @@ def _parsed(row: dict[str, str]) -> Compared:
     cpu_time = float(row["cpu_time"])
     if not 0 < cpu_time < math.inf:
         raise ValueError(f"run '{row['run']}' needs a cpu_time above 0")
-    return Compared(row["run"], row["wheel"], errors, cpu_time, row["options"])
+    kind = row["ground"] if "ground" in row else row["wheel"]
+    return Compared(row["run"], kind, errors, cpu_time, row["options"])
 
 
 def recommend(runs: Sequence[Compared], error: float) -> Compared:
@@ -78,7 +80,7 @@ def recommend(runs: Sequence[Compared], error: float) -> Compared:
 
 
 def reasons(runs: Sequence[Compared], error: float, measured: str) -> list[str]:
-    """Sentences: the choice, and why no other kind of wheel."""
+    """Sentences: the choice, and why no other kind of wheel or ground."""
     chosen = recommend(runs, error)
     reached = chosen.error <= error
     lines = [
@@ -87,8 +89,8 @@ def reasons(runs: Sequence[Compared], error: float, measured: str) -> list[str]:
         else f"No run of the table reaches {100 * error:g} % against {measured}; "
         f"the best is {chosen.describe()}."
     ]
-    for wheel in sorted({run.wheel for run in runs} - {chosen.wheel}):
-        other = recommend([run for run in runs if run.wheel == wheel], error)
+    for kind in sorted({run.kind for run in runs} - {chosen.kind}):
+        other = recommend([run for run in runs if run.kind == kind], error)
         why = "dearer" if other.error <= error else "at best"
-        lines.append(f"  not {wheel}, {why}: {other.describe()}")
+        lines.append(f"  not {kind}, {why}: {other.describe()}")
     return lines

@@ -27,8 +27,9 @@ def table_of(scene: str) -> Path:
     name = f"{Path(scene).stem}.csv"
     found = []
     if inputs:
-        # errors against measurements count where no numerical ones are known
-        found = [inputs / "costs" / name, *sorted(inputs.glob(f"validation/*/errors_{name}"))]
+        # errors against a reference count where no numerical ones are known
+        found = [inputs / "costs" / name, inputs / "costs" / f"errors_{name}"]
+        found += sorted(inputs.glob(f"validation/*/errors_{name}"))
     for path in found:
         if path.is_file():
             return path
@@ -51,7 +52,8 @@ def choose(table: Path, error: float) -> Chosen:
     if measured:
         compared = measured_choice.read_compared(table)
         options = measured_choice.recommend(compared, error).options
-        return Chosen([shlex.split(options)], measured_choice.reasons(compared, error, measured))
+        words = [word.replace("{inputs}", str(inputs_folder())) for word in shlex.split(options)]
+        return Chosen([words], measured_choice.reasons(compared, error, measured))
     assessed = _assessed(table)
     run, within, pair = choice.choose(assessed, error)
     if pair:
@@ -78,7 +80,7 @@ def outcome(table: Path, error: float, folders: Sequence[Path]) -> list[str]:
     if measured:
         run = measured_choice.recommend(measured_choice.read_compared(table), error)
         return [
-            f"Estimate: {run.describe()}. Errors and time are of the states that were measured "
+            f"Estimate: {run.describe()}. Errors and time are of the states that were compared "
             f"({measured}); this run is another one and is not judged."
         ]
     chosen, _, pair = choice.choose(_assessed(table), error)

@@ -3,6 +3,8 @@
 
 import argparse
 import importlib
+import shlex
+import subprocess
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -22,6 +24,8 @@ from .process import CHECKPOINT, Failed, Runs, Stopped, require_executable
 from .restart import Former, continuation, read_former
 from .two_grounds import run_two_grounds
 from .verdict import summary_text
+
+POST = "furrow-post"  # the first word of a formula's options in a table of errors
 
 
 @dataclass
@@ -80,7 +84,11 @@ def checked(options: argparse.Namespace) -> Request:
     if options.error:
         request.table = table_of(scene)
         request.chosen = choose(request.table, options.error)
-        request.script = script_of(request.chosen.runs[0][0])
+        scene = request.chosen.runs[0][0]
+        if scene == POST:
+            _refuse_with_formula(options)
+            return request
+        request.script = script_of(scene)
     if options.sweep:
         request.plan = _sweeps().planned(options, request.script, request.preset)
     else:
@@ -116,6 +124,8 @@ def _run(request: Request) -> int:
         return 0
     if request.plan:
         return int(_sweeps().make_sweep(options, script, request.plan, folder))
+    if request.chosen and request.chosen.runs[0][0] == POST:
+        return _run_formula(request.chosen)
     print("\n".join(head_lines(script)), flush=True)
     if request.chosen and request.table:
         return _run_chosen(request, request.chosen, request.table)
@@ -154,6 +164,24 @@ def _run_chosen(request: Request, chosen: Chosen, table: Path) -> int:
             _run_and_show(_scene_run(request, script_of(words[0]), folder, words[0], variables), runs, request.options)
     print("\n".join(outcome(table, request.options.error, folders)))
     return 0
+
+
+def _refuse_with_formula(options: argparse.Namespace) -> None:
+    """@raises ResultsError"""
+    if options.given:
+        names = ", ".join(f"-v {name}" for name, _ in options.given)
+        raise ResultsError(
+            f"for an error of {100 * options.error:g} % the table takes a formula, which has no {names}; "
+            "leave it out, ask for a smaller error, or start 'furrow-post empirical'"
+        )
+
+
+def _run_formula(chosen: Chosen) -> int:
+    """A command of furrow-post; its status."""
+    print("\n".join(chosen.reasons), file=sys.stderr)
+    words = chosen.runs[0]
+    print(shlex.join(words), flush=True)
+    return subprocess.run([find_program(POST), *words[1:]], check=False).returncode
 
 
 def _run_and_show(run: SceneRun, runs: Runs, options: argparse.Namespace) -> None:

@@ -57,11 +57,16 @@ class MeasuredChoiceTest(unittest.TestCase):
 
     def test_the_comment_names_the_measurement(self) -> None:
         self.assertEqual(measured_choice.measurement(["# x", "# measured: Table 6"]), "Table 6")
+        self.assertEqual(measured_choice.measurement(["# reference: fine cells"]), "fine cells")
         self.assertEqual(measured_choice.measurement(["# wheel: tyre"]), "")
+
+    def test_kinds_of_ground_stand_where_kinds_of_wheel_do(self) -> None:
+        runs = read(TABLE.replace("run,wheel", "run,ground"))
+        self.assertEqual([run.kind for run in runs], ["simple", "simple", "rich", "rich"])
 
     def test_bad_tables_are_refused(self) -> None:
         for text, expected in (
-            (HEAD, "has no rows; columns are run, wheel, NAME_error"),
+            (HEAD, "has no rows; columns are run, wheel or ground, NAME_error"),
             (HEAD + "a,w,0.1,-0.1,1,x\n", "run 'a' needs errors of 0 or more"),
             (HEAD + "a,w,0.1,nan,1,x\n", "run 'a' needs errors of 0 or more"),
             (HEAD + "a,w,0.1,,1,x\n", "could not convert"),

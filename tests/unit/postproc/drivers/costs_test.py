@@ -3,8 +3,15 @@
 
 import shlex
 import unittest
+from pathlib import Path
 
 from furrow_post.analyse import cost_table
+from furrow_post.csv_table import rows_text
+from furrow_post.errors import ResultsError
+from furrow_post.scene.catalogue import script_of
+from furrow_post.scene.choice import choose
+from furrow_post.scene.command import POST, checked
+from furrow_post.scene.options import parse
 from furrow_post.study.definition import evaluation_of
 from support.command import SOURCE
 
@@ -14,7 +21,7 @@ driver = evaluation_of(FOLDER)
 
 class CostsTest(unittest.TestCase):
     def test_every_table_is_of_the_listed_runs(self) -> None:
-        tables = {path.stem for path in FOLDER.glob("*.csv")} - {"runs", "models", "provenance"}
+        tables = {path.stem for path in FOLDER.glob("*.csv")} - {"runs", "models", "provenance", Path(driver.MODELS).stem}
         self.assertEqual(tables, set(driver.TABLES))
         for table in driver.TABLES:
             with self.subTest(table=table):
@@ -31,6 +38,23 @@ class CostsTest(unittest.TestCase):
                 with self.subTest(table=table, family=key):
                     parts = family.components("sinkage", family.bases[-1].size, 0.0)
                     self.assertEqual(parts.unknown, [])
+
+    def test_a_formula_height_field_or_ground_is_chosen_by_its_error(self) -> None:
+        table = FOLDER / driver.MODELS
+        self.assertEqual(table.read_text(encoding="utf-8"), rows_text(driver.model_errors(), driver.MODELS_HEAD))
+        for error, first in ((0.5, POST), (0.3, "wheel_continuum"), (0.01, "wheel_continuum")):
+            with self.subTest(error=error):
+                words = choose(table, error).runs[0]
+                self.assertEqual(Path(words[0]).stem, first)
+        for row in driver.model_errors():
+            with self.subTest(run=row["run"], ground=row["ground"]):
+                scene = shlex.split(str(row["options"]))[0].replace("{inputs}", str(FOLDER.parent))
+                self.assertTrue(scene == POST or script_of(scene).is_file())
+
+    def test_a_formula_refuses_variables_of_a_scene(self) -> None:
+        self.assertIsNotNone(checked(parse(["wheel_on_scm", "--error", "50%"])).chosen)
+        with self.assertRaisesRegex(ResultsError, "has no -v load; leave it out"):
+            checked(parse(["wheel_on_scm", "--error", "50%", "-v", "load", "500"]))
 
     def test_models_are_compared_with_the_finest_continuum(self) -> None:
         answers, (value, error) = driver.hub_drops()
