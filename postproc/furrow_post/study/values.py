@@ -54,10 +54,11 @@ def verdict_of(value: float, error: float, reference: float, reference_error: fl
 def limit_verdict(value: float, error: float, reference: float, upper: bool) -> str:
     """Of a value that should not be above (upper) or below its reference.
 
-    A limit that is met says nothing where the error allows more than 25 % of it.
+    A limit that is met says nothing where the error allows more than 25 % of the larger of both.
     """
     inside = reference - value if upper else value - reference
-    vague = reference != 0.0 and COVERAGE * error > NEAR * abs(reference)
+    scale = max(abs(value), abs(reference))
+    vague = reference != 0.0 and COVERAGE * error > NEAR * scale
     if abs(inside) < COVERAGE * error or (inside >= 0.0 and vague):
         return INCONCLUSIVE
     return MET if inside >= 0.0 else MISSED

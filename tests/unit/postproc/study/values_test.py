@@ -53,6 +53,8 @@ class VerdictTest(unittest.TestCase):
             ("inconclusive", 10.5, 0.4, True),
             ("inconclusive", -0.2, 5.0, True),  # an error that allows the whole limit
             ("missed", 25.0, 5.0, True),
+            ("met", 200.0, 9.0, False),  # an error as large as the limit, 21 of them from it
+            ("inconclusive", 14.0, 1.9, False),
         ):
             with self.subTest(value=value, upper=upper):
                 self.assertEqual(limit_verdict(value, error, 10.0, upper), expected)
