@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import yaml
 
 from ..arrays import Floats
 from ..csv_table import read_rows
-from ..errors import ResultsError, content_of
+from ..errors import ResultsError
+from ..read.soil_card import read_card
 
 
 @dataclass(frozen=True)
@@ -60,29 +60,21 @@ LOOSE_SAND = "Wong-Reece loose sand"
 
 def terrain_of_card(path: Path) -> TerrainValues:
     """Of a soil card. No plate gives c1 and c2: those of loose sand. @raises OSError, ResultsError"""
-    sand = terrains()[LOOSE_SAND]
-    with content_of(path, "name a soil card of furrow-soil card"):
-        try:
-            content = yaml.safe_load(path.read_text(encoding="utf-8"))
-        except yaml.YAMLError as error:
-            raise ValueError("is no YAML") from error
-        plate, shear = content["pressure_sinkage"], content["shear"]
-        for part, instrument in ((plate, "plates"), (shear, "ring")):
-            if "failed" in part:
-                raise ResultsError(f"{path}: the {instrument} failed: {part['failed']}")
-        return TerrainValues(
-            str(content["title"]),
-            "card",
-            "bekker",
-            float(plate["k_c"]["value"]),
-            float(plate["k_phi"]["value"]),
-            float(plate["n"]["value"]),
-            float(shear["c"]["value"]),
-            float(shear["phi"]["value"]),
-            float(shear["K"]["value"]),
-            sand.c1,
-            sand.c2,
-        )
+    card, sand = read_card(path), terrains()[LOOSE_SAND]
+    plate, shear = card.bekker_and_shear()
+    return TerrainValues(
+        card.title,
+        "card",
+        "bekker",
+        plate.k_c.value,
+        plate.k_phi.value,
+        plate.n.value,
+        shear.c.value,
+        shear.phi.value,
+        shear.K.value,
+        sand.c1,
+        sand.c2,
+    )
 
 
 def terrain(name: str) -> TerrainValues:

@@ -12,7 +12,7 @@ from ..arguments import number, path, positive, shield_negative_numbers, words
 from ..errors import ResultsError
 from ..program import run_program
 from ..scene.process import Runs
-from ..soil.card import markdown, read_card
+from ..read.soil_card import markdown, read_card
 from ..soil.exports import EXPORTS
 from ..soil.instruments import Bench
 from ..soil.make import CLASSES, compression, from_bekker, from_cone, from_strength, read_oedometer

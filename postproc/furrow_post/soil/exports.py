@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..analyse.terrain_values import LOOSE_SAND, terrain
-from .card import UNITS, SoilCard
+from ..read.soil_card import UNITS, SoilCard
 
 # Of Chrono's sample files [Pa s/m]: a card has no damping
 CHRONO_DAMPING = 3e4

@@ -16,6 +16,7 @@ from scipy.optimize import least_squares
 from ..analyse.statistics import line_fit
 from ..arrays import Floats
 from ..errors import ResultsError
+from ..read.soil_card import Cone, Fitted, PressureSinkage, Range, Shear
 
 FIRST = 0.05  # of the greatest sinkage: where a fit begins, behind first touch
 LARGEST_CONDITION = 1e14  # of the normal equations
@@ -25,22 +26,6 @@ LARGEST_SINKING = 0.4  # of the shear displacement: the correction was checked u
 LARGEST_SPEED_STRESS = 0.5  # of the shear stress under the first load
 LARGEST_RESIDUAL = 0.1  # rms over the largest value of a curve
 INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
-
-
-@dataclass(frozen=True)
-class Fitted:
-    """A parameter with its standard error."""
-
-    value: float
-    error: float
-
-
-@dataclass(frozen=True)
-class Range:
-    """Where the tests were made."""
-
-    low: float
-    high: float
 
 
 @dataclass(frozen=True)
@@ -95,51 +80,6 @@ class ConeCurve:
 
     depth: Floats
     pressure: Floats
-
-
-@dataclass(frozen=True)
-class PressureSinkage:
-    """p = (k_c/b + k_phi) z^n of M. G. Bekker (1969); b is the radius of a round plate."""
-
-    k_c: Fitted  # [N/m^(n+1)]
-    k_phi: Fitted  # [N/m^(n+2)]
-    n: Fitted
-    sinkage: Range  # [m]
-    pressure: Range  # [Pa]
-    radii: Range  # [m]
-    residual: float  # rms, over the greatest pressure of each plate
-
-    def at(self, sinkage: Floats, radius: float) -> Floats:
-        modulus = self.k_c.value / radius + self.k_phi.value
-        pressure: Floats = modulus * np.asarray(sinkage) ** self.n.value
-        return pressure
-
-
-@dataclass(frozen=True)
-class Shear:
-    """tau = (c + sigma tan phi)(1 - exp(-j/K)) of Z. Janosi and B. Hanamoto (1961)."""
-
-    c: Fitted  # [Pa]
-    phi: Fitted  # [degrees]
-    K: Fitted  # [m]
-    speed_stress: Fitted  # [Pa] of the grid at the speed of the ring; it is subtracted
-    normal: Range  # [Pa]
-    displacement: Range  # [m]
-    residual: float  # rms, over the greatest shear stress
-
-    def at(self, displacement: Floats, normal: Floats) -> Floats:
-        strength = self.c.value + normal * math.tan(math.radians(self.phi.value))
-        stress: Floats = strength * (1 - np.exp(-displacement / self.K.value))
-        return stress
-
-
-@dataclass(frozen=True)
-class Cone:
-    """Cone index: mean pressure on the base of a cone."""
-
-    index: Fitted  # [Pa] mean over `depth`
-    gradient: Fitted  # [Pa/m] of the pressure over depth
-    depth: Range  # [m]
 
 
 def fit_plates(curves: Sequence[PlateCurve]) -> PressureSinkage:

@@ -9,8 +9,8 @@ import numpy as np
 
 from ..figures.page import document, html_table, inline_picture, paragraph
 from ..figures.style import KILOPASCAL, MILLIMETRE, RUN_COLOURS, annotate_panel, save, use_style
-from .card import UNITS, SoilCard
-from .fits import INDEX_DEPTH, Cone, ConeCurve, PlateCurve, PressureSinkage, Shear, ShearCurve
+from ..read.soil_card import UNITS, Cone, PressureSinkage, Shear, SoilCard
+from .fits import INDEX_DEPTH, ConeCurve, PlateCurve, ShearCurve
 
 FITTED = {"color": "0.25", "lw": 1.0, "ls": "--"}
 

@@ -11,9 +11,9 @@ import numpy as np
 from ..analyse.statistics import rms
 from ..errors import ResultsError
 from ..scene.process import Runs
-from .card import NoResult, SoilCard, write_card
+from ..read.soil_card import NoResult, Shear, SoilCard, write_card
 from .exports import EXPORTS
-from .fits import Shear, cone_index, fit_plates, fit_shear
+from .fits import cone_index, fit_plates, fit_shear
 from .instruments import FAST_RING_PACE, Bench, carried_pressure, cone_test, plate_test, ring_test
 from .page import draw_card, write_page
 from .units import PLAUSIBLE

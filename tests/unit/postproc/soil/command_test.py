@@ -7,7 +7,7 @@ import subprocess
 import unittest
 from unittest import mock
 
-from furrow_post.soil.card import read_card
+from furrow_post.read.soil_card import read_card
 from support.command import SOURCE, run_soil
 from support.folder import FolderTest
 

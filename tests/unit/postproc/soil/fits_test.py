@@ -8,11 +8,10 @@ import numpy as np
 
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError
+from furrow_post.read.soil_card import PressureSinkage, Shear
 from furrow_post.soil.fits import (
     ConeCurve,
     PlateCurve,
-    PressureSinkage,
-    Shear,
     ShearCurve,
     cone_index,
     fit_plates,

@@ -8,7 +8,7 @@ from dataclasses import replace
 from furrow_post.analyse import empirical
 from furrow_post.analyse.terrain_values import terrain
 from furrow_post.csv_table import read_rows
-from furrow_post.soil.card import NoResult, markdown, read_card
+from furrow_post.read.soil_card import NoResult, markdown, read_card
 from furrow_post.soil.material import read_material
 from support.command import SOURCE
 

@@ -7,10 +7,11 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import yaml
 
+from ..arrays import Floats
 from ..errors import ResultsError, content_of
-from .fits import Cone, Fitted, PressureSinkage, Range, Shear
 
 UNITS = {  # of the parameters; lists of two numbers have the unit of the last column of the page
     "k_c": "N/m^(n+1)",
@@ -24,6 +25,69 @@ UNITS = {  # of the parameters; lists of two numbers have the unit of the last c
     "gradient": "Pa/m",
 }
 REMEDY = "write it with furrow-soil card"
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A parameter with its standard error."""
+
+    value: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Range:
+    """Where the tests were made."""
+
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class PressureSinkage:
+    """p = (k_c/b + k_phi) z^n of M. G. Bekker (1969); b is the radius of a round plate."""
+
+    k_c: Fitted  # [N/m^(n+1)]
+    k_phi: Fitted  # [N/m^(n+2)]
+    n: Fitted
+    sinkage: Range  # [m]
+    pressure: Range  # [Pa]
+    radii: Range  # [m]
+    residual: float  # rms, over the greatest pressure of each plate
+
+    def at(self, sinkage: Floats, radius: float) -> Floats:
+        modulus = self.k_c.value / radius + self.k_phi.value
+        pressure: Floats = modulus * np.asarray(sinkage) ** self.n.value
+        return pressure
+
+
+@dataclass(frozen=True)
+class Shear:
+    """tau = (c + sigma tan phi)(1 - exp(-j/K)) of Z. Janosi and B. Hanamoto (1961)."""
+
+    c: Fitted  # [Pa]
+    phi: Fitted  # [degrees]
+    K: Fitted  # [m]
+    speed_stress: Fitted  # [Pa] of the grid at the speed of the ring; it is subtracted
+    normal: Range  # [Pa]
+    displacement: Range  # [m]
+    residual: float  # rms, over the greatest shear stress
+
+    def at(self, displacement: Floats, normal: Floats) -> Floats:
+        strength = self.c.value + normal * math.tan(math.radians(self.phi.value))
+        stress: Floats = strength * (1 - np.exp(-displacement / self.K.value))
+        return stress
+
+
+@dataclass(frozen=True)
+class Cone:
+    """Cone index: mean pressure on the base of a cone."""
+
+    index: Fitted  # [Pa] mean over `depth`
+    gradient: Fitted  # [Pa/m] of the pressure over depth
+    depth: Range  # [m]
+
+
 SECTIONS: dict[str, tuple[type, str]] = {
     "pressure_sinkage": (PressureSinkage, "plates"),
     "shear": (Shear, "ring"),
