@@ -68,7 +68,7 @@ class Shear:
     c: Fitted  # [Pa]
     phi: Fitted  # [degrees]
     K: Fitted  # [m]
-    speed_stress: Fitted  # [Pa] of the grid at the speed of the ring; it is subtracted
+    speed_stress: Fitted  # [Pa] of the grid at the speed of the ring; a part of the fit
     normal: Range  # [Pa]
     displacement: Range  # [m]
     residual: float  # rms, over the greatest shear stress
@@ -142,15 +142,8 @@ class SoilCard:
         return found
 
     def texts(self) -> dict[str, str]:
-        """Name -> value and error for a person. The bias of c has one side: the stress by the speed of the
-        ring is subtracted by a law that leaves up to as much again."""
-        found = self.parameters()
-        texts = {name: shown(fitted) for name, fitted in found.items()}
-        if "c" in found and found["speed_stress"].value > 0:
-            value, _, above = texts["c"].partition(" ± ")
-            below = Fitted(found["c"].value, found["c"].error + found["speed_stress"].value)
-            texts["c"] = f"{value} +{above} -{shown(below).rpartition(' ')[2]}"
-        return texts
+        """Name -> value and error for a person."""
+        return {name: shown(fitted) for name, fitted in self.parameters().items()}
 
     def ranges(self) -> list[tuple[str, Range, str]]:
         """Meaning, range, unit."""

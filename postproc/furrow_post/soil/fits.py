@@ -7,7 +7,7 @@ in as many as the residuals are correlated over.
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -52,26 +52,22 @@ class ShearCurve:
     speed: float = 0.0
     load: float = 0.0  # [Pa] that the drive should hold; 0: not known
     sinking: float = 0.0  # sinkage over shear displacement in its second half
+    widening: float = 1.0  # of the sheared area, as cells next to the ring shear too: a factor of the cohesion
 
     def late(self) -> npt.NDArray[np.bool_]:
         """Points in the second half of the displacement, where the strength is mobilised."""
         late: npt.NDArray[np.bool_] = self.displacement > 0.5 * self.displacement.max()
         return late
 
-    def sheared(self) -> "ShearCurve":
-        use = self.late()
-        late = (self.displacement[use], self.normal[use], self.shear[use])
-        return ShearCurve(*late, self.speed, self.load, self.sinking)
-
-    def level(self, sine: float) -> "ShearCurve":
-        """The shear stress of a ring that does not sink. A ground of friction angle phi' that flows down by
+    def share(self, sine: float) -> float:
+        """Of the strength, what a ring measures that sinks. A ground of friction angle phi' that flows down by
         tan(psi) of its shear carries sigma sin(phi') cos(psi)/(1 + sin(phi') sin(psi)) in plane strain, E. H.
         Davis (1968), and sigma sin(phi') where psi is 0. The law of friction holds for cohesion too.
 
         @param sine  sin(phi')
         """
         psi = math.atan(self.sinking)
-        return replace(self, shear=self.shear * (1 + sine * math.sin(psi)) / math.cos(psi))
+        return math.cos(psi) / (1 + sine * math.sin(psi))
 
 
 @dataclass(frozen=True)
@@ -124,60 +120,17 @@ def fit_plates(curves: Sequence[PlateCurve]) -> PressureSinkage:
     )
 
 
-def speed_stress(slow: ShearCurve, fast: ShearCurve, slope: float) -> Fitted:
-    """Shear stress [Pa] that the grid adds to that of a law without viscosity, at the slow speed.
+def fit_shear(curves: Sequence[ShearCurve], fast: ShearCurve | None = None) -> Shear:
+    """All loads at once, with the normal stress that each point has and the sinking of each ring.
 
-    Transfers between particles and grid diffuse momentum with a diffusivity D. Below a ring the
-    ground then yields down to a depth where this stress is used up by the weight above, so that
-    v = stress^2/(2 rho D gamma sin(phi)), as for a Bingham fluid: it grows with the root of the
+    Transfers between particles and grid diffuse momentum with a diffusivity D. Below a ring the ground
+    then yields down to a depth where this stress is used up by the weight above, so that
+    v = stress^2/(2 rho D gamma sin(phi)), as for a Bingham fluid: the stress grows with the root of the
     speed, and the load does not matter. Two speeds under one load give it.
 
-    @param slope  of shear over normal stress, as the two runs do not carry quite the same load
-    """
-    late = slow.sheared()
-    stresses = [
-        np.interp(late.displacement, curve.displacement, curve.shear - slope * curve.normal)
-        for curve in (slow, fast)
-    ]
-    added = (stresses[1] - stresses[0]) / (math.sqrt(fast.speed / slow.speed) - 1)
-    scatter = added - added.mean()
-    points = added.size / _correlation(scatter)
-    return Fitted(float(added.mean()), float(np.sqrt(np.mean(scatter**2) / points)))
-
-
-def fit_shear(curves: Sequence[ShearCurve], fast: ShearCurve | None = None) -> Shear:
-    """All loads at once, with the normal stress that each point has, corrected for the sinking.
-
-    @param fast  a faster run under the load of the first curve: the speed stress is subtracted
+    @param fast  a faster run under the load of the first curve: the speed stress is a part of the fit
     @raises ResultsError for fewer than two loads or no shear stress
     """
-    found = _fit_without_speed(curves, fast)
-    for _ in range(20):  # the correction needs the friction; it changes by less than a third of that
-        sine = math.tan(math.radians(found.phi.value))
-        found = _fit_without_speed([curve.level(sine) for curve in curves], fast and fast.level(sine))
-        if abs(math.tan(math.radians(found.phi.value)) - sine) < 1e-6:
-            break
-    return found
-
-
-def _fit_without_speed(curves: Sequence[ShearCurve], fast: ShearCurve | None) -> Shear:
-    raw = _fit_shear(curves)
-    if fast is None:
-        return raw
-    stress = speed_stress(curves[0], fast, math.tan(math.radians(raw.phi.value)))
-    _require(
-        stress.value < LARGEST_SPEED_STRESS * float(curves[0].sheared().shear.mean()),
-        f"a speed stress below {LARGEST_SPEED_STRESS:g} of the shear stress",
-    )
-    # in proportion to the mobilised strength
-    shares = [1 - stress.value / float(curve.sheared().shear.mean()) for curve in curves]
-    slow = [replace(curve, shear=share * curve.shear) for curve, share in zip(curves, shares)]
-    fitted = _fit_shear(slow)
-    error = math.hypot(fitted.c.error, stress.error)
-    return replace(fitted, c=Fitted(fitted.c.value, error), speed_stress=stress)
-
-
-def _fit_shear(curves: Sequence[ShearCurve]) -> Shear:
     means = [float(np.mean(curve.normal)) for curve in curves]
     for curve, mean in zip(curves, means):
         held = not curve.load or curve.load / LARGEST_OFF_LOAD < mean < curve.load * LARGEST_OFF_LOAD
@@ -192,25 +145,35 @@ def _fit_shear(curves: Sequence[ShearCurve]) -> Shear:
     top = max(float(curve.shear.max()) for curve in curves)
     _require(top > 0, "a shear stress above 0")
     longest = max(float(curve.displacement.max()) for curve in curves)
+    slow = curves[0]
+    every = [*curves, fast] if fast else curves
 
     def residuals(x: Floats) -> list[Floats]:
-        """x: c/top, tan phi, K/longest."""
-        return [
-            (x[0] + curve.normal / top * x[1]) * (1 - np.exp(-curve.displacement / (longest * x[2])))
-            - curve.shear / top
-            for curve in curves
-        ]
+        """x: c/top, tan phi, K/longest, and with two speeds the speed stress of the slow one over top."""
+        parts = []
+        for curve in every:
+            strength = (x[0] * curve.widening + curve.normal / top * x[1]) * curve.share(x[1])
+            if fast:
+                strength = strength + x[3] * math.sqrt(curve.speed / slow.speed)
+            parts.append(strength * (1 - np.exp(-curve.displacement / (longest * x[2]))) - curve.shear / top)
+        return parts
 
-    x, covariance, rms = _fit(residuals, (0.1, 0.5, 0.05), ((0.0, 0.0, 1e-5), (2.0, 3.0, 10.0)))
+    count = 4 if fast else 3
+    start, low, high = (0.1, 0.5, 0.05, 0.1), (0.0, 0.0, 1e-5, 0.0), (2.0, 3.0, 10.0, 2.0)
+    x, covariance, rms = _fit(residuals, start[:count], (low[:count], high[:count]))
     _require(rms < LARGEST_RESIDUAL, f"curves within {LARGEST_RESIDUAL:.0%} of Janosi's law")
-    errors = np.sqrt(np.diag(covariance))
+    scales = np.array((top, math.degrees(1 / (1 + x[1] ** 2)), longest, top))[:count]
+    errors = scales * np.sqrt(np.diag(covariance))
+    speed_stress = Fitted(float(x[3] * top), float(errors[3])) if fast else Fitted(0.0, 0.0)
+    _require(
+        speed_stress.value < LARGEST_SPEED_STRESS * float(slow.shear[slow.late()].mean()),
+        f"a speed stress below {LARGEST_SPEED_STRESS:g} of the shear stress",
+    )
     return Shear(
-        Fitted(float(x[0] * top), float(errors[0] * top)),
-        Fitted(
-            math.degrees(math.atan(x[1])), float(math.degrees(errors[1] / (1 + x[1] ** 2)))
-        ),
-        Fitted(float(x[2] * longest), float(errors[2] * longest)),
-        Fitted(0.0, 0.0),
+        Fitted(float(x[0] * top), float(errors[0])),
+        Fitted(math.degrees(math.atan(x[1])), float(errors[1])),
+        Fitted(float(x[2] * longest), float(errors[2])),
+        speed_stress,
         Range(min(means), max(means)),
         Range(0.0, longest),
         rms,

@@ -19,7 +19,7 @@ from .material import Material, content_with_bases, read_material
 
 # Of the wave speed: slow enough that a faster test gives the same curve within its noise
 PLATE_PACE, PRESS_PACE, CONE_PACE = 1 / 300, 1 / 400, 1 / 60
-# Two speeds of the ring: the grid adds a shear stress that grows with the speed (speed_stress in fits.py)
+# Two speeds of the ring: the grid adds a shear stress that grows with the speed (fit_shear in fits.py)
 RING_PACE, FAST_RING_PACE = 1 / 1600, 1 / 400
 FASTEST = 1.0  # [m/s] 100 Pa of dynamic pressure on snow, 800 Pa on sand
 RING = (0.2, 0.12)  # [m] outer and inner diameter
@@ -107,9 +107,12 @@ def ring_test(
     name = f"ring_{1e-3 * pressure:.3g}kPa{'' if pace == RING_PACE else '_fast'}"
     rows = _rows(bench.run("shear", name, variables, runs))
     turning = rows[rows[:, 5] > 0]
-    # tau = T / (2 pi integral r^2 dr), which is uniform stress
-    tau = -turning[:, 4] / (2 / 3 * math.pi * (outer**3 - inner**3))
-    curve = ShearCurve(turning[:, 5] * middle, turning[:, 3], tau, speed, pressure)
+    # tau = T / (2 pi integral r^2 dr), which is uniform stress; half a cell on each side shears too
+    cubes = outer**3 - inner**3
+    half = 0.5 * (outer - inner) / cells
+    widening = ((outer + half) ** 3 - (inner - half) ** 3) / cubes
+    tau = -turning[:, 4] / (2 / 3 * math.pi * cubes)
+    curve = ShearCurve(turning[:, 5] * middle, turning[:, 3], tau, speed, pressure, widening=widening)
     late = curve.late()
     return replace(curve, sinking=line_fit(curve.displacement[late], turning[late, 1])[0])
 
@@ -136,5 +139,6 @@ def _rows(folder: Path) -> Floats:
 
 
 def carried_pressure(plates: Sequence[PlateCurve]) -> float:
-    """Greatest pressure of the smallest plate [Pa]: a ring as wide sinks little under a small share."""
-    return float(min(plates, key=lambda curve: curve.radius).pressure.max())
+    """Greatest pressure of the smallest plate behind first touch [Pa]: a ring as wide sinks little under a
+    small share."""
+    return float(min(plates, key=lambda curve: curve.radius).used().pressure.max())

@@ -69,9 +69,9 @@ class SoilCardTest(FolderTest):
         self.assertEqual(read_card(self.path), CARD)
         self.assertEqual(set(CARD.parameters()), set(UNITS))
 
-    def test_the_bias_of_the_cohesion_has_one_side(self) -> None:
-        self.assertEqual(CARD.texts()["c"], "150 +60 -95")
-        self.assertIn("| 150 +60 -95 |", markdown([CARD]))
+    def test_values_have_two_digits_of_the_error(self) -> None:
+        self.assertEqual(CARD.texts()["c"], "150 ± 60")
+        self.assertIn("| 150 ± 60 |", markdown([CARD]))
         self.assertEqual(CARD.texts()["phi"], "29.25 ± 0.5")
 
     def test_chrono_has_the_card_in_its_own_keys(self) -> None:

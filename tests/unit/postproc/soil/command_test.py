@@ -36,7 +36,9 @@ for k in range(301):
         turned = max(0, 2 * s - 1) * v["angle"]  # pressed first
         normal = v["load"] / area
         speed = v["spin"] * moment / area
-        strength = t["c"] + normal * math.tan(math.radians(t["phi"])) + SPEED_STRESS * math.sqrt(speed)
+        half = 0.5 * (outer - inner) / v["cells"]  # half a cell on each side shears too
+        wide = ((outer + half) ** 3 - (inner - half) ** 3) / (outer**3 - inner**3)
+        strength = t["c"] * wide + normal * math.tan(math.radians(t["phi"])) + SPEED_STRESS * math.sqrt(speed)
         tau = strength * (1 - math.exp(-turned * moment / area / t["K"]))
         rows.append((k, 0.001, v["load"], normal, -tau * moment, turned))
     else:
