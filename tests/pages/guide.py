@@ -4,7 +4,7 @@
 Each page is a session. Its files are saved, its commands run one after the other in a scratch tree
 that looks like the source tree, and its script fragments run in the place of the same lines of a
 complete script. A scene runs small, with the variables of its line "# Quick:" or of COARSE. A sweep is
-checked. Commands that several pages show run once.
+checked. Commands that several pages show run once, and equal runs of a scene share their results.
 """
 
 import os
@@ -45,6 +45,7 @@ class Session:
     def __init__(self, source: Path, build: Path, scratch: Path) -> None:
         self.source, self.root = source, scratch
         self.done: set[str] = set()
+        self.results: dict[str, str] = {}  # folder of each run of a scene
         self.saved: set[str] = set()  # names of files that pages bring
         shutil.rmtree(scratch, ignore_errors=True)
         scratch.mkdir(parents=True)
@@ -82,9 +83,16 @@ class Session:
         if any(re.match(start, command) for start, _ in ELSEWHERE):
             return
         small = self.small(command, later)
-        if small not in self.done:
+        if small in self.done:
+            return
+        self.done.add(small)
+        scene = re.fullmatch(r"(bash inputs/run .*--no-build --no-pictures .*) -o (\S+)(.*)", small)
+        folder = self.results.setdefault(scene[1] + scene[3], scene[2]) if scene else ""
+        if scene and folder != scene[2]:
+            print(f"= {small}: as {folder}", flush=True)
+            shutil.copytree(self.root / folder, self.root / scene[2])
+        else:
             self.run(small)
-            self.done.add(small)
 
     def small(self, command: str, later: str) -> str:
         """What is run for it. A scene that the tests of scenes run has its variables checked, unless

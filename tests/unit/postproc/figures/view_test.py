@@ -47,10 +47,11 @@ class ViewTest(unittest.TestCase):
         shutil.rmtree(cls.folder)
 
     def show(self, *folders: str) -> None:
-        """Writes the page of these runs and opens it."""
-        page = self.folder / "page.html"
-        done = run_post("view", *(self.folder / name for name in folders), "-o", page)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        """Writes the page of these runs, once, and opens it."""
+        page = self.folder / f"{'_'.join(folders)}.html"
+        if not page.exists():
+            done = run_post("view", *(self.folder / name for name in folders), "-o", page)
+            self.assertEqual(done.returncode, 0, done.stderr)
         self.browser.open(page)
         self.browser.wait_for(READY)
 
@@ -71,8 +72,8 @@ class ViewTest(unittest.TestCase):
     def test_loads_without_error_and_without_a_network(self) -> None:
         self.show("grains")
         self.assertEqual(self.browser.troubles, [])
-        self.assertEqual(self.browser.requests, [(self.folder / "page.html").resolve().as_uri()])
-        text = (self.folder / "page.html").read_text(encoding="utf-8")
+        self.assertEqual(self.browser.requests, [(self.folder / "grains.html").resolve().as_uri()])
+        text = (self.folder / "grains.html").read_text(encoding="utf-8")
         self.assertFalse(re.search(r"(src|href)=\"(?!data:)", text))
         self.assertTrue(f"grains: all {FRAMES} frames." in text)
 
