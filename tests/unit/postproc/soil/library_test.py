@@ -52,6 +52,22 @@ class LibraryTest(unittest.TestCase):
             )
             self.assertIn(line, text)
 
+    def test_bekker_wong_with_the_card_of_grc1_against_the_wheel(self) -> None:
+        """The page has each load and slip, and the sinkage deviates by less than twice the wheel's error."""
+        ground = replace(terrain(str(SOILS / "grc1.yaml")), K=0.01)
+        text = TUTORIAL.read_text(encoding="utf-8")
+        rows = read_rows(SOILS / "wheel_on_grc1.csv")
+        self.assertEqual(len(rows), 4)
+        for row in rows:
+            load, slip, sinkage, spread, net, net_spread = (float(value) for value in row.values())
+            found = empirical.wong_reece(load, 0.74, 0.272, slip, ground, extrapolate=True)
+            self.assertLess(abs(found.sinkage - sinkage), 2 * spread)
+            line = (
+                f"| {load:g} | {slip:g} | {1e3 * sinkage:.0f} ± {1e3 * spread:.0f} | {1e3 * found.sinkage:.0f} | "
+                f"{found.sinkage / sinkage - 1:+.0%} | {net:.2f} ± {net_spread:.2f} | {-found.coefficient:.2f} |"
+            )
+            self.assertIn(line, text)
+
 
 if __name__ == "__main__":
     unittest.main()
