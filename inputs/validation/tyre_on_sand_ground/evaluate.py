@@ -55,9 +55,13 @@ class Ground:
         near = np.abs(x) < NEAR
         weight, x, values = weight[near], x[near], field[inside][near]
         largest, total = np.argmax(values), weight.sum()
+        # the axle may cut a column of particles: their weight spreads over the distance between columns
+        columns, of = np.unique(np.round(x, 6), return_inverse=True)
+        in_column = np.bincount(of, weight)
+        behind = np.interp(0.0, columns, np.cumsum(in_column) - 0.5 * in_column)
         return {
             "centroid": (weight * x).sum() / total,
-            "front": weight[x > 0].sum() / total,
+            "front": 1.0 - behind / total,
             "peak": values[largest],
             "place": x[largest],
         }
@@ -201,6 +205,6 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     if rows:
         output.table("results.csv", transposed(rows, "case"))
         draw_stress({run.what: ground for run, ground in found}, output.path("stress.png"))
-    coarse = [row_of(run.name, Ground(run.folder), run.seconds) for run in runs.done("coarse")]
-    output.table("coarse.csv", coarse)
+    others = [run for stage in ("coarse", "instants", "fine") for run in runs.done(stage)]
+    output.table("cells.csv", [row_of(run.name, Ground(run.folder), run.seconds) for run in others])
     return []
