@@ -10,7 +10,7 @@
 #include "tests/support/max_error.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::coupled_system_test {
 namespace {
 
 using test::error_of;
@@ -235,4 +235,4 @@ TEST(CoupledSystem, NamesTheContactThatRefuses) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::coupled_system_test

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "tests/support/checkpoints.h"
 
-namespace furrow {
+namespace furrow::membrane_test {
 namespace {
 
 /// Icosahedron with every triangle split in four a number of times, nodes on the sphere.
@@ -123,4 +123,4 @@ TEST(Membrane, RefusesImpossibleMaterials) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::membrane_test

@@ -12,7 +12,7 @@
 #include "tests/support/error_of.h"
 #include "tests/support/meshes.h"
 
-namespace furrow {
+namespace furrow::mesh_bodies_test {
 namespace {
 
 using test::box;
@@ -201,4 +201,4 @@ TEST(MeshPlate, AreaAndDirectionOfUpAreThoseOfTheKeys) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::mesh_bodies_test

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "tests/support/checkpoints.h"
 
-namespace furrow {
+namespace furrow::rigid_plane_test {
 namespace {
 
 constexpr double side = 0.2;
@@ -118,4 +118,4 @@ TEST(RigidPlane, RefusesValuesOutOfRange) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::rigid_plane_test

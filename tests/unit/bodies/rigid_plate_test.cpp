@@ -10,7 +10,7 @@
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::rigid_plate_test {
 namespace {
 
 using test::error_of;
@@ -161,4 +161,4 @@ TEST(RigidPlate, StopsOnNotANumber) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::rigid_plate_test

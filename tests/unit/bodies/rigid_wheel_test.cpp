@@ -11,7 +11,7 @@
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::rigid_wheel_test {
 namespace {
 
 using test::error_of;
@@ -321,4 +321,4 @@ TEST(RigidWheel, StopsOnStatesThatMustNotGoOn) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::rigid_wheel_test

@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 
-namespace furrow {
+namespace furrow::checkpoint_test {
 namespace {
 
 using ::testing::AllOf;
@@ -133,4 +133,4 @@ TEST(Checkpoint, RefusesAnotherLayoutByName) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::checkpoint_test

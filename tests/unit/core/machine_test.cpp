@@ -14,7 +14,7 @@
 #define FURROW_ADDRESS_SANITIZER 0
 #endif
 
-namespace furrow {
+namespace furrow::machine_test {
 namespace {
 
 TEST(Machine, AProcessMayUseWhatTheShellLeavesIt) {
@@ -36,4 +36,4 @@ TEST(Machine, AProcessMayUseWhatTheShellLeavesIt) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::machine_test

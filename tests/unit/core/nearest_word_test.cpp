@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace furrow {
+namespace furrow::nearest_word_test {
 namespace {
 
 TEST(NearestWord, IsNamedUpToTwoLettersAway) {
@@ -16,4 +16,4 @@ TEST(NearestWord, IsNamedUpToTwoLettersAway) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::nearest_word_test

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::options_test {
 namespace {
 
 using test::error_of;
@@ -156,4 +156,4 @@ TEST(Options, AnAliasNeedsAKeyAndAFreeName) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::options_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace furrow {
+namespace furrow::outputs_test {
 namespace {
 
 TEST(Outputs, OneListGivesNamesUnitsMeaningsAndValues) {
@@ -24,4 +24,4 @@ TEST(Outputs, OneListGivesNamesUnitsMeaningsAndValues) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::outputs_test

@@ -9,7 +9,7 @@
 
 #include <gmock/gmock.h>
 
-namespace furrow {
+namespace furrow::time_left_test {
 namespace {
 
 constexpr int steps = 20000, between_notes = 10;
@@ -74,4 +74,4 @@ TEST(TimeLeft, FollowsAJumpWithinHalfOfTheTimeSoFar) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::time_left_test

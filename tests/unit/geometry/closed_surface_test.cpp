@@ -9,7 +9,7 @@
 #include "geometry/winding_number.h"
 #include "core/error.h"
 
-namespace furrow {
+namespace furrow::closed_surface_test {
 namespace {
 
 using testing::AllOf;
@@ -86,4 +86,4 @@ TEST(ClosedSurface, NothingIsNotClosed) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::closed_surface_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace furrow {
+namespace furrow::closest_feature_test {
 namespace {
 
 /// Independent answer: the smallest of the distances to the plane's foot (if inside) and to the
@@ -79,4 +79,4 @@ TEST(ContactSelection, ShallowValleyIsOneContactASharpOneIsTwo) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::closest_feature_test

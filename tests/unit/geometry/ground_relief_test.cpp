@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::ground_relief_test {
 namespace {
 
 using test::error_of;
@@ -128,4 +128,4 @@ TEST(GroundRelief, ShapesThatCannotBeAreRefusedWithTheirKeyword) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::ground_relief_test

@@ -12,7 +12,7 @@
 #include "tests/support/error_of.h"
 #include "tests/support/meshes.h"
 
-namespace furrow {
+namespace furrow::solid_mesh_test {
 namespace {
 
 using test::box;
@@ -162,4 +162,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& mesh) { return mesh.param.name; });
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::solid_mesh_test

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::surface_test {
 namespace {
 
 using test::error_of;
@@ -114,4 +114,4 @@ TEST(Surface, NotANumberIsReportedWithBodyAndNode) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::surface_test

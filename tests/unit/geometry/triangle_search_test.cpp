@@ -10,7 +10,7 @@
 #include "geometry/closest_feature.h"
 #include "bodies/rigid_plate.h"
 
-namespace furrow {
+namespace furrow::triangle_search_test {
 namespace {
 
 /// A disc of 0.3 m, 0.1 m thick, tilted: closed, with edges and corners of every kind.
@@ -117,4 +117,4 @@ TEST(NodeTriangles, OutwardAgreesWithEncloses) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::triangle_search_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace furrow {
+namespace furrow::weld_test {
 namespace {
 
 TEST(Weld, FindsEqualPlacesAndPeriodicImages) {
@@ -17,4 +17,4 @@ TEST(Weld, FindsEqualPlacesAndPeriodicImages) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::weld_test

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::wheel_mesh_test {
 namespace {
 
 using test::error_of;
@@ -322,4 +322,4 @@ TEST(WheelMesh, RefusesImpossibleGrousers) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::wheel_mesh_test

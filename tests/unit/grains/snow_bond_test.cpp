@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace furrow {
+namespace furrow::snow_bond_test {
 namespace {
 
 constexpr double d = 0.02, mass = 7e-4, dt = 1e-5;
@@ -478,4 +478,4 @@ TEST(SnowBond, ParametersAreDeclaredOnce) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::snow_bond_test

@@ -8,7 +8,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::brick_tyre_file_test {
 namespace {
 
 using test::error_of;
@@ -144,4 +144,4 @@ TEST_F(BrickTyreFileTest, AnOutlineThatRisesBetweenItsPointsIsRefused) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::brick_tyre_file_test

@@ -6,7 +6,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::grains_test {
 namespace {
 
 using test::error_of;
@@ -79,4 +79,4 @@ TEST(Grains, CheckNamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::grains_test

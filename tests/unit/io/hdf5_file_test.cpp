@@ -13,7 +13,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::hdf5_file_test {
 namespace {
 
 using test::error_of;
@@ -188,4 +188,4 @@ TEST(Hdf5File, ErrorsNameFileObjectAndCause) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::hdf5_file_test

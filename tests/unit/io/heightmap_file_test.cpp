@@ -11,7 +11,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::heightmap_file_test {
 namespace {
 
 using test::error_of;
@@ -114,4 +114,4 @@ TEST_F(HeightmapFile, TheShortestHeightsAreRead) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::heightmap_file_test

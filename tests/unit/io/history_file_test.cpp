@@ -17,7 +17,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::history_file_test {
 namespace {
 
 using test::error_of;
@@ -385,4 +385,4 @@ TEST(HistoryFile, MissingAndForeignFilesAreNamed) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::history_file_test

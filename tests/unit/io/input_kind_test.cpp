@@ -11,7 +11,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::input_kind_test {
 namespace {
 
 using test::error_of;
@@ -46,4 +46,4 @@ TEST(InputKind, AFileOfAnotherKindIsNamedAsWhatItIs) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::input_kind_test

@@ -8,7 +8,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::input_text_test {
 namespace {
 
 using test::error_of;
@@ -71,4 +71,4 @@ TEST(InputText, WhatIsNoFileIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::input_text_test

@@ -9,7 +9,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::material_file_test {
 namespace {
 
 using test::error_of;
@@ -413,4 +413,4 @@ TEST(CsvFile, ReadsNumbersAndNamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::material_file_test

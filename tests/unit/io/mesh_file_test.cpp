@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "io/input_text.h"
@@ -12,7 +13,7 @@
 #include "tests/support/error_of.h"
 #include "tests/support/meshes.h"
 
-namespace furrow {
+namespace furrow::mesh_file_test {
 namespace {
 
 using test::box;
@@ -139,4 +140,4 @@ TEST(MeshFile, BadFilesAreRefusedWithPlaceAndRemedy) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::mesh_file_test

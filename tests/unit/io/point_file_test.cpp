@@ -8,7 +8,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::point_file_test {
 namespace {
 
 using test::error_of;
@@ -182,4 +182,4 @@ TEST_F(PointFileTest, ParametersThatCannotBeFittedAreRefusedWithTheirLine) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::point_file_test

@@ -15,7 +15,7 @@
 #include "size_limit.h"
 #include "tests/support/error_of.h"
 
-namespace furrow::test {
+namespace furrow::test::rank_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -103,4 +103,4 @@ TEST(RankFiles, FailedWriteIsReportedWhenClosedAndLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::rank_files_test

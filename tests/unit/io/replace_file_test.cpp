@@ -12,7 +12,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::replace_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,4 +68,4 @@ TEST(ReplaceFile, ErrorsNameTheFileAndTheCause) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::replace_file_test

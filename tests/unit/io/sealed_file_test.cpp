@@ -14,7 +14,7 @@
 #include "size_limit.h"
 #include "tests/support/error_of.h"
 
-namespace furrow::test {
+namespace furrow::test::sealed_file_test {
 namespace {
 
 using State = SealCheck::State;
@@ -126,4 +126,4 @@ TEST(SealedFile, OneWriterAtATimeAndNoneWhileTheLockIsKept) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::sealed_file_test

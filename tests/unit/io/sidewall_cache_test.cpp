@@ -11,7 +11,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::sidewall_cache_test {
 namespace {
 
 using test::error_of;
@@ -132,4 +132,4 @@ TEST(ContentHash, IsFnv1a) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::sidewall_cache_test

@@ -11,7 +11,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::soil_card_file_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -68,4 +68,4 @@ TEST_F(SoilCardFile, RefusalsNameFileLineAndKey) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::soil_card_file_test

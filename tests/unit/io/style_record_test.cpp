@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace furrow {
+namespace furrow::style_record_test {
 namespace {
 
 using Value = StyleRecord::Value;
@@ -71,4 +71,4 @@ TEST(StyleRecord, ATextThatReadsAsANumberIsOne) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::style_record_test

@@ -7,7 +7,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::tyre_file_test {
 namespace {
 
 using test::error_of;
@@ -92,4 +92,4 @@ TEST_F(TyreFileTest, BadFilesAreRefusedWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::tyre_file_test

@@ -15,7 +15,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::vtk_file_test {
 namespace {
 
 using test::error_of;
@@ -133,4 +133,4 @@ TEST(VtkSeries, RefusesToContinueWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::vtk_file_test

@@ -9,7 +9,7 @@
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::yaml_tree_test {
 namespace {
 
 using test::error_of;
@@ -117,4 +117,4 @@ TEST_F(YamlTreeTest, AnUnknownKeyIsNamedWhateverItsValueIs) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::yaml_tree_test

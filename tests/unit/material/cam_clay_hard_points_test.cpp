@@ -7,7 +7,7 @@
 #include "material/models/cohesive_cam_clay/cohesive_cam_clay.h"
 #include "sound_steps.h"
 
-namespace furrow {
+namespace furrow::cam_clay_hard_points_test {
 namespace {
 
 using testing_paths::expect_sound_step;
@@ -158,4 +158,4 @@ TEST(CamClayHardPoints, OutsideTheTableExtrapolatesAndSaysSoOrStops) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::cam_clay_hard_points_test

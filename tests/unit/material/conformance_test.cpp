@@ -6,7 +6,7 @@
 
 #include "plain_elastic.h"
 
-namespace furrow {
+namespace furrow::conformance_test {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(Laws, MaterialConformance,
@@ -18,4 +18,4 @@ INSTANTIATE_TEST_SUITE_P(PointwiseLaws, MaterialConformance,
                          conformance_case_name);
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::conformance_test

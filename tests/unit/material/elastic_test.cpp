@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace furrow {
+namespace furrow::elastic_test {
 namespace {
 
 std::unique_ptr<Material> linear_elastic(double young, double nu) {
@@ -71,4 +71,4 @@ TEST(Elastic, RefusesAFoldedStepWithItsCause) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::elastic_test

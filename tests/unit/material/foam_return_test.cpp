@@ -9,7 +9,7 @@
 #include "material/models/crushable_foam/crushable_foam.h"
 #include "tests/support/paths.h"
 
-namespace furrow {
+namespace furrow::foam_return_test {
 namespace {
 
 using testing_paths::material_of;
@@ -92,4 +92,4 @@ TEST(CrushableFoam, RandomStepsEndWhereTheEquationsSay) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::foam_return_test

@@ -8,7 +8,7 @@
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "sound_steps.h"
 
-namespace furrow {
+namespace furrow::hard_points_test {
 namespace {
 
 using testing_paths::expect_sound_step;
@@ -248,4 +248,4 @@ TEST(HardPoints, SofteningGivesBackFrozenEnergy) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::hard_points_test

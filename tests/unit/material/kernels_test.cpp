@@ -17,7 +17,7 @@
 #include "simd/dispatch.h"
 #include "tests/support/paths.h"
 
-namespace furrow {
+namespace furrow::kernels_test {
 namespace {
 
 using testing_paths::material_of;
@@ -172,4 +172,4 @@ TEST(Kinematics, StrainOfSmallStepsIsExactToRounding) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::kernels_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/paths.h"
 
-namespace furrow {
+namespace furrow::plausibility_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -63,4 +63,4 @@ TEST(Plausibility, WhatIsUnusualIsDoubted) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::plausibility_test

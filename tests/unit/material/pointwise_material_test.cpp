@@ -12,7 +12,7 @@
 #include "plain_elastic.h"
 #include "testing/material_text.h"
 
-namespace furrow {
+namespace furrow::pointwise_material_test {
 namespace {
 
 class PointwiseMaterials : public ::testing::Test {
@@ -116,4 +116,4 @@ TEST(PointwiseMaterial, RefusesMoreVariablesThanItHasRoomFor) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::pointwise_material_test

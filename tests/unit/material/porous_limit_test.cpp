@@ -8,7 +8,7 @@
 
 #include "tests/support/paths.h"
 
-namespace furrow {
+namespace furrow::porous_limit_test {
 namespace {
 
 using testing_paths::material_of;
@@ -131,4 +131,4 @@ TEST(PorousLimit, FromBesideItToTheCapInOneStep) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::porous_limit_test

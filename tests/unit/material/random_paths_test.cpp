@@ -8,7 +8,7 @@
 #include "tests/support/max_error.h"
 #include "tests/support/paths.h"
 
-namespace furrow {
+namespace furrow::random_paths_test {
 namespace {
 
 using testing_paths::material_of;
@@ -223,4 +223,4 @@ TEST(RandomPaths, TenThousandStayOnTheSurfaceAndDissipate) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::random_paths_test

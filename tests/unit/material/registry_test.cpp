@@ -9,7 +9,7 @@
 #include "tests/support/error_of.h"
 #include "tests/support/paths.h"
 
-namespace furrow {
+namespace furrow::registry_test {
 namespace {
 
 using test::error_of;
@@ -199,4 +199,4 @@ TEST(Registry, ListsNamesMeaningsAndSchemas) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::registry_test

@@ -9,7 +9,7 @@
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
 
-namespace furrow {
+namespace furrow::active_ground_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -257,4 +257,4 @@ TEST(ActiveGround, RefusesWindowSheetAndCreep) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::active_ground_test

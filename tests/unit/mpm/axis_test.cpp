@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::axis_test {
 namespace {
 
 using test::error_of;
@@ -194,4 +194,4 @@ TEST(Axis, RefusesLayoutsWithoutSense) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::axis_test

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "terrain_scene.h"
 
-namespace furrow {
+namespace furrow::boundary_test {
 namespace {
 
 using testing_terrain::even;
@@ -310,4 +310,4 @@ TEST(Boundary, TheFaceBehindHoldsWhatTheGroundCarriesThere) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::boundary_test

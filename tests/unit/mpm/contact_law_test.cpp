@@ -7,7 +7,7 @@
 #include "mpm/contact/narrow_phase.h"
 #include "terrain_scene.h"
 
-namespace furrow {
+namespace furrow::contact_law_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -224,4 +224,4 @@ TEST(NarrowPhase, WallsThatMoveApartLetGo) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::contact_law_test

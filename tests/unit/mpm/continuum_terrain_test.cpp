@@ -9,7 +9,7 @@
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
 
-namespace furrow {
+namespace furrow::continuum_terrain_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -276,4 +276,4 @@ TEST(Terrain, ALawsRefusalNamesTheParticle) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::continuum_terrain_test

@@ -9,7 +9,7 @@
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
 
-namespace furrow {
+namespace furrow::moving_sheet_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -213,4 +213,4 @@ TEST(MovingSheet, SlabsAreWholeCells) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::moving_sheet_test

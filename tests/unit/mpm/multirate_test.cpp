@@ -8,7 +8,7 @@
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
 
-namespace furrow {
+namespace furrow::multirate_test {
 namespace {
 
 using testing_terrain::box;
@@ -162,4 +162,4 @@ TEST(Multirate, ARunThatIsContinuedWithinAnIntervalIsTheSame) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::multirate_test

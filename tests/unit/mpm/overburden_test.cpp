@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "terrain_scene.h"
 
-namespace furrow {
+namespace furrow::overburden_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -111,4 +111,4 @@ TEST(Overburden, RefusesALawThatCannotCarryTheWeight) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::overburden_test

@@ -8,7 +8,7 @@
 
 #include "terrain_scene.h"
 
-namespace furrow {
+namespace furrow::particles_test {
 namespace {
 
 using testing_terrain::elastic;
@@ -144,4 +144,4 @@ TEST(Particles, PackAndUnpackAreInverse) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::particles_test

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "terrain_scene.h"
 
-namespace furrow {
+namespace furrow::partition_test {
 namespace {
 
 Grid grid_of(int x_cells, int y_cells) {
@@ -62,4 +62,4 @@ TEST(BlockLayout, MustHaveAsManyBlocksAsRanks) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::partition_test

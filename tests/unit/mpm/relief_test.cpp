@@ -12,7 +12,7 @@
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::relief_test {
 namespace {
 
 using namespace testing_terrain;
@@ -119,4 +119,4 @@ TEST(Relief, HeightsBeyondDepthAndClearanceAreRefused) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::relief_test

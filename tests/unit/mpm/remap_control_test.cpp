@@ -5,7 +5,7 @@
 
 #include "terrain_scene.h"
 
-namespace furrow {
+namespace furrow::remap_control_test {
 namespace {
 
 using namespace testing_terrain;
@@ -90,4 +90,4 @@ TEST(RemapControl, StalenessIsTheTravelSinceParticlesWereUpdated) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::remap_control_test

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "terrain_scene.h"
 
-namespace furrow {
+namespace furrow::slide_contact_test {
 namespace {
 
 using namespace testing_terrain;
@@ -104,4 +104,4 @@ TEST(SlideContact, NeedsGroundOnBothSides) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::slide_contact_test

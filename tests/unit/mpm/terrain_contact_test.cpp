@@ -9,7 +9,7 @@
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::terrain_contact_test {
 namespace {
 
 using test::error_of;
@@ -251,4 +251,4 @@ TEST(TerrainContact, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::terrain_contact_test

@@ -7,7 +7,7 @@
 #include "mpm/continuum_terrain.h"
 #include "terrain_scene.h"
 
-namespace furrow {
+namespace furrow::terrain_size_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -57,4 +57,4 @@ TEST(TerrainSize, MoreThanTheMachineHasIsRefusedWithTheEstimate) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::terrain_size_test

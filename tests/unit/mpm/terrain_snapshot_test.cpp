@@ -8,7 +8,7 @@
 
 #include "terrain_scene.h"
 
-namespace furrow {
+namespace furrow::terrain_snapshot_test {
 namespace {
 
 using namespace testing_terrain;
@@ -54,4 +54,4 @@ TEST(TerrainSnapshot, HasThePlasticStrainOfLawsThatKeepIt) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::terrain_snapshot_test

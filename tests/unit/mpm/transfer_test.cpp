@@ -12,7 +12,7 @@
 #include "terrain_scene.h"
 #include "tests/support/max_error.h"
 
-namespace furrow {
+namespace furrow::transfer_test {
 namespace {
 
 using testing_terrain::even;
@@ -462,4 +462,4 @@ TEST(Transfer, KeepsNodalMassAndNeverMakesKineticEnergy) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::transfer_test

@@ -10,7 +10,7 @@
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
 
-namespace furrow {
+namespace furrow::trough_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -187,4 +187,4 @@ TEST(Trough, RefusesWhatTheParticlesCannotHave) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::trough_test

@@ -10,7 +10,7 @@
 #include "io/replace_file.h"
 #include "tests/support/program.h"
 
-namespace furrow {
+namespace furrow::bad_options_test {
 namespace {
 
 using test::Outcome;
@@ -167,4 +167,4 @@ TEST(BadOptions, OfFurrowResistance) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::bad_options_test

@@ -14,7 +14,7 @@
 #include "tests/support/error_of.h"
 #include "wheel_on_floor.h"
 
-namespace furrow {
+namespace furrow::chassis_test {
 namespace {
 
 using test::error_of;
@@ -380,4 +380,4 @@ TEST(Chassis, RefusesWheelsThatDoNotSupportItAndMissingInertia) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::chassis_test

@@ -7,7 +7,7 @@
 
 #include "wheel_on_floor.h"
 
-namespace furrow {
+namespace furrow::contact_arc_test {
 namespace {
 
 constexpr std::size_t sectors = 90;
@@ -68,4 +68,4 @@ TEST(ContactArc, LeavesOutWhatIsAboveTheAxle) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::contact_arc_test

@@ -15,7 +15,7 @@
 #include "tests/support/error_of.h"
 #include "wheel_on_floor.h"
 
-namespace furrow {
+namespace furrow::free_travel_test {
 namespace {
 
 using test::error_of;
@@ -287,4 +287,4 @@ TEST(FreeTravel, RefusesWhatContradictsIt) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::free_travel_test

@@ -13,7 +13,7 @@
 #include "tests/support/error_of.h"
 #include "wheel_on_floor.h"
 
-namespace furrow {
+namespace furrow::passes_test {
 namespace {
 
 using test::error_of;
@@ -120,4 +120,4 @@ TEST(Passes, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::passes_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace furrow {
+namespace furrow::ramp_test {
 namespace {
 
 TEST(Ramp, RisesFromZeroToOneWithFlatEnds) {
@@ -66,4 +66,4 @@ TEST(Ramp, ADurationOfZeroIsAStep) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::ramp_test

@@ -12,7 +12,7 @@
 #include "bodies/rigid_plane.h"
 #include "wheel_on_floor.h"
 
-namespace furrow {
+namespace furrow::resistance_parts_test {
 namespace {
 
 TEST(ResistanceParts, OfASlidingWheelOnARigidPlaneAreItsFriction) {
@@ -47,4 +47,4 @@ TEST(ResistanceParts, OfASlidingWheelOnARigidPlaneAreItsFriction) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::resistance_parts_test

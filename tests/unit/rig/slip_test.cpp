@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::slip_test {
 namespace {
 
 using test::error_of;
@@ -77,4 +77,4 @@ TEST(Slip, WordsNameTheDefinitions) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::slip_test

@@ -7,7 +7,7 @@
 
 #include "core/types.h"
 
-namespace furrow {
+namespace furrow::suspension_test {
 namespace {
 
 constexpr double mass = 50.0, stiffness = 8000.0, dt = 1e-4;  // [kg], [N/m], [s]
@@ -55,4 +55,4 @@ TEST(Suspension, AWashboardMovesTheMassByTheTransmissibility) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::suspension_test

@@ -11,7 +11,7 @@
 #include "wheel_on_floor.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::wheel_rig_test {
 namespace {
 
 using test::error_of;
@@ -524,4 +524,4 @@ TEST(WheelRig, RefusesContradictionsWithKeywordAndRemedy) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::wheel_rig_test

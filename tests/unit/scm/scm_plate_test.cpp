@@ -12,7 +12,7 @@
 #include "scm/contact_width.h"
 #include "tests/support/checkpoints.h"
 
-namespace furrow {
+namespace furrow::scm_plate_test {
 namespace {
 
 constexpr double side = 0.2;
@@ -239,4 +239,4 @@ TEST(ScmPlate, FieldsThatCannotBeAreRefused) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::scm_plate_test

@@ -11,7 +11,7 @@
 #include "bodies/rigid_wheel.h"
 #include "scm/scm_contact.h"
 
-namespace furrow {
+namespace furrow::scm_wheel_test {
 namespace {
 
 constexpr double radius = 0.25, width = 0.1, sinkage = 0.03, speed = 1.0;
@@ -221,4 +221,4 @@ TEST(ScmWheel, ForceOfSteepFacesIsThatAlongTheAxle) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::scm_wheel_test

@@ -15,7 +15,7 @@
 #include "rig/wheel_rig.h"
 #include "scm/scm_contact.h"
 
-namespace furrow {
+namespace furrow::washboard_test {
 namespace {
 
 constexpr double radius = 0.25, width = 0.1, wavelength = 1.0;   // [m]
@@ -172,4 +172,4 @@ TEST(Washboard, UndisturbedReliefHasNoRutAndNoHeap) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::washboard_test

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::history_test {
 namespace {
 
 using test::error_of;
@@ -55,4 +55,4 @@ TEST(History, RefusesWrongRowsAndNames) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::history_test

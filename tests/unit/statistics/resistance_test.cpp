@@ -12,7 +12,7 @@
 #include "tests/unit/rig/wheel_on_floor.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::resistance_test {
 namespace {
 
 using test::error_of;
@@ -409,4 +409,4 @@ TEST(Resistance, ARatioNeedsADenominator) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::resistance_test

@@ -11,7 +11,7 @@
 #include "statistics/rig_stage.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::steady_state_test {
 namespace {
 
 using test::error_of;
@@ -387,4 +387,4 @@ TEST(Window, RefusesWhatTheHistoryDoesNotHold) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::steady_state_test

@@ -11,7 +11,7 @@
 #include "rig/wheel_rig.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::vehicle_test {
 namespace {
 
 using test::error_of;
@@ -118,4 +118,4 @@ TEST(Vehicle, RefusesWheelsThatWereNotRecordedTogether) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::vehicle_test

@@ -19,7 +19,7 @@
 #include "tyre/contact_patch.h"
 #include "tyre/section_curve.h"
 
-namespace furrow {
+namespace furrow::brick_tyre_test {
 namespace {
 
 using test::error_of;
@@ -284,4 +284,4 @@ TEST(BrickTyre, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::brick_tyre_test

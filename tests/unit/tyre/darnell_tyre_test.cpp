@@ -17,7 +17,7 @@
 #include "tests/support/max_error.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::darnell_tyre_test {
 namespace {
 
 using test::error_of;
@@ -327,4 +327,4 @@ TEST(DarnellTyre, AStretchedSidewallStopsTheRun) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::darnell_tyre_test

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "tests/support/max_error.h"
 
-namespace furrow {
+namespace furrow::quintic_spline_test {
 namespace {
 
 template <class Function>
@@ -117,4 +117,4 @@ TEST(QuinticSpline, WhatCannotBeIsRefused) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::quintic_spline_test

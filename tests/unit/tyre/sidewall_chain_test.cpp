@@ -11,7 +11,7 @@
 #include "tyres.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::sidewall_chain_test {
 namespace {
 
 using test::error_of;
@@ -276,4 +276,4 @@ TEST(SidewallChain, WhatCannotBeIsRefused) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::sidewall_chain_test

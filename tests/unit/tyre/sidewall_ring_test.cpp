@@ -9,7 +9,7 @@
 #include "io/tyre_file.h"
 #include "tyre/sidewall_direct.h"
 
-namespace furrow {
+namespace furrow::sidewall_ring_test {
 namespace {
 
 TyreParameters tyre() {
@@ -142,4 +142,4 @@ TEST(SidewallRing, ArcsEndAtBeadAndTreadAndHaveTheSidewallsLength) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::sidewall_ring_test

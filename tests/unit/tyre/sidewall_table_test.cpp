@@ -10,7 +10,7 @@
 #include "tyres.h"
 #include "tests/support/error_of.h"
 
-namespace furrow {
+namespace furrow::sidewall_table_test {
 namespace {
 
 using test::error_of;
@@ -109,4 +109,4 @@ TEST(SidewallTable, WhatCannotBeIsRefused) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::sidewall_table_test

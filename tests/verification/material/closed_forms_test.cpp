@@ -9,7 +9,7 @@
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "tests/support/paths.h"
 
-namespace furrow {
+namespace furrow::closed_forms_test {
 namespace {
 
 using testing_paths::material_of;
@@ -331,4 +331,4 @@ TEST(RubberClosedForm, SimpleShearStretchAndEnergy) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::closed_forms_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/paths.h"
 
-namespace furrow {
+namespace furrow::cohesive_cam_clay_test {
 namespace {
 
 using testing_paths::material_of;
@@ -217,4 +217,4 @@ TEST(CamClayRates, AgreeWithAnExplicitIntegration) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::cohesive_cam_clay_test

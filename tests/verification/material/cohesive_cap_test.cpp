@@ -8,7 +8,7 @@
 
 #include "tests/support/paths.h"
 
-namespace furrow {
+namespace furrow::cohesive_cap_test {
 namespace {
 
 using testing_paths::material_of;
@@ -237,4 +237,4 @@ TEST(CohesiveCapClosedForm, StepsOfAnySizeEndAlike) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::cohesive_cap_test

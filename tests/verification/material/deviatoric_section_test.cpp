@@ -11,7 +11,7 @@
 #include "material/section/section.h"
 #include "tests/support/paths.h"
 
-namespace furrow {
+namespace furrow::deviatoric_section_test {
 namespace {
 
 using testing_paths::material_of;
@@ -162,4 +162,4 @@ TEST(DeviatoricSection, StrengthInPlaneStrain) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::deviatoric_section_test

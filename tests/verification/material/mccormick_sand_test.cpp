@@ -11,7 +11,7 @@
 #include "tests/support/max_error.h"
 #include "tests/support/paths.h"
 
-namespace furrow {
+namespace furrow::mccormick_sand_test {
 namespace {
 
 using testing_paths::material_of;
@@ -204,4 +204,4 @@ INSTANTIATE_TEST_SUITE_P(Pressures, SimpleShear,
                                                                0.345 / 1.103 * 0.01 - 0.001}));
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::mccormick_sand_test

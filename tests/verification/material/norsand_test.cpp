@@ -10,7 +10,7 @@
 #include "io/csv_file.h"
 #include "tests/support/paths.h"
 
-namespace furrow {
+namespace furrow::norsand_test {
 namespace {
 
 using testing_paths::material_of;
@@ -239,4 +239,4 @@ TEST(NorSandLowStress, LongStepsStayOnTheSurface) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::norsand_test

@@ -9,7 +9,7 @@
 #include "bodies/rigid_plate.h"
 #include "tests/support/max_error.h"
 
-namespace furrow {
+namespace furrow::column_test {
 namespace {
 
 using namespace testing_terrain;
@@ -199,4 +199,4 @@ TEST(Lid, OffsetOfTheContactConvergesAway) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::column_test

@@ -9,7 +9,7 @@
 #include "bodies/rigid_plate.h"
 #include "tests/support/max_error.h"
 
-namespace furrow {
+namespace furrow::contact_test {
 namespace {
 
 using namespace testing_terrain;
@@ -263,4 +263,4 @@ TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::contact_test

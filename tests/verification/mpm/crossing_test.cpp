@@ -7,7 +7,7 @@
 #include "../../unit/mpm/terrain_scene.h"
 #include "tests/support/max_error.h"
 
-namespace furrow {
+namespace furrow::crossing_test {
 namespace {
 
 using namespace testing_terrain;
@@ -69,4 +69,4 @@ TEST(CellCrossing, NoiseIsSmall) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::crossing_test

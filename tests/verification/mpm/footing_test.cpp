@@ -7,7 +7,7 @@
 #include "../../unit/mpm/terrain_scene.h"
 #include "bodies/rigid_plate.h"
 
-namespace furrow {
+namespace furrow::footing_test {
 namespace {
 
 using namespace testing_terrain;
@@ -123,4 +123,4 @@ TEST(StripFooting, ConvergesToPrandtl) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::footing_test

@@ -8,7 +8,7 @@
 #include "../../unit/mpm/terrain_scene.h"
 #include "tests/support/max_error.h"
 
-namespace furrow {
+namespace furrow::free_body_test {
 namespace {
 
 using namespace testing_terrain;
@@ -177,4 +177,4 @@ TEST(FreeVibration, KeepsMomentaAndNeverGainsEnergy) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::free_body_test

@@ -9,7 +9,7 @@
 #include "mpm/ground_under_wheel.h"
 #include "tests/support/wheel_on_ground.h"
 
-namespace furrow {
+namespace furrow::ground_under_wheel_test {
 namespace {
 
 TEST(GroundUnderWheel, IsChordOrWidthAndTheDepthOnEitherSideToTwoDigits) {
@@ -63,4 +63,4 @@ TEST(GroundUnderWheel, TwiceAsMuchChangesNeitherSinkageNorResistance) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::ground_under_wheel_test

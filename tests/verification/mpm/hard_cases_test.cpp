@@ -10,7 +10,7 @@
 #include "bodies/rigid_wheel.h"
 #include "core/error.h"
 
-namespace furrow {
+namespace furrow::hard_cases_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -273,4 +273,4 @@ TEST(HardCase, CompactionBy90PercentUnderASoftLidStopsWithItsCause) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::hard_cases_test

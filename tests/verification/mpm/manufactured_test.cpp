@@ -7,7 +7,7 @@
 
 #include "../../unit/mpm/terrain_scene.h"
 
-namespace furrow {
+namespace furrow::manufactured_test {
 namespace {
 
 using namespace testing_terrain;
@@ -73,4 +73,4 @@ TEST(ManufacturedSolution, ConvergesInSecondOrder) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::manufactured_test

@@ -9,7 +9,7 @@
 #include "tests/support/checkpoints.h"
 #include "tests/support/max_error.h"
 
-namespace furrow {
+namespace furrow::slide_test {
 namespace {
 
 using namespace testing_terrain;
@@ -252,4 +252,4 @@ TEST(SlideSurface, KeepsMomentumAndAccountsForEnergy) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::slide_test

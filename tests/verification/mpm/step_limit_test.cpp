@@ -7,7 +7,7 @@
 #include "../../unit/mpm/terrain_scene.h"
 #include "tests/support/max_error.h"
 
-namespace furrow {
+namespace furrow::step_limit_test {
 namespace {
 
 using namespace testing_terrain;
@@ -60,4 +60,4 @@ TEST(StepLimit, TheStepOfTheProgramIsBelow) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::step_limit_test

@@ -9,7 +9,7 @@
 #include "../../unit/mpm/terrain_scene.h"
 #include "tests/support/max_error.h"
 
-namespace furrow {
+namespace furrow::waves_test {
 namespace {
 
 using namespace testing_terrain;
@@ -352,4 +352,4 @@ TEST(GradedGrid, LetsWavesPass) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::waves_test

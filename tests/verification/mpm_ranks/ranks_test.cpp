@@ -16,7 +16,7 @@
 #include "tests/support/checkpoints.h"
 #include "tests/support/max_error.h"
 
-namespace furrow {
+namespace furrow::ranks_test {
 namespace {
 
 using namespace testing_terrain;
@@ -457,4 +457,4 @@ TEST_P(Messages, ExchangeGatherSumAndMaximumOfAnyCount) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::ranks_test

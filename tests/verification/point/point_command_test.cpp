@@ -13,7 +13,7 @@
 #include "io/version.h"
 #include "tests/support/program.h"
 
-namespace furrow {
+namespace furrow::point_command_test {
 namespace {
 
 using test::Outcome;
@@ -142,4 +142,4 @@ TEST(PointCommand, FailuresHaveTheirMessageAndStatus) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::point_command_test

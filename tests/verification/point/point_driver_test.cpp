@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "io/material_file.h"
 
-namespace furrow {
+namespace furrow::point_driver_test {
 namespace {
 
 using ::testing::AllOf;
@@ -232,4 +232,4 @@ TEST(PointDriver, ChannelsAreNamed) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::point_driver_test

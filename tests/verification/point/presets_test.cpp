@@ -13,7 +13,7 @@
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "material/point/point_driver.h"
 
-namespace furrow {
+namespace furrow::presets_test {
 namespace {
 
 const std::string inputs = std::string(FURROW_SOURCE_DIR) + "/inputs";
@@ -435,4 +435,4 @@ TEST(Presets, ElasticSandAndRubber) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::presets_test

@@ -17,7 +17,7 @@
 #include "io/point_file.h"
 #include "material/point/point_driver.h"
 
-namespace furrow {
+namespace furrow::snow_page_test {
 namespace {
 
 const std::string root = FURROW_SOURCE_DIR;
@@ -180,4 +180,4 @@ TEST(SnowPage, TableOfK0IsTheFormula) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::snow_page_test

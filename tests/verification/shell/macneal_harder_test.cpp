@@ -10,7 +10,7 @@
 
 #include "shell_model.h"
 
-namespace furrow::test {
+namespace furrow::test::macneal_harder_test {
 namespace {
 
 Vector3 along_x(const Vector3&) { return Vector3::UnitX(); }
@@ -152,4 +152,4 @@ TEST(MacNealHarder, ThinTwistedBeam) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::macneal_harder_test

@@ -9,12 +9,13 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "shell_model.h"
 #include "tests/support/error_of.h"
 
-namespace furrow::test {
+namespace furrow::test::natural_modes_test {
 namespace {
 
 constexpr double E = 1e10;           // [Pa]
@@ -211,4 +212,4 @@ TEST(NaturalModes, MoreThanThereAreIsRefused) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::natural_modes_test

@@ -12,7 +12,7 @@
 #include "shell_model.h"
 #include "tests/support/max_error.h"
 
-namespace furrow::test {
+namespace furrow::test::shell4_test {
 namespace {
 
 Vector3 along_x(const Vector3&) { return Vector3::UnitX(); }
@@ -485,4 +485,4 @@ TEST(Shell4, RefusesWhatIsNoShell) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::shell4_test

@@ -5,13 +5,14 @@
 #include <random>
 
 #include <Eigen/Eigenvalues>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "brick_model.h"
 #include "core/error.h"
 #include "tests/support/error_of.h"
 
-namespace furrow::test {
+namespace furrow::test::brick8_test {
 namespace {
 
 /// The smooth tread of [Shoop2001], Table 9: C10 1.109596 MPa, 814.6 kg/m3; K = 50 mu assumed.
@@ -512,4 +513,4 @@ TEST(Brick8, AlikeBricksShareTheirShape) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::brick8_test

@@ -10,7 +10,7 @@
 
 #include "brick_model.h"
 
-namespace furrow::test {
+namespace furrow::test::rib_test {
 namespace {
 
 /// The ribbed tread of [Shoop2001], Table 9: C10 2.408340 MPa; K = 50 mu assumed.
@@ -120,4 +120,4 @@ TEST(Rib, OfTheRibbedTyreIsStableAtFourTimesTheStressOfItsPrint) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::rib_test

@@ -10,7 +10,7 @@
 #include "io/tyre_file.h"
 #include "tyre/darnell_tyre.h"
 
-namespace furrow {
+namespace furrow::half_on_ground_test {
 namespace {
 
 struct Outcome {
@@ -83,4 +83,4 @@ TEST(HalfTyre, OnHalfAGroundIsTheWholeOnHalfAGround) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::half_on_ground_test

@@ -15,7 +15,7 @@
 #include "tyre/contact_patch.h"
 #include "tyre/darnell_tyre.h"
 
-namespace furrow {
+namespace furrow::hard_cases_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -131,4 +131,4 @@ TEST(HardCases, BucklesInsideTheShoulder) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::hard_cases_test

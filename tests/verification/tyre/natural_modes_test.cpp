@@ -15,7 +15,7 @@
 #include "tyre/darnell_tyre.h"
 #include "tyre/mode_kind.h"
 
-namespace furrow::test {
+namespace furrow::test::natural_modes_test {
 namespace {
 
 // little air, so that the belt has no wrinkles
@@ -137,4 +137,4 @@ TEST(TyreModes, AHalfModelIsRefused) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::natural_modes_test

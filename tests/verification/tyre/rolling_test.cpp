@@ -15,7 +15,7 @@
 #include "tyre/brick_tyre.h"
 #include "tyre/darnell_tyre.h"
 
-namespace furrow {
+namespace furrow::rolling_test {
 namespace {
 
 struct Outcome {
@@ -150,4 +150,4 @@ TEST(RollingTyre, SlipPullsAndBrakes) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::rolling_test

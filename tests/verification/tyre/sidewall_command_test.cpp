@@ -13,7 +13,7 @@
 #include "io/tyre_file.h"
 #include "tests/support/program.h"
 
-namespace furrow {
+namespace furrow::sidewall_command_test {
 namespace {
 
 using test::Outcome;
@@ -104,4 +104,4 @@ TEST_F(SidewallCommand, FailuresSayWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::sidewall_command_test

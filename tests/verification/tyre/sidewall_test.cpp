@@ -17,7 +17,7 @@
 #include "tyre/sidewall_direct.h"
 #include "tyre/sidewall_table.h"
 
-namespace furrow {
+namespace furrow::sidewall_test {
 namespace {
 
 SidewallParameters uniform(int segments, double length, double bending, double curvature) {
@@ -368,4 +368,4 @@ TEST(Sidewall, WorkAroundALoopIsThePressureTimesTheVolumeSwept) {
 }
 
 }  // namespace
-}  // namespace furrow
+}  // namespace furrow::sidewall_test
