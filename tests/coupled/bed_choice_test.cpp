@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "coupling/base/time_step_check.h"
 
-namespace furrow::coupling {
+namespace furrow::coupling::bed_choice_test {
 namespace {
 
 using testing::HasSubstr;
@@ -78,4 +78,4 @@ TEST(BedChoice, SaysWhatItNeeds) {
 }
 
 }  // namespace
-}  // namespace furrow::coupling
+}  // namespace furrow::coupling::bed_choice_test

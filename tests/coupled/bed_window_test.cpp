@@ -12,7 +12,7 @@
 #include "tests/coupled/support/snow.h"
 #include "tests/support/max_error.h"
 
-namespace furrow::test {
+namespace furrow::test::bed_window_test {
 namespace {
 
 constexpr double diameter = SandBed::diameter, length = SandBed::length, step = SandBed::step;
@@ -97,4 +97,4 @@ INSTANTIATE_TEST_SUITE_P(Beds, BedWindow,
                          [](const auto& entry) { return entry.index == 0 ? "sand" : "snow"; });
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::bed_window_test

@@ -10,7 +10,7 @@
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 
-namespace furrow::test {
+namespace furrow::test::brick_tyre_on_bed_test {
 namespace {
 
 constexpr double load = 1500.0, dt = 1e-5;  // [N], [s]
@@ -61,4 +61,4 @@ TEST(BrickTyreOnBed, KeepsMomentumOnGrainsInItsGrooves) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::brick_tyre_on_bed_test

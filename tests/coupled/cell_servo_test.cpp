@@ -13,7 +13,7 @@
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 
-namespace furrow::test {
+namespace furrow::test::cell_servo_test {
 namespace {
 
 constexpr double d = 0.01, E = 1e7, nu = 0.3, edge = 0.04;
@@ -79,4 +79,4 @@ TEST(CellServo, ReachesAndHoldsAStress) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::cell_servo_test

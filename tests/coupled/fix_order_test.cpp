@@ -9,7 +9,7 @@
 #include "tests/coupled/support/scene.h"
 #include "tests/support/error_of.h"
 
-namespace furrow::test {
+namespace furrow::test::fix_order_test {
 namespace {
 
 using test::error_of;
@@ -82,4 +82,4 @@ TEST(FixOrder, LaterBodiesMayStandBehindMeshes) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::fix_order_test

@@ -8,7 +8,7 @@
 #include "coupling/output/gather_grains.h"
 #include "tests/coupled/support/scene.h"
 
-namespace furrow::test {
+namespace furrow::test::grain_virial_test {
 namespace {
 
 constexpr double radius = 0.01, density = 2000.0, gravity = 9.81;
@@ -66,4 +66,4 @@ TEST(GrainVirial, RunWithoutStepsHasNone) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::grain_virial_test

@@ -11,7 +11,7 @@
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 
-namespace furrow::test {
+namespace furrow::test::grain_work_test {
 namespace {
 
 constexpr double diameter = 0.01, density = 2600.0;  // [m], [kg/m3]
@@ -151,4 +151,4 @@ TEST(GrainWork, AgainstGravityIsTheWeightTimesTheHeight) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::grain_work_test

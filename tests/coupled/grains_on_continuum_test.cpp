@@ -14,7 +14,7 @@
 #include "tests/coupled/support/scene.h"
 #include "update.h"
 
-namespace furrow::test {
+namespace furrow::test::grains_on_continuum_test {
 namespace {
 
 constexpr double gravity = 9.81, side = 0.08, step = 1e-5;
@@ -100,4 +100,4 @@ TEST_P(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::grains_on_continuum_test

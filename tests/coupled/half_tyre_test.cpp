@@ -13,7 +13,7 @@
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 
-namespace furrow::test {
+namespace furrow::test::half_tyre_test {
 namespace {
 
 // 40 kPa: belts of 4 x 36 do not wrinkle, so that there is one shape of equilibrium and it is
@@ -138,4 +138,4 @@ TEST(HalfTyre, OutputsOfTheFloorAreThoseOfTheWholeTyre) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::half_tyre_test

@@ -15,7 +15,7 @@
 #include "tests/coupled/support/scene.h"
 #include "tests/support/max_error.h"
 
-namespace furrow::test {
+namespace furrow::test::hard_cases_test {
 namespace {
 
 struct Case {
@@ -181,4 +181,4 @@ TEST(HardCases, CohesiveColumnCollapses) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::hard_cases_test

@@ -13,7 +13,7 @@
 #include "tests/support/max_error.h"
 #include "update.h"
 
-namespace furrow::test {
+namespace furrow::test::hertz_on_facets_test {
 namespace {
 
 constexpr double young = 5e6, poisson = 0.3, radius = 0.004, overlap = 4e-6, side = 0.2,
@@ -143,4 +143,4 @@ INSTANTIATE_TEST_SUITE_P(Sheets, HertzOnFacets,
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::hertz_on_facets_test

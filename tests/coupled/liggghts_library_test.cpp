@@ -30,7 +30,7 @@
 #include "tests/coupled/support/scene.h"
 #include "universe.h"
 
-namespace furrow::test {
+namespace furrow::test::liggghts_library_test {
 namespace {
 
 using namespace coupling;
@@ -248,4 +248,4 @@ TEST(LiggghtsLibrary, FixesComputesAndVariablesAreMadeAsByTheScript) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::liggghts_library_test

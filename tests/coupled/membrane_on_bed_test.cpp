@@ -13,7 +13,7 @@
 #include "tests/support/max_error.h"
 #include "update.h"
 
-namespace furrow::test {
+namespace furrow::test::membrane_on_bed_test {
 namespace {
 
 constexpr double gravity = 9.81, side = 0.08;
@@ -118,4 +118,4 @@ TEST(MembraneOnBed, BouncingKeepsTheEnergyBalanceOver1e5Steps) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::membrane_on_bed_test

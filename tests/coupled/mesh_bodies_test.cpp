@@ -12,7 +12,7 @@
 #include "tests/coupled/support/scene.h"
 #include "tests/support/meshes.h"
 
-namespace furrow::test {
+namespace furrow::test::mesh_bodies_test {
 namespace {
 
 constexpr double load = 40.0;  // [N]
@@ -155,4 +155,4 @@ TEST(PlateMesh, OfTwelveFacetsHasTheForcesOfThePlateOnGrains) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::mesh_bodies_test

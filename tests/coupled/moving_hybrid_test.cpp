@@ -14,7 +14,7 @@
 #include "tests/coupled/support/sand.h"
 #include "tests/support/max_error.h"
 
-namespace furrow::test {
+namespace furrow::test::moving_hybrid_test {
 namespace {
 
 constexpr double length = SandBed::length, step = SandBed::step, gravity = SandBed::gravity,
@@ -118,4 +118,4 @@ TEST_P(MovingHybrid, RenewedGroundAndGrainsFitWithoutAJolt) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::moving_hybrid_test

@@ -18,7 +18,7 @@
 
 #include "coupling/liggghts/style_registry.h"
 
-namespace furrow::test {
+namespace furrow::test::pages_test {
 namespace {
 
 using namespace coupling;
@@ -83,7 +83,7 @@ std::vector<Row> table(const std::string& page, const Row& head) {
 std::string range_of(const Key& key) {
   if (!key.choices.empty()) return fmt::format("`{}`", fmt::join(key.choices, "`, `"));
   if (key.kind == Key::Kind::text) return "";
-  const bool any = key.range.text() == Range::any().text();
+  const bool any = key.range.text() == furrow::Range::any().text();
   const std::string limits = any ? "" : key.range.text();
   if (key.kind == Key::Kind::integer) return any ? "integer" : "integer " + limits;
   if (key.kind == Key::Kind::number) return limits;
@@ -242,4 +242,4 @@ TEST(Styles, ErrorsNameTheStylesOfAKind) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::pages_test

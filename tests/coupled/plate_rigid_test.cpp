@@ -11,7 +11,7 @@
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 
-namespace furrow::test {
+namespace furrow::test::plate_rigid_test {
 namespace {
 
 TEST(PlateRigid, GivesSinkageForceAndPressureOfAHeldGrain) {
@@ -63,4 +63,4 @@ TEST(PlateRigid, HoldsItsLoadOnAHeldGrain) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::plate_rigid_test

@@ -11,7 +11,7 @@
 #include "io/history_file.h"
 #include "tests/coupled/support/scene.h"
 
-namespace furrow::test {
+namespace furrow::test::rescue_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -57,4 +57,4 @@ TEST(Rescue, SavesRowsUnlessTheMainThreadUsesThem) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::rescue_test

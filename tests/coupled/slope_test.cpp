@@ -14,7 +14,7 @@
 #include "statistics/history.h"
 #include "tests/coupled/support/scene.h"
 
-namespace furrow::test {
+namespace furrow::test::slope_test {
 namespace {
 
 constexpr double gravity = 9.80665, step = 5e-5;   // [m/s^2], [s]
@@ -94,4 +94,4 @@ TEST(Slope, GrainContinuumAndWheelFollowTheirTurnedWeight) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::slope_test

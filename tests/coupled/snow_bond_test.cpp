@@ -13,7 +13,7 @@
 #include "tests/coupled/support/scene.h"
 #include "tests/coupled/support/snow.h"
 
-namespace furrow::test {
+namespace furrow::test::snow_bond_test {
 namespace {
 
 constexpr double dt = 1e-5, density = 340.0;
@@ -277,4 +277,4 @@ TEST(SnowBondModel, TheEnergyOfLumpsThatCollideIsAccountedFor) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::snow_bond_test

@@ -15,7 +15,7 @@
 #include "tests/coupled/support/snow.h"
 #include "tests/support/max_error.h"
 
-namespace furrow::test {
+namespace furrow::test::snow_hard_cases_test {
 namespace {
 
 constexpr double gravity = 9.81, density = 340.0, diameter = 0.02;  // [m/s^2], [kg/m^3], [m]
@@ -193,4 +193,4 @@ TEST(SnowHardCases, AWheelThatSpins) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::snow_hard_cases_test

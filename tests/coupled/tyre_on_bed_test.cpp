@@ -15,7 +15,7 @@
 #include "tests/support/max_error.h"
 #include "update.h"
 
-namespace furrow::test {
+namespace furrow::test::tyre_on_bed_test {
 namespace {
 
 constexpr const char* hertz = "model hertz tangential history";
@@ -106,4 +106,4 @@ TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::tyre_on_bed_test

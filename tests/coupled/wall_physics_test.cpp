@@ -13,7 +13,7 @@
 #include "tests/support/max_error.h"
 #include "update.h"
 
-namespace furrow::test {
+namespace furrow::test::wall_physics_test {
 namespace {
 
 constexpr double gravity = 9.81, momentum_limit = 1e-10;
@@ -214,4 +214,4 @@ TEST(WallPhysics, WorkOnAGrainIsItsEnergy) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::wall_physics_test

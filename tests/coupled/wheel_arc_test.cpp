@@ -15,7 +15,7 @@
 #include "tests/coupled/support/scene.h"
 #include "update.h"
 
-namespace furrow::test {
+namespace furrow::test::wheel_arc_test {
 namespace {
 
 constexpr double radius = 0.05, width = 0.05, slip = 0.3, speed = 0.3;
@@ -104,4 +104,4 @@ TEST(WheelArc, SumsToForceAndTorqueOnGrains) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::wheel_arc_test

@@ -16,7 +16,7 @@
 #include "tests/support/max_error.h"
 #include "update.h"
 
-namespace furrow::test {
+namespace furrow::test::wheel_on_bed_test {
 namespace {
 
 constexpr const char* hertz = "model hertz tangential history";
@@ -145,4 +145,4 @@ TEST(WheelOnBed, CarriesItsLoadAndKeepsMomentumAndEnergy) {
 }
 
 }  // namespace
-}  // namespace furrow::test
+}  // namespace furrow::test::wheel_on_bed_test
