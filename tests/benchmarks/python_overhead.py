@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cost of Python: processor time of steps that Python takes one by one, over that of steps in one call.
 

@@ -123,7 +123,7 @@ TEST(Brick8, ForcesAreTheGradientOfTheEnergyAndBalance) {
     const double scale = forces.cwiseAbs().maxCoeff();
     for (Eigen::Index i = 0; i < model.x.size(); ++i) {
       const double h = 1e-5, start = model.x.data()[i];
-      const auto energy = [&](double at) {
+      const auto energy = [&, &model = model](double at) {
         model.x.data()[i] = start + at;
         model.forces();
         return model.mesh.energy();

@@ -66,7 +66,7 @@ class PlanTest(unittest.TestCase):
         made = planned([*rows, other], 0.12, 0.02)
         self.assertTrue(made.reached)
         self.assertTrue(all("another packing" in step.action for step in made.steps), made.steps)
-        unknown = "domain: a run like g0.08 on a wider and longer ground (0 s)"
+        unknown = "domain: a run like g0.08 on a wider and longer ground (0.06 s)"
         self.assertEqual(made.unknown, [unknown])
 
     def test_nothing_is_planned_where_the_goal_is_reached(self) -> None:

@@ -225,7 +225,7 @@ class ChoiceTest(unittest.TestCase):
                 self.assertTrue(measured_choice.measurement(read_comments(table)))
                 chosen = measured_choice.recommend(measured_choice.read_compared(table), error)
                 self.assertLessEqual(chosen.error, error)
-                self.assertEqual((chosen.wheel, chosen.options.split()[0]), (tyre, scene_of_it))
+                self.assertEqual((chosen.kind, chosen.options.split()[0]), (tyre, scene_of_it))
 
     def test_a_peak_that_changes_with_the_mesh_is_no_small_error(self) -> None:
         rows = [{"largest_kPa": value} for value in (765.0, 612.0)]
