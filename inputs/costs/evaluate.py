@@ -80,10 +80,10 @@ def options_of(answer: Answer) -> str:
     raise ResultsError(f"{HERE}: no run of the cross-check has {answer.model} of {answer.label} mm")
 
 
-def model_errors() -> list[dict[str, str | float]]:
+def model_errors(answers: Sequence[Answer], reference: tuple[float, float]) -> list[dict[str, str | float]]:
     """Rows of errors_wheel_on_scm.csv. An error is the root sum square of three parts: the difference
     from the reference and both numerical errors."""
-    answers, (value, error) = hub_drops()
+    value, error = reference
     simple = {row["model"]: row["options"] for row in read_rows(HERE / "models.csv")}
     return [
         {
@@ -116,6 +116,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
         cost_table.write_table(output.path(f"{table}.csv"), rows, comments)
         assessed = cost.assess(rows, cost_table.wanted_wheel(comments))
         print(f"{table}\n{cost.cost_report(assessed, 0.1)}\n")
-    write_rows(output.path(MODELS), model_errors(), MODELS_HEAD)
-    draw_models(*hub_drops(), "hub drop", output.path("models.png"))
+    answers, reference = hub_drops()
+    write_rows(output.path(MODELS), model_errors(answers, reference), MODELS_HEAD)
+    draw_models(answers, reference, "hub drop", output.path("models.png"))
     return []

@@ -40,13 +40,13 @@ class CostsTest(unittest.TestCase):
                     self.assertEqual(parts.unknown, [])
 
     def test_a_formula_height_field_or_ground_is_chosen_by_its_error(self) -> None:
-        table = FOLDER / driver.MODELS
-        self.assertEqual(table.read_text(encoding="utf-8"), rows_text(driver.model_errors(), driver.MODELS_HEAD))
+        table, rows = FOLDER / driver.MODELS, driver.model_errors(*driver.hub_drops())
+        self.assertEqual(table.read_text(encoding="utf-8"), rows_text(rows, driver.MODELS_HEAD))
         for error, first in ((0.5, POST), (0.3, "wheel_continuum"), (0.01, "wheel_continuum")):
             with self.subTest(error=error):
                 words = choose(table, error).runs[0]
                 self.assertEqual(Path(words[0]).stem, first)
-        for row in driver.model_errors():
+        for row in rows:
             with self.subTest(run=row["run"], ground=row["ground"]):
                 scene = shlex.split(str(row["options"]))[0].replace("{inputs}", str(FOLDER.parent))
                 self.assertTrue(scene == POST or script_of(scene).is_file())
