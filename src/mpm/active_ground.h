@@ -12,14 +12,15 @@
 ///                     of both, gravity and what the faces of the grid give
 ///   neglected energy  kinetic energy of the tiles that fall asleep, since the start
 ///
-/// With the tolerance tau, the mean force F of the contacts, and their work W since the start:
-///   asleep  no body is near; stretching the tile by its mean displacement u in the period takes
-///           m c^2 u/L^2 <= tau F/10 (mass m, wave speed c, edge L); and the kinetic energy of the
-///           tiles that fall asleep at once is at most tau times the mean work in a period, so that
-///           the neglected energy stays below tau W
-///   awake   a body comes near, or the neglected force exceeds tau F: then the tiles with the
-///           largest shares awake
-/// A tile that woke without a body waits for twice as many periods each time.
+/// The tolerance tau allows a share of the mean force F of the contacts and of their work W since
+/// the start. A tile falls asleep under three conditions.
+///   - No body is near.
+///   - It hardly moves. Its mean displacement u in a period would stretch it by a force
+///     m c^2 u/L^2 of at most tau F/10. Here m is its mass, c the wave speed and L its edge.
+///   - It loses little energy. Tiles that fall asleep together lose at most tau times the mean
+///     work of a period. The neglected energy therefore stays below tau W.
+/// A tile wakes when a body comes near. When the neglected force exceeds tau F, the tiles with the
+/// largest shares wake. A tile that woke without a body waits for twice as many periods each time.
 ///
 /// For a body that is pressed by d into linearly elastic ground at rest, held nodes with forces f_i
 /// change its force P by sum f_i u_i/d (Betti), where u_i is what the nodes would move by if
