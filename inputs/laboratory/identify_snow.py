@@ -152,8 +152,8 @@ def run(parsed: argparse.Namespace) -> None:
         return
     rows = read_record(parsed.record)
     judged_rows = judged(rows)
-    with tempfile.TemporaryDirectory() as name:
-        points = Points(Tools.of(Path(__file__), parsed.build), Path(name))
+    tools = Tools.of(Path(__file__), parsed.build)
+    with tempfile.TemporaryDirectory() as name, Points(tools, Path(name)) as points:
         if parsed.command == "fit":
             material = fit(LAWS[parsed.law], rows, points)
             values = predicted(material.sections(), judged_rows, points)

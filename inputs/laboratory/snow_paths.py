@@ -10,7 +10,7 @@ import numpy as np
 from snow_record import STRAINS, TRIAXIAL_STRAIN, Row, Values
 
 from furrow_post.analyse.law_fit import NotComputed
-from furrow_post.analyse.point_curves import run_path
+from furrow_post.analyse.point_curves import PointPaths
 from furrow_post.arrays import Floats
 from furrow_post.study.launch import Tools
 
@@ -23,18 +23,19 @@ Evaluation = tuple[str, Callable[[Columns, Row], float]]  # a path, and a row's 
 Run = Callable[[str], Columns | None]  # a path on the law
 
 
-class Points:
+class Points(PointPaths):
     """Paths of furrow-point, in one folder."""
 
     def __init__(self, tools: Tools, folder: Path) -> None:
-        self.program, self.folder = tools.program("furrow-point"), folder
+        super().__init__(tools.program("furrow-point"))
+        self.folder = folder
 
     def run(self, sections: str, path: str) -> Columns | None:
         """Columns of point.csv; None where the law finds no state on the path."""
         material = self.folder / "material.yaml"
         material.write_text(f"title: snow\n{sections}", encoding="utf-8")
         try:
-            return run_path(material, path, self.program)
+            return self(material, path)
         except NotComputed:
             return None
 

@@ -173,8 +173,8 @@ def main() -> None:
     parsed = parser.parse_args()
     records = {ground: read_record(HERE / "records" / f"{ground}.csv") for ground in GROUNDS}
     clusters = {ground: of_clusters(record) for ground, record in records.items()}
-    with tempfile.TemporaryDirectory() as name:
-        points = Points(Tools.of(Path(__file__), parsed.build), Path(name))
+    tools = Tools.of(Path(__file__), parsed.build)
+    with tempfile.TemporaryDirectory() as name, Points(tools, Path(name)) as points:
         laws = {
             ground: of_law(ground, min(r.confinement for r in record if r.test == "shear"), points)
             for ground, record in records.items()

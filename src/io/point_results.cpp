@@ -192,6 +192,13 @@ std::string fit_description(const PointFit& fit) {
   return json.dump();
 }
 
+std::string channel_values(const Material& material, const PointHistory& history) {
+  nlohmann::ordered_json json;
+  for (const PointChannel& channel : point_channels(material))
+    json[channel.name] = column_of(channel, history);
+  return json.dump();
+}
+
 std::string fitted_material(const PointFit& fit, const MaterialSections& sections) {
   return nlohmann::json(material_file_text(fit.material.title + ", fitted: " + fit.title,
                                            fit.material.model, sections))

@@ -27,6 +27,8 @@ std::string run_report(const PointRun& run, const Material& material, const Poin
 /// Title, material, parameters and curves of a fit on one line of JSON, for `furrow-point curves`;
 /// an infinite bound and an empty cell are null.
 std::string fit_description(const PointFit& fit);
+/// Values of every channel on one line of JSON, for `furrow-point channels`; NaN is null.
+std::string channel_values(const Material& material, const PointHistory& history);
 /// The material file with fitted values, as a text of JSON.
 std::string fitted_material(const PointFit& fit, const MaterialSections& sections);
 

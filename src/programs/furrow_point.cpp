@@ -2,8 +2,10 @@
 /// furrow-point: drives one material point along a path, lists the laws, computes the curves of a
 /// fit. furrow-point fit: the fit, by furrow-post.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <optional>
@@ -76,17 +78,33 @@ std::string answer(const furrow::PointFit& fit, const std::string& line) {
   return fmt::format("{:.17g}", fmt::join(points, " "));
 }
 
-/// Parameter values on the input, curves on the output, until the input ends.
+/// A line of output for each line of the input, until it ends.
+void answer_lines(const std::function<std::string(const std::string&)>& answer) {
+  for (std::string line; std::getline(std::cin, line);) {
+    try {
+      std::cout << answer(line) << std::endl;
+    } catch (const furrow::Error& error) {
+      std::string text = error.what();
+      std::replace(text.begin(), text.end(), '\n', ' ');
+      std::cout << "error: " << text << std::endl;
+    }
+  }
+}
+
+/// Parameter values on the input, curves on the output.
 void curves(const std::string& input) {
   const furrow::PointFit fit = furrow::read_point_fit(input);
   std::cout << furrow::fit_description(fit) << std::endl;
-  for (std::string line; std::getline(std::cin, line);) {
-    try {
-      std::cout << answer(fit, line) << std::endl;
-    } catch (const furrow::Error& error) {
-      std::cout << "error: " << error.what() << std::endl;
-    }
-  }
+  answer_lines([&](const std::string& line) { return answer(fit, line); });
+}
+
+/// Names of run files on the input, channels along their paths on the output.
+void channels() {
+  answer_lines([](const std::string& file) {
+    const furrow::PointRun run = furrow::read_point_run(file);
+    const auto material = run.material.make();
+    return furrow::channel_values(*material, furrow::drive_point(*material, run.path));
+  });
 }
 
 void list_laws(const std::string& name) {
@@ -131,6 +149,9 @@ int main(int argc, char** argv) {
   for (CLI::App* command : {run_command, curves_command})
     command->add_option("file", input, "a YAML file; furrow-point paths lists its keys")
         ->required();
+  CLI::App* channels_command = app.add_subcommand(
+      "channels",
+      "channels along paths: one line of output for each file named by a line of input");
   CLI::App* laws_command =
       app.add_subcommand("laws", "list the laws with their keys, units, ranges and meanings");
   laws_command->add_option("name", law, "only this law");
@@ -139,8 +160,8 @@ int main(int argc, char** argv) {
   if (!fit)
     if (const auto status = furrow::parse_options(app, argc, argv)) return *status;
   if (!fit && app.get_subcommands().empty()) {
-    std::cerr
-        << "furrow-point: needs one of the commands run, fit, curves, laws or paths; see --help\n";
+    std::cerr << "furrow-point: needs one of the commands run, fit, curves, channels, laws or "
+                 "paths; see --help\n";
     return 1;
   }
 
@@ -148,6 +169,7 @@ int main(int argc, char** argv) {
     if (fit) furrow::become_furrow_post("fit-law", argc - 2, argv + 2);
     if (*run_command) run(input, output, !no_plot);
     if (*curves_command) curves(input);
+    if (*channels_command) channels();
     if (*laws_command) {
       if (!law.empty()) furrow::find_material_model(law);
       list_laws(law);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Paths of a law by furrow-point: one path, and the curves of a fit by one program that stays open."""
+"""Paths of a law and the curves of a fit, by one furrow-point that stays open."""
 
 import json
 import math
@@ -8,12 +8,11 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
 from ..arrays import Floats
-from ..csv_table import read_columns
 from ..errors import ResultsError
 from ..programs import find_program
 from ..study.furrow_cases import point_text
@@ -22,55 +21,18 @@ from .law_fit import Curve, NotComputed, Parameter
 PROGRAM = "furrow-point"
 
 
-def run_path(material: Path, path: str, program: Path | None = None) -> dict[str, Floats]:
-    """Columns of point.csv; path: its YAML mapping, "{type: ..., ...}".
+class _OpenPoint:
+    """furrow-point with a line of answer for each line of input."""
 
-    @raises NotComputed with what furrow-point says where the law finds no state on the path
-    """
-    with tempfile.TemporaryDirectory() as folder:
-        file, results = Path(folder) / "path.yaml", Path(folder) / "results"
-        file.write_text(point_text("path", material.resolve(), path), encoding="utf-8")
-        command = (program or find_program(PROGRAM), "run", file, "-o", results, "--no-plot")
-        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-        if done.returncode:
-            raise NotComputed(f"{material}: {' '.join(done.stderr.split())}")
-        return read_columns(results / "point.csv")
-
-
-class PointCurves:
-    """A fit's title, material, parameters and measured curves; call it with values for its curves."""
-
-    def __init__(self, file: Path) -> None:
-        """@raises ResultsError with what furrow-point refuses in the file"""
+    def __init__(self, *words: str | Path, program: Path | None = None) -> None:
         self._process = subprocess.Popen(
-            [find_program(PROGRAM), "curves", file],
+            [program or find_program(PROGRAM), *words],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             encoding="utf-8",
             errors="backslashreplace",
         )
-        try:
-            head = json.loads(self._line())
-        except BaseException:
-            self.close()
-            raise
-        self.title: str = head["title"]
-        self.material: str = head["material"]
-        self.law: str = head["law"]
-        self.warnings: list[str] = head["warnings"]
-        self.parameters = tuple(map(_parameter, head["parameters"]))
-        self.curves = tuple(map(_curve, head["curves"]))
-
-    def __call__(self, values: Floats) -> Sequence[Floats]:
-        """Each curve at its points. @raises NotComputed, ResultsError"""
-        whole = np.array(self._answer(_words(values)).split(), dtype=np.float64)
-        return np.split(whole, np.cumsum([len(curve.driven) for curve in self.curves])[:-1])
-
-    def material_file(self, values: Floats) -> str:
-        """The text of a material file with these values. @raises NotComputed, ResultsError"""
-        text: str = json.loads(self._answer(f"material {_words(values)}"))
-        return text
 
     def _answer(self, question: str) -> str:
         assert self._process.stdin
@@ -95,7 +57,7 @@ class PointCurves:
     def close(self) -> None:
         self._process.communicate()
 
-    def __enter__(self) -> "PointCurves":
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(
@@ -105,6 +67,56 @@ class PointCurves:
         trace: TracebackType | None,
     ) -> None:
         self.close()
+
+
+class PointPaths(_OpenPoint):
+    """Paths of materials; one program computes all of them."""
+
+    def __init__(self, program: Path | None = None) -> None:
+        super().__init__("channels", program=program)
+
+    def __call__(self, material: Path, path: str) -> dict[str, Floats]:
+        """Columns of point.csv; path: its YAML mapping, "{type: ..., ...}".
+
+        @raises NotComputed with the message of furrow-point where the law finds no state on the path
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "path.yaml"
+            file.write_text(point_text("path", material.resolve(), path), encoding="utf-8")
+            try:
+                channels = json.loads(self._answer(str(file)))
+            except NotComputed as error:
+                raise NotComputed(f"{material}: {error}") from error
+        return {name: np.array(values, dtype=np.float64) for name, values in channels.items()}
+
+
+class PointCurves(_OpenPoint):
+    """A fit's title, material, parameters and measured curves; call it with values for its curves."""
+
+    def __init__(self, file: Path) -> None:
+        """@raises ResultsError with what furrow-point refuses in the file"""
+        super().__init__("curves", file)
+        try:
+            head = json.loads(self._line())
+        except BaseException:
+            self.close()
+            raise
+        self.title: str = head["title"]
+        self.material: str = head["material"]
+        self.law: str = head["law"]
+        self.warnings: list[str] = head["warnings"]
+        self.parameters = tuple(map(_parameter, head["parameters"]))
+        self.curves = tuple(map(_curve, head["curves"]))
+
+    def __call__(self, values: Floats) -> Sequence[Floats]:
+        """Each curve at its points. @raises NotComputed, ResultsError"""
+        whole = np.array(self._answer(_words(values)).split(), dtype=np.float64)
+        return np.split(whole, np.cumsum([len(curve.driven) for curve in self.curves])[:-1])
+
+    def material_file(self, values: Floats) -> str:
+        """The text of a material file with these values. @raises NotComputed, ResultsError"""
+        text: str = json.loads(self._answer(f"material {_words(values)}"))
+        return text
 
 
 def _words(values: Floats) -> str:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..analyse.point_curves import run_path
+from ..analyse.point_curves import PointPaths
 from ..analyse.statistics import rms
 from ..arrays import Floats
 from .make import Confined
@@ -14,7 +14,8 @@ from .make import Confined
 def confined_strain(material: Path, stresses: tuple[float, ...]) -> Floats:
     """Strain (a ratio) at these axial stresses [Pa]. @raises ResultsError where furrow-point stops"""
     path = f"{{type: confined, stress: {list(stresses)}, steps: 40}}"
-    columns = run_path(material, path)
+    with PointPaths() as paths:
+        columns = paths(material, path)
     strain: Floats = np.interp(
         stresses, columns["axial_stress"], -np.expm1(-columns["axial_strain"])
     )

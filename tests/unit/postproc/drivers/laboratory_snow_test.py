@@ -105,7 +105,8 @@ class RecordTest(FolderTest):
 
 class FitTest(FolderTest):
     def points(self) -> Points:
-        return Points(Tools.of(SOURCE / "inputs" / "laboratory" / "run.py"), self.folder)
+        tools = Tools.of(SOURCE / "inputs" / "laboratory" / "run.py")
+        return self.enterContext(Points(tools, self.folder))
 
     def test_finds_the_law_of_a_record(self) -> None:
         kinds = [
