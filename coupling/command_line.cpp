@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -106,6 +107,16 @@ CommandLine::Variable as_variable(const std::string& option,
   return {words[0], {words.begin() + 1, words.end()}};
 }
 
+/// Of two values LIGGGHTS would silently take the first.
+void add_variable(CommandLine& line, CommandLine::Variable variable) {
+  for (const CommandLine::Variable& other : line.variables)
+    if (other.name == variable.name)
+      refuse(fmt::format("has the variable '{}' twice, as '{}' and '{}'", variable.name,
+                         fmt::join(other.values, " "), fmt::join(variable.values, " ")),
+             "each variable once", "remove one of them");
+  line.variables.push_back(std::move(variable));
+}
+
 /// A script may also be a pipe.
 void check_script(const std::string& script) {
   const std::string where = fmt::format("script '{}'", script);
@@ -194,7 +205,7 @@ CommandLine read_command_line(const std::vector<std::string>& words) {
     if (meaning == "-in" && !line.script.empty()) refuse("has two scripts", "one -in");
     if (meaning == "-in") line.script = values[0];
     if (meaning == "-in" && values[0].empty()) refuse("has an empty argument after -in", "a path");
-    if (meaning == "-var") line.variables.push_back(as_variable(name, values));
+    if (meaning == "-var") add_variable(line, as_variable(name, values));
     if ((meaning == "-log" || meaning == "-screen") && values[0] != "none")
       line.written_files.push_back(values[0]);
   }

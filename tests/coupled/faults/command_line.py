@@ -35,6 +35,7 @@ CASES = [
     ("-in script.lig -var length EMPTY", 2, ["'length' with an empty value"]),
     ("-in script.lig -var x 1 -var lenght 3", 2,
      ["'lenght' that no line of 'script.lig' reads", "length, speed, angle, width", "did you mean 'length'?"]),
+    ("-in script.lig -var x 1 -var length 3 -var length 4", 2, ["the variable 'length' twice, as '3' and '4'"]),
     ("-in script.lig -var x 1 -var print 3", 2, ["'print' that no line"]),
     ("-in script.lig -log nowhere/log", 2, ["'nowhere/log' of -log or -screen cannot be written: No such file"]),
     ("-in script.lig -log .", 2, ["Is a directory"]),
