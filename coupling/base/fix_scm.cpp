@@ -5,13 +5,12 @@
 
 #include "coupling/liggghts/script.h"
 #include "io/heightmap_file.h"
-#include "io/soil_card_file.h"
 
 namespace furrow::coupling {
 
 namespace {
 
-std::map<std::string, double> card_of(const Options& options, const std::string& folder) {
+std::optional<SoilCard> card_of(const Options& options, const std::string& folder) {
   if (!options.given("card")) return {};
   return read_soil_card((std::filesystem::path(folder) / options.text("card")).string());
 }
@@ -38,7 +37,8 @@ const Outputs<FixScm>& FixScm::outputs() {
 
 FixScm::FixScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
     : FurrowFix(lammps, narg, arg, schema),
-      soil_(soil_from(options(), card_of(options(), script_folder(*lammps)))),
+      card_(card_of(options(), script_folder(*lammps))),
+      soil_(soil_from(options(), card_ ? card_->values : std::map<std::string, double>())),
       field_(field_of(options(), script_folder(*lammps)), options().subject()) {
   keep_state();
   provide(outputs());

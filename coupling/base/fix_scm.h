@@ -3,7 +3,10 @@
 /// Base of the fix whose ground is a height field, as the other jobs see it: contacts press on it,
 /// scm/history records it.
 
+#include <optional>
+
 #include "coupling/base/furrow_fix.h"
+#include "io/soil_card_file.h"
 #include "scm/height_field.h"
 #include "scm/soil.h"
 
@@ -15,6 +18,7 @@ class FixScm : public FurrowFix {
   HeightField& field() { return field_; }
   const HeightField& field() const { return field_; }
   const Soil& soil() const { return soil_; }
+  const std::optional<SoilCard>& card() const { return card_; }
 
  protected:
   FixScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema);
@@ -24,6 +28,7 @@ class FixScm : public FurrowFix {
   }
 
  private:
+  std::optional<SoilCard> card_;
   Soil soil_;
   HeightField field_;
 };

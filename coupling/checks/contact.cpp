@@ -359,6 +359,25 @@ Found sides_on_a_field_carry_little(const Scene&, FixContactScm& contact) {
       finding, small_side_force));
 }
 
+Found card_reaches_the_sinkage(const Scene&, FixContactScm& contact) {
+  const std::optional<SoilCard>& card = contact.terrain_fix().card();
+  if (!card || contact.contact().step().sinkage <= card->deepest) return {};
+  return warning(
+      fmt::format("{}: '{}' sinks deeper than the plates of the soil card, {:.3g} m: the pressure "
+                  "is extrapolated; use terrain/continuum, or parameters from deeper plates",
+                  contact.options().subject(), contact.body_fix().id, card->deepest));
+}
+
+Found card_reaches_the_pressure(const Scene&, FixContactScm& contact) {
+  const std::optional<SoilCard>& card = contact.terrain_fix().card();
+  if (!card || contact.contact().step().pressure <= card->largest_pressure) return {};
+  return warning(
+      fmt::format("{}: '{}' presses harder than the plates of the soil card, {:.3g} Pa: the "
+                  "sinkage is extrapolated; use terrain/continuum, or parameters from plates under "
+                  "higher pressure",
+                  contact.options().subject(), contact.body_fix().id, card->largest_pressure));
+}
+
 /// A wheel may stand over an end of the ground, but not over its side.
 Found body_is_over_terrain(const Scene&, FixContactContinuum& contact) {
   const Pair pair = describe(contact);

@@ -132,6 +132,8 @@ constexpr Rule rules[] = {
     rule<body_stays_off_the_surface_mesh>(When::during_run),
     rule<body_stays_off_the_base>(When::during_run),
     rule<sides_on_a_field_carry_little>(When::during_run),
+    rule<card_reaches_the_sinkage>(When::during_run),
+    rule<card_reaches_the_pressure>(When::during_run),
 
     rule<grains_stay_in_the_box>(When::after_run),
 };

@@ -149,6 +149,9 @@ Found cells_of_the_field_show_the_body(const Scene& scene, FixContactScm& contac
 Found wheel_on_a_field_has_no_camber(const Scene& scene, FixContactScm& contact);
 /// During a run: does soil at the sides of a wheel push it along its axle?
 Found sides_on_a_field_carry_little(const Scene& scene, FixContactScm& contact);
+/// During a run: is the ground used where its card was tested?
+Found card_reaches_the_sinkage(const Scene& scene, FixContactScm& contact);
+Found card_reaches_the_pressure(const Scene& scene, FixContactScm& contact);
 Found body_is_over_terrain(const Scene& scene, FixContactContinuum& contact);
 Found cells_enter_grooves(const Scene& scene, FixContactContinuum& contact);
 Found turning_plate_has_whole_terrain(const Scene& scene, FixContactContinuum& contact);

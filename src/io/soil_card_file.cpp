@@ -19,9 +19,20 @@ double value_of(const YamlTree& entry, const std::string& name, const Range& ran
   return read_map(schema, entry, {"error", "unit"}).number("value");
 }
 
+/// The upper end of a range of the tests, or what there is without it.
+double largest_of(const YamlTree& part, const std::string& name, double without) {
+  const YamlTree* const range = part.find(name);
+  if (!range) return without;
+  Entry entry{name, {}, range->origin};
+  for (const YamlTree& end : range->items) entry.values.push_back(end.text);
+  Schema schema("soil card");
+  schema.numbers(name, 2, "", Range::non_negative(), "range of the tests");
+  return schema.read(std::vector<Entry>{entry}).numbers(name)[1];
+}
+
 }  // namespace
 
-std::map<std::string, double> read_soil_card(const std::string& path) {
+SoilCard read_soil_card(const std::string& path) {
   const YamlTree card = read_yaml(path);
   const YamlTree& plate = card.map("pressure_sinkage", what_a_card_is);
   const YamlTree& shear = card.map("shear", what_a_card_is);
@@ -31,7 +42,10 @@ std::map<std::string, double> read_soil_card(const std::string& path) {
                        fmt::format("has no values, because the test failed: {}", failed->text),
                        "a card with the values of plates and ring",
                        "take another card, or give k_phi, n, c, phi and K by hand");
-  std::map<std::string, double> values;
+  SoilCard found;
+  std::map<std::string, double>& values = found.values;
+  found.deepest = largest_of(plate, "sinkage", found.deepest);
+  found.largest_pressure = largest_of(plate, "pressure", found.largest_pressure);
   for (const char* name : {"k_c", "k_phi"})
     values[name] = value_of(plate.map(name, what_a_card_is), name, Range::any());
   values["n"] = value_of(plate.map("n", what_a_card_is), "n", Range::positive());
@@ -44,7 +58,7 @@ std::map<std::string, double> read_soil_card(const std::string& path) {
     const std::vector<Entry> entry = {{"stiffness", {stiffness->text}, stiffness->origin}};
     values["stiffness"] = schema.read(entry).number("stiffness");
   }
-  return values;
+  return found;
 }
 
 }  // namespace furrow

@@ -2,13 +2,21 @@
 #pragma once
 /// Soil cards, as furrow-soil card writes them: parameters of the soil contact model.
 
+#include <limits>
 #include <map>
 #include <string>
 
 namespace furrow {
 
-/// By the names k_c, k_phi, n, c, phi [degrees], K and stiffness; SI units.
+struct SoilCard {
+  /// By the names k_c, k_phi, n, c, phi [degrees], K and stiffness; SI units.
+  std::map<std::string, double> values;
+  // where the plates were tested; without limits where the card has none
+  double deepest = std::numeric_limits<double>::infinity();           ///< sinkage [m]
+  double largest_pressure = std::numeric_limits<double>::infinity();  ///< [Pa]
+};
+
 /// @throws InputError naming file and line
-std::map<std::string, double> read_soil_card(const std::string& path);
+SoilCard read_soil_card(const std::string& path);
 
 }  // namespace furrow

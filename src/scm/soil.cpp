@@ -17,7 +17,9 @@ constexpr double least_angle = 2.0, largest_angle = 60.0;  // degrees
 const Range exponents{0.0, 3.0, true, false};
 // Soils of [Wong2008] and snow, by a wide margin: c to 7e4 Pa, K to 0.04 m
 const Range cohesions = Range::closed(0.0, 5e5), shear_lengths{0.0, 0.3, true, false};
-constexpr double least_cohesion = 20.0;  // [Pa]
+constexpr double least_cohesion = 20.0;      // [Pa]
+constexpr double no_cohesion = 1e-6;         // [Pa] a fit gives this for 0
+constexpr double least_shear_length = 1e-3;  // [m]; soils of [Wong2008] have 5 mm and more
 // Bekker's pressure at this sinkage under a contact of this width [m]: snow has 2 kPa, heavy clay
 // 1.1 MPa [Wong2008]; 10 times less and more
 constexpr double usual_sinkage = 0.05, usual_width = 0.1;
@@ -153,10 +155,17 @@ void check(const Soil& soil, const std::string& where) {
 }
 
 std::vector<std::string> doubts(const Soil& soil) {
-  if (soil.cohesion == 0.0 || soil.cohesion >= least_cohesion) return {};
-  return {
-      fmt::format("the cohesion c is {:g} Pa; soils have 0, or {:g} Pa and more; give Pa, not kPa",
-                  soil.cohesion, least_cohesion)};
+  std::vector<std::string> found;
+  if (soil.cohesion > no_cohesion && soil.cohesion < least_cohesion)
+    found.push_back(fmt::format(
+        "the cohesion c is {:g} Pa; soils have 0, or {:g} Pa and more; give Pa, not kPa",
+        soil.cohesion, least_cohesion));
+  if (soil.shear_length < least_shear_length)
+    found.push_back(
+        fmt::format("the shear displacement K is {:.2g} m; soils have 0.005 to 0.025 m: the "
+                    "traction at small slips is too large; give a measured 'K' in m",
+                    soil.shear_length));
+  return found;
 }
 
 }  // namespace furrow

@@ -3,6 +3,8 @@
 
 #include "io/soil_card_file.h"
 
+#include <cmath>
+#include <map>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -25,6 +27,7 @@ pressure_sinkage:
   k_phi: {value: 1950915.0, error: 700.0, unit: N/m^(n+2)}
   n: {value: 1.23, error: 0.066}
   sinkage: [0.0016, 0.06]
+  pressure: [6557.15, 90408.6]
 shear:
   c: {value: 3695.0, error: 134.0, unit: Pa}
   phi: {value: 29.7, error: 0.6, unit: degree}
@@ -47,7 +50,7 @@ class SoilCardFile : public ::testing::Test {
 };
 
 TEST_F(SoilCardFile, GivesTheParametersOfTheSoil) {
-  const auto values = read_soil_card(written());
+  const std::map<std::string, double> values = read_soil_card(written()).values;
   EXPECT_EQ(values.at("k_c"), -5628.0);
   EXPECT_EQ(values.at("k_phi"), 1950915.0);
   EXPECT_EQ(values.at("n"), 1.23);
@@ -57,13 +60,21 @@ TEST_F(SoilCardFile, GivesTheParametersOfTheSoil) {
   EXPECT_EQ(values.at("stiffness"), 1.8e8);
 }
 
+TEST_F(SoilCardFile, GivesTheRangeOfThePlates) {
+  const SoilCard found = read_soil_card(written());
+  EXPECT_EQ(found.deepest, 0.06);
+  EXPECT_EQ(found.largest_pressure, 90408.6);
+  EXPECT_TRUE(std::isinf(read_soil_card(written("  sinkage: [0.0016, 0.06]\n", "")).deepest));
+  EXPECT_THAT(refusal("[0.0016, 0.06]", "[0.0016, deep]"), HasSubstr("card.yaml, line 9"));
+}
+
 TEST_F(SoilCardFile, RefusalsNameFileLineAndKey) {
   EXPECT_THAT(refusal("shear:", "sheer:"), HasSubstr("shear"));
   EXPECT_THAT(refusal("{value: 29.7, error: 0.6, unit: degree}", "29.7"), HasSubstr("phi"));
   EXPECT_THAT(refusal("value: 1.23", "value: -1"), HasSubstr("card.yaml, line 8"));
   EXPECT_THAT(
       refusal("  c: {value: 3695.0, error: 134.0, unit: Pa}", "  failed: the ring sank through"),
-      HasSubstr("card.yaml, line 11 has no values, because the test failed: the ring sank"));
+      HasSubstr("card.yaml, line 12 has no values, because the test failed: the ring sank"));
   EXPECT_THAT(refusal("stiffness: 1.8e8", "stiffness: soft"), HasSubstr("stiffness"));
 }
 
