@@ -76,7 +76,7 @@ struct GivenGravity {
   Vector3 vector;  // [m/s^2]
 };
 
-/// Of a rig only where it makes a force of a mass, or a mass of a force.
+/// Of a rig only where it is written, makes a force of a mass, or a mass of a force.
 std::vector<GivenGravity> gravities(const Scene& scene) {
   const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
   std::vector<GivenGravity> given;
@@ -92,7 +92,9 @@ std::vector<GivenGravity> gravities(const Scene& scene) {
     }
   for (const auto* rig : fixes_of<const FixWheelRig>(modify)) {
     const Options& options = rig->options();
-    if (options.given("load_mass") || options.text("travel") == "free")
+    if (options.given("gravity") || options.given("load_mass") ||
+        options.has("suspension_stiffness") || options.text("travel") == "free" ||
+        options.text("lateral") == "free")
       given.push_back({options.where("gravity"), {0.0, 0.0, -options.number("gravity")}});
   }
   return given;
