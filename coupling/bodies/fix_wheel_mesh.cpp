@@ -2,6 +2,7 @@
 #include "coupling/bodies/fix_wheel_mesh.h"
 
 #include "coupling/bodies/mesh_of_file.h"
+#include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 
 namespace furrow::coupling {
@@ -26,7 +27,10 @@ const Outputs<FixWheelMesh>& FixWheelMesh::outputs() {
 
 FixWheelMesh::FixWheelMesh(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixWheelHub(lammps, narg, arg, schema(), [lammps](const Options& options) {
-        return make_mesh_wheel(options, mesh_of_file(*lammps, options));
+        std::vector<std::string> doubts;
+        auto wheel = make_mesh_wheel(options, mesh_of_file(*lammps, options), doubts);
+        for (const std::string& doubt : doubts) warn(*lammps, doubt);
+        return wheel;
       }) {
   provide(outputs());
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
@@ -17,7 +18,8 @@ constexpr double smallest_mesh = 1e-3, largest_mesh = 5.0;  // [m], of wheels an
 // Of a wheel: distance of the centre of mass from the axle over the radius, and difference of the
 // moments of inertia across the axle over that about it.
 constexpr double largest_offset = 0.02, largest_difference = 0.1;
-constexpr double noise = 1e-6;  // of coordinates and directions in messages
+const Range densities = Range::closed(10.0, 25000.0);  // [kg/m^3] from foam to tungsten
+constexpr double noise = 1e-6;                         // of coordinates and directions in messages
 
 /// @param axis the key's meaning and default
 void declare_mesh(Schema& schema, const std::string& origin, const std::string& axis,
@@ -90,6 +92,7 @@ class MeshWheel {
   }
 
   const RigidWheelParameters& parameters() const { return wheel_; }
+  const std::vector<std::string>& doubts() const { return doubts_; }
 
  private:
   void set_inertia() {
@@ -101,7 +104,13 @@ class MeshWheel {
                        fmt::format("the volume of the mesh is {:.6g} m^3", volume));
     HubInertia& inertia = wheel_.hub.inertia;
     inertia.mass = has_mass ? options_.number("mass") : options_.number("density") * volume;
-    if (!has_mass || !options_.has("inertia")) check_balance();
+    const bool inertia_given = has_mass && options_.has("inertia");
+    if (const std::optional<InputError> fault =
+            imbalance(inertia_given ? ", unless the wheel shall run out of round"
+                                    : ", or give mass and inertia")) {
+      if (!inertia_given) throw *fault;
+      doubts_.push_back(fault->what());
+    }
     const double density = inertia.mass / volume;
     const Matrix3& of_mesh = of_unit_density_.inertia;
     inertia.axial = options_.has("inertia") ? options_.number("inertia") : density * of_mesh(1, 1);
@@ -110,29 +119,29 @@ class MeshWheel {
                             : 0.5 * inertia.axial * (of_mesh(0, 0) + of_mesh(2, 2)) / of_mesh(1, 1);
   }
 
-  /// A hub is a body of revolution with its centre of mass on the axle.
-  void check_balance() const {
-    const std::string remedy = ", or give mass and inertia";
+  /// A hub is a body of revolution with its centre of mass on the axle. @return what is not so
+  std::optional<InputError> imbalance(const std::string& otherwise) const {
     const Matrix3 to_file = attitude_of(options_, Vector3::UnitY()).transpose();
     const Vector3& centre = of_unit_density_.centre;
     if (const double offset = std::hypot(centre.x(), centre.z()); offset > largest_offset * reach_)
-      throw InputError(options_.where("origin"),
-                       fmt::format("puts the axle {:.4g} m from the centre of mass", offset),
-                       fmt::format("at most {:.4g} m, {:g} of the largest radius",
-                                   largest_offset * reach_, largest_offset),
-                       fmt::format("write 'origin {}'{}",
-                                   numbers(vector_from(options_, "origin") +
-                                               to_file * centre / options_.number("scale"),
-                                           noise * reach_ / options_.number("scale")),
-                                   remedy));
+      return InputError(options_.where("origin"),
+                        fmt::format("puts the axle {:.4g} m from the centre of mass", offset),
+                        fmt::format("at most {:.4g} m, {:g} of the largest radius",
+                                    largest_offset * reach_, largest_offset),
+                        fmt::format("write 'origin {}'{}",
+                                    numbers(vector_from(options_, "origin") +
+                                                to_file * centre / options_.number("scale"),
+                                            noise * reach_ / options_.number("scale")),
+                                    otherwise));
     const Matrix3& inertia = of_unit_density_.inertia;
-    if (std::abs(inertia(0, 0) - inertia(2, 2)) <= largest_difference * inertia(1, 1)) return;
-    throw InputError(
+    if (std::abs(inertia(0, 0) - inertia(2, 2)) <= largest_difference * inertia(1, 1)) return {};
+    return InputError(
         options_.where("axis"), "is no axis of revolution of the mesh",
         fmt::format("moments of inertia across the axle that differ by at most {:g} of that about "
                     "it",
                     largest_difference),
-        fmt::format("write 'axis {}'{}", numbers(to_file * axis_of_revolution(), noise), remedy));
+        fmt::format("write 'axis {}'{}", numbers(to_file * axis_of_revolution(), noise),
+                    otherwise));
   }
 
   /// The principal axis whose two others have the most equal moments.
@@ -153,6 +162,7 @@ class MeshWheel {
   MassProperties of_unit_density_;
   double reach_ = 0.0;  // [m] largest distance from the axle
   RigidWheelParameters wheel_;
+  std::vector<std::string> doubts_;
 };
 
 /// [m^2] horizontal projection of the facets that face down
@@ -184,8 +194,7 @@ Schema mesh_wheel_schema(const std::string& subject) {
       .integer("grousers", Range::closed(0, 1000),
                "number of equal sectors, such as grousers; averages cover whole sectors")
       .by_default("0");
-  schema
-      .number("density", "kg/m^3", Range::positive(), "gives the mass of the solid, without `mass`")
+  schema.number("density", "kg/m^3", densities, "gives the mass of the solid, without `mass`")
       .optional();
   schema.number("mass", "kg", Range::positive(), "mass of the wheel, without `density`").optional();
   schema
@@ -213,10 +222,13 @@ Schema mesh_plate_schema(const std::string& subject) {
   return schema;
 }
 
-std::unique_ptr<RigidWheel> make_mesh_wheel(const Options& options, SolidMesh mesh) {
+std::unique_ptr<RigidWheel> make_mesh_wheel(const Options& options, SolidMesh mesh,
+                                            std::vector<std::string>& doubts) {
   place(options, Vector3::UnitY(), mesh);
-  const RigidWheelParameters parameters = MeshWheel(options, mesh.surface).parameters();
-  return std::make_unique<RigidWheel>(parameters, std::move(mesh.surface), options.subject());
+  const MeshWheel wheel(options, mesh.surface);
+  doubts = wheel.doubts();
+  return std::make_unique<RigidWheel>(wheel.parameters(), std::move(mesh.surface),
+                                      options.subject());
 }
 
 std::unique_ptr<RigidPlate> make_mesh_plate(const Options& options, SolidMesh mesh) {

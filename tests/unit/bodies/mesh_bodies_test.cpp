@@ -36,7 +36,8 @@ Words operator+(Words words, const Words& more) {
 std::unique_ptr<RigidWheel> wheel_of(const Surface& surface, const Words& words) {
   const Options options =
       mesh_wheel_schema("fix wheel/mesh").read(Words{"file", "wheel.stl"} + words);
-  return make_mesh_wheel(options, solid(surface, "wheel.stl"));
+  std::vector<std::string> doubts;
+  return make_mesh_wheel(options, solid(surface, "wheel.stl"), doubts);
 }
 
 std::string refusal(const Surface& surface, const Words& words) {
