@@ -53,7 +53,7 @@ FMI_EXPORTED void fmi2FreeInstance(fmi2Component component) {
 
 FMI_EXPORTED fmi2Status fmi2SetDebugLogging(fmi2Component, fmi2Boolean, std::size_t,
                                             const fmi2String[]) {
-  return fmi2OK;  // errors are always logged, and nothing else is
+  return fmi2OK;  // errors and warnings are always logged, and nothing else is
 }
 
 FMI_EXPORTED fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean, fmi2Real,

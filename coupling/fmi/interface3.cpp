@@ -68,7 +68,7 @@ extern "C" {
 FMI_EXPORTED const char* fmi3GetVersion() { return "3.0"; }
 
 FMI_EXPORTED fmi2Status fmi3SetDebugLogging(void*, bool, std::size_t, const fmi2String[]) {
-  return fmi2OK;  // errors are always logged, and nothing else is
+  return fmi2OK;  // errors and warnings are always logged, and nothing else is
 }
 
 FMI_EXPORTED void* fmi3InstantiateCoSimulation(fmi2String name, fmi2String token,

@@ -43,6 +43,8 @@ class OneWheel {
   /// Whether state() is that from which this wheel began, so that steps from there have the same
   /// bits. Neighbour lists of grains differ after a step.
   bool begins_at_state() const;
+  /// What Furrow has warned of since the last call.
+  std::vector<std::string> take_warnings() { return session_->take_warnings(); }
 
  private:
   WheelHub& hub() const;

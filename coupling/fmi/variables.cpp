@@ -159,6 +159,7 @@ std::string describe(const Contents& contents, const std::string& name, int vers
 {units}  <LogCategories>
     <Category name="logStatusError"/>
     <Category name="logStatusDiscard"/>
+    <Category name="logStatusWarning"/>
   </LogCategories>
   <ModelVariables>
 {variables}  </ModelVariables>

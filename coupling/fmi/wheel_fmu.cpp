@@ -85,7 +85,16 @@ void WheelFmu::log(fmi2Status status, const std::string& message) const {
   std::string text;
   for (const char c : message) text += c == '%' ? "%%" : std::string(1, c);
   callbacks_.logger(callbacks_.componentEnvironment, name_.c_str(), status,
-                    status == fmi2Discard ? "logStatusDiscard" : "logStatusError", text.c_str());
+                    status == fmi2Discard   ? "logStatusDiscard"
+                    : status == fmi2Warning ? "logStatusWarning"
+                                            : "logStatusError",
+                    text.c_str());
+}
+
+/// A script that is opened again for a state repeats its warnings.
+void WheelFmu::log_warnings() {
+  for (const std::string& text : wheel_->take_warnings())
+    if (warned_.insert(text).second) log(fmi2Warning, text);
 }
 
 void WheelFmu::need(std::initializer_list<Phase> allowed) const {
@@ -111,6 +120,7 @@ void WheelFmu::open(const OneWheel::State* state) {
     given.push_back({contents_.variables[i].name, values_.strings[first_script_variable + i]});
   const std::string path = (std::filesystem::path(resources_) / values_.strings[script]).string();
   wheel_ = std::make_unique<OneWheel>(path, given, values_.strings[fmi::log], state);
+  log_warnings();
 }
 
 void WheelFmu::exit_initialization() {
@@ -126,6 +136,7 @@ fmi2Status WheelFmu::step(double time, double length) {
     throw InputError("DoStep: currentCommunicationPoint", fmt::format("is {} s", time),
                      fmt::format("{} s, the end of the step before", time_));
   const double done = wheel_->advance(length, values_);
+  log_warnings();
   time_ = time + done;
   if (done == length) return fmi2OK;
   phase_ = Phase::discarded;

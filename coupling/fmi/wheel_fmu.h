@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,7 @@ class WheelFmu {
   void open(const OneWheel::State* state);
   void need_closed(const std::string& parameter) const;
   Values start_values() const;
+  void log_warnings();
 
   std::string name_, resources_;
   fmi2CallbackFunctions callbacks_;
@@ -64,6 +66,7 @@ class WheelFmu {
   Values values_;
   double time_ = 0.0;
   std::unique_ptr<OneWheel> wheel_;
+  std::set<std::string> warned_;
 };
 
 /// @return the bytes of a snapshot, and back. @throws Error for other bytes

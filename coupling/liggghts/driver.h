@@ -2,6 +2,8 @@
 #pragma once
 /// Where a program gets its turn that runs LIGGGHTS in its own process, such as Python.
 
+#include <string>
+
 #include "lammps.h"
 
 namespace furrow::coupling {
@@ -14,6 +16,8 @@ class Driver {
   virtual void before_step(LAMMPS_NS::LAMMPS& lammps) = 0;
   /// Before each command of a script. @return whether the command is left out
   virtual bool before_command(LAMMPS_NS::LAMMPS& lammps) = 0;
+  /// A warning of Furrow, on the first rank.
+  virtual void warned(const std::string& text) = 0;
 };
 
 /// The driver of the LIGGGHTS instance that runs now; null for the executable. Not owned.

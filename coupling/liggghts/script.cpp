@@ -12,6 +12,7 @@
 #include "comm.h"
 #include "core/error.h"
 #include "coupling/liggghts/access.h"
+#include "coupling/liggghts/driver.h"
 #include "coupling/liggghts/first_rank.h"
 #include "input.h"
 #include "modify.h"
@@ -136,6 +137,7 @@ void announce(LAMMPS_NS::LAMMPS& lammps, const std::string& text) {
 
 void warn(LAMMPS_NS::LAMMPS& lammps, const std::string& text) {
   announce(lammps, "WARNING: " + text);
+  if (driver() && lammps.comm->me == 0) driver()->warned(text);
 }
 
 }  // namespace furrow::coupling

@@ -42,7 +42,7 @@ std::optional<std::string> variable(LAMMPS_NS::LAMMPS& lammps, std::string name)
 
 /// Prints a line to screen and log, on rank 0.
 void announce(LAMMPS_NS::LAMMPS& lammps, const std::string& text);
-/// The same with "WARNING: " before it.
+/// The same with "WARNING: " before it; also to the driver.
 void warn(LAMMPS_NS::LAMMPS& lammps, const std::string& text);
 
 }  // namespace furrow::coupling

@@ -80,6 +80,12 @@ void add_stream(std::vector<std::string>& arguments, const char* option, const p
   arguments.push_back(none ? "none" : std::string(py::str(target)));
 }
 
+/// As warnings of Python, where its caller stands. @throws error_already_set if they are errors
+void show_warnings(Session& session) {
+  for (const std::string& text : session.take_warnings())
+    if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 SessionPointer open(const py::object& script, const py::dict& variables, const py::object& log,
                     const py::object& screen, const py::object& communicator) {
   start_mpi();
@@ -96,8 +102,13 @@ SessionPointer open(const py::object& script, const py::dict& variables, const p
     else
       arguments.push_back(py::str(value));
   }
-  const py::gil_scoped_release others;
-  return std::make_shared<Session>(arguments, temporary, ranks, python_is_interrupted);
+  const auto make = [&] {
+    const py::gil_scoped_release others;
+    return std::make_shared<Session>(arguments, temporary, ranks, python_is_interrupted);
+  };
+  SessionPointer session = make();
+  show_warnings(*session);
+  return session;
 }
 
 long advance(Session& session, long count) {
@@ -108,7 +119,18 @@ long advance(Session& session, long count) {
     done = session.step(count);
   }
   if (PyErr_Occurred()) throw py::error_already_set();
+  show_warnings(session);
   return done;
+}
+
+/// Runs what ends a session.
+template <void (Session::*action)()>
+void finish(Session& session) {
+  {
+    const py::gil_scoped_release others;
+    (session.*action)();
+  }
+  show_warnings(session);
 }
 
 template <class FixClass, class PartClass>
@@ -244,14 +266,14 @@ PYBIND11_MODULE(furrow, module) {
           "run",
           [](Session& session) { return advance(session, std::numeric_limits<long>::max()); },
           "Runs to the end of the script. Returns the number of steps.")
-      .def("end", &Session::end, py::call_guard<py::gil_scoped_release>(),
+      .def("end", &finish<&Session::end>,
            "Ends the run after its next step, writes its results, and skips the rest.")
       .def("write_checkpoint", &Session::write_checkpoint, py::arg("path"),
            "Of the present step, for read_restart.")
-      .def("close", &Session::close, py::call_guard<py::gil_scoped_release>(),
+      .def("close", &finish<&Session::close>,
            "Ends the run and frees the simulation, with the last of its arrays.")
       .def("__enter__", [](const SessionPointer& session) { return session; })
-      .def("__exit__", [](Session& session, const py::args&) { session.close(); })
+      .def("__exit__", [](Session& session, const py::args&) { finish<&Session::close>(session); })
       .def_property_readonly("ended", &Session::ended, "Whether the script is at its end.")
       .def_property_readonly("time", &Session::time, "Of the scene [s].")
       .def_property_readonly("step_number", &Session::step_number, "Of LIGGGHTS.")

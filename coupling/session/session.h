@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <mpi.h>
@@ -58,6 +59,8 @@ class Session : private Driver {
   long step_number() const;  ///< of LIGGGHTS
   double time() const;       ///< of the scene [s]
   bool interrupted() const { return interrupted_now_; }
+  /// What Furrow has warned of since the last call, on the first rank.
+  std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
  private:
   void run_whole_script();
@@ -67,6 +70,7 @@ class Session : private Driver {
   void remove_temporary();
   void before_step(LAMMPS_NS::LAMMPS& lammps) override;
   bool before_command(LAMMPS_NS::LAMMPS& lammps) override;
+  void warned(const std::string& text) override { warnings_.push_back(text); }
 
   std::vector<std::string> arguments_;
   std::string temporary_;
@@ -76,6 +80,7 @@ class Session : private Driver {
   Coroutine script_;
   long left_ = 0, done_ = 0;  // steps of this call
   bool ending_ = false, interrupted_now_ = false;
+  std::vector<std::string> warnings_;
   double last_asked_ = 0.0;  // [s]
 };
 

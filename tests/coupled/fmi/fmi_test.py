@@ -141,6 +141,16 @@ class Results(Case):
         self.assertAlmostEqual(sum(forces) * 1e-3, 800.0 + gained, delta=2.0)
         self.assertEqual(by_load.get("hub_spin_rate"), 0.5)
 
+    def test_warnings_go_to_the_logger_once(self) -> None:
+        wheel = self.opened(cell="0.07")
+        advance(wheel, 0, 1)
+        state = wheel.get_state()
+        wheel.set_state(state)
+        advance(wheel, 1, 2)
+        wheel.free_state(state)
+        found = [text for text in wheel.messages if "3.6 cells across 'wheel'" in text]
+        self.assertEqual(len(found), 1, wheel.messages)
+
     def test_variables_have_units_and_references(self) -> None:
         units = {unit.attrib["name"] for unit in self.fmu.description.iter("Unit")}
         seen = set()

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -285,6 +286,17 @@ class Errors(Case):
         with opened(results="driven") as run:  # also in the folder of runs that failed
             run.run()
         self.assert_same("whole", "driven")
+
+    def test_warnings_are_those_of_python(self) -> None:
+        """The run ends before the wheel has its speed, and the cells are coarse."""
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            with opened(results="short", last=4) as run:
+                run.run()
+        texts = [str(each.message) for each in caught]
+        self.assertTrue(any("'wheel' has its speed from 0.05 s on" in text for text in texts), texts)
+        self.assertEqual({each.category for each in caught}, {UserWarning})
+        self.assertEqual(caught[0].filename, __file__)
 
     def test_wrong_arguments(self) -> None:
         with self.assertRaisesRegex(furrow.Error, "script 'absent.lig' cannot be read"):
