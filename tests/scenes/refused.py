@@ -49,6 +49,7 @@ REFUSED = (
     ([SCENE, "--error", ""], "--error needs a relative error"),
     (["plate_on_sand", "--error", "10%"], "errors of 'plate_on_sand' are not known"),
     ([SCENE, "--quick", "--error", "10%"], "give one of them"),
+    (["wheel_on_scm", "--error", "50%", "-o", "x", "--until-steady", "3%"], "has no -o, --until-steady; leave it out"),
     # 10 % against Table 6 is the other tyre's scene, which has sections and no mesh
     (["tyre_on_plane", "--error", "10%", "-v", "mesh", "4 36"], "no line reads 'mesh'"),
     ([SCENE, "--sweep"], "--sweep needs a variable and its values"),

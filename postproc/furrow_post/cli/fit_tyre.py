@@ -8,7 +8,7 @@ from pathlib import Path
 from ..analyse.tyre_estimate import Catalogue, hub_mass
 from ..analyse.tyre_fit import MEASURED, PlateTest, TyreFit, fit_tyre, press, read_tests
 from ..analyse.tyre_size import INCH, read_size
-from ..arguments import path, positive, words
+from ..arguments import number, path, positive, words
 from ..errors import ResultsError
 
 MILLIMETRES = {  # option -> meaning
@@ -24,9 +24,23 @@ CORRELATED = 0.8  # two parameters are reported together from this on
 USUAL_DEFLECTION = (0.12, 0.30)
 
 
+INFLATION = (10.0, 2000.0)  # [kPa] the lowest of tyres for soft ground is 20, 2000 is that of tyre files
+
+
+def inflation(text: str) -> float:
+    """A pressure of tyres [kPa]."""
+    pressure, (low, high) = number(text), INFLATION
+    if not low <= pressure <= high:
+        raise argparse.ArgumentTypeError(
+            f"{text} kPa is no pressure of a tyre, which is {low:g} to {high:g} kPa; give kPa: bar times 100, "
+            "psi times 6.895, Pa over 1000"
+        )
+    return pressure
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("size", type=words, help="235/75R15, 31x10.50R15, 16.00R20, 18.4R38, ...")
-    parser.add_argument("--pressure", type=positive, required=True, help="inflation [kPa]")
+    parser.add_argument("--pressure", type=inflation, required=True, help="inflation [kPa]")
     parser.add_argument(
         "--rim", type=positive, help="rim width [inch]; by default 0.7 of the width"
     )

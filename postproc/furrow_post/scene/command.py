@@ -168,11 +168,17 @@ def _run_chosen(request: Request, chosen: Chosen, table: Path) -> int:
 
 def _refuse_with_formula(options: argparse.Namespace) -> None:
     """@raises ResultsError"""
-    if options.given:
-        names = ", ".join(f"-v {name}" for name, _ in options.given)
+    of_runs = {
+        "-n": options.ranks > 1,
+        "-o": options.folder,
+        "--until-steady": options.until_steady,
+        "--checkpoint": options.checkpoint,
+    }
+    names = [f"-v {name}" for name, _ in options.given] + [name for name, given in of_runs.items() if given]
+    if names:
         raise ResultsError(
-            f"for an error of {100 * options.error:g} % the table takes a formula, which has no {names}; "
-            "leave it out, ask for a smaller error, or start 'furrow-post empirical'"
+            f"for an error of {100 * options.error:g} % the table takes a formula, which has no "
+            f"{', '.join(names)}; leave it out, ask for a smaller error, or start 'furrow-post empirical'"
         )
 
 

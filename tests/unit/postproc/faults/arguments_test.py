@@ -71,6 +71,8 @@ COMPARE = (
 
 # (words, what is said)
 OTHERS: tuple[tuple[list[str], str], ...] = (
+    (["fit-tyre", "235/75R15", "--pressure", "241000", "-o", "x"], "241000 kPa is no pressure of a tyre"),
+    (["fit-tyre", "235/75R15", "--pressure", "2.41", "-o", "x"], "give kPa: bar times 100"),
     (["no_such_command"], "invalid choice: 'no_such_command'"),
     ([], "the following arguments are required: command"),
     (["compare", "a"], "needs two results folders"),
