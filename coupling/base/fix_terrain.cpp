@@ -14,7 +14,7 @@ void FixTerrain::checkpoint(Checkpoint& state) {
   std::string set = set_being_written();
   state.value("files_of_ranks", set);
   const std::unique_ptr<RankFiles> files = rank_files(*lmp, set, id);
-  terrain().keep_particles_in(*files);
+  terrain().keep_values_in(*files);
   FixBody::checkpoint(state);
   close_rank_files(*lmp, *files);
 }

@@ -51,15 +51,6 @@ fs::path existing_folder(const std::string& name) {
   return folder;
 }
 
-/// @param what is kept, in so many bytes @param remedy makes it smaller
-Found fits_a_record(const std::string& name, const char* what, double bytes, const char* remedy) {
-  if (bytes <= longest_record) return {};
-  return refusal(name, fmt::format("keeps {} in {:.3g} GB of a checkpoint", what, bytes / gigabyte),
-                 fmt::format("at most {:.3g} GB, the longest record of a LIGGGHTS restart file",
-                             longest_record / gigabyte),
-                 fmt::format("{}, or remove the line 'restart'", remedy));
-}
-
 }  // namespace
 
 Found checkpoints_have_one_run(const Scene& scene) {
@@ -78,10 +69,8 @@ Found checkpoints_have_room(const Scene& scene) {
   if (names.empty()) return {};
   const Communicator ranks(&scene.lammps.world);
   double size = bytes_of_grains(scene.lammps);
-  for (const FixTerrain* terrain : fixes_of<FixTerrain>(*scene.lammps.modify)) {
-    const ContinuumTerrain::CheckpointSize its = terrain->terrain().checkpoint_size();
-    size += its.particles + its.nodes;
-  }
+  for (const FixTerrain* terrain : fixes_of<FixTerrain>(*scene.lammps.modify))
+    size += terrain->terrain().checkpoint_size();
   double free = -1.0, needed = 0.0;
   if (ranks.rank() == 0) {
     std::error_code unknown;
@@ -103,16 +92,15 @@ Found checkpoints_have_room(const Scene& scene) {
                   names[0]));
 }
 
-Found terrain_fits_a_record(const Scene& scene, const FixTerrain& terrain) {
-  if (checkpoint_names(scene.lammps).empty()) return {};
-  const double nodes = terrain.terrain().checkpoint_size().nodes;
-  return fits_a_record(terrain.name(), "its nodes", nodes, "choose larger cells");
-}
-
 Found bed_fits_a_record(const Scene& scene, const FixBedWindow& window) {
-  if (checkpoint_names(scene.lammps).empty()) return {};
-  const double grains = bytes_of_grains(scene.lammps);
-  return fits_a_record(window.name(), "the bed", grains, "choose a smaller bed");
+  const double grains =
+      checkpoint_names(scene.lammps).empty() ? 0.0 : bytes_of_grains(scene.lammps);
+  if (grains <= longest_record) return {};
+  return refusal(window.name(),
+                 fmt::format("keeps the bed in {:.3g} GB of a checkpoint", grains / gigabyte),
+                 fmt::format("at most {:.3g} GB, the longest record of a LIGGGHTS restart file",
+                             longest_record / gigabyte),
+                 "choose a smaller bed, or remove the line 'restart'");
 }
 
 }  // namespace furrow::coupling

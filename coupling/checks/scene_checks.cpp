@@ -122,7 +122,6 @@ constexpr Rule rules[] = {
     rule<track_is_at_the_ground>(When::before_run),
     rule<checkpoints_have_one_run>(When::before_run),
     rule<checkpoints_have_room>(When::before_run),
-    rule<terrain_fits_a_record>(When::before_run),
     rule<bed_fits_a_record>(When::before_run),
 
     rule<weight_pulls_down>(When::first_step),

@@ -162,7 +162,6 @@ Found checkpoints_have_one_run(const Scene& scene);
 /// On the disk, before the hours until the first one.
 Found checkpoints_have_room(const Scene& scene);
 /// LIGGGHTS reads the length of a record as an int: 2 GiB.
-Found terrain_fits_a_record(const Scene& scene, const FixTerrain& terrain);
 Found bed_fits_a_record(const Scene& scene, const FixBedWindow& window);
 
 inline constexpr double many_sub_steps = 100;  ///< beyond, a step of LIGGGHTS is a long pause

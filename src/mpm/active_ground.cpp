@@ -379,9 +379,6 @@ std::size_t ActiveGround::sleeping_tile_at(int i, int j) const {
 template <class Pass>
 std::vector<NodeBlock> ActiveGround::find_blocks(Pass pass) const {
   const int nx = discretisation_.grid.nodes(0), ny = discretisation_.grid.nodes(1);
-  const auto same = [](const NodeRange& a, const NodeRange& b) {
-    return a.from == b.from && a.to == b.to;
-  };
   std::vector<NodeBlock> blocks;
   std::vector<NodeRange> previous, row;
   for (int i = 0; i < nx; ++i) {
@@ -391,7 +388,7 @@ std::vector<NodeBlock> ActiveGround::find_blocks(Pass pass) const {
       if (row.empty() || row.back().to != j) row.push_back({j, j});
       row.back().to = j + 1;
     }
-    if (std::equal(row.begin(), row.end(), previous.begin(), previous.end(), same))
+    if (row == previous)
       for (auto n = blocks.end() - static_cast<long>(row.size()); n != blocks.end(); ++n) ++n->x.to;
     else
       for (const NodeRange& range : row) blocks.push_back({{i, i + 1}, range});

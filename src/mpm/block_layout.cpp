@@ -2,6 +2,7 @@
 #include "mpm/block_layout.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -13,17 +14,20 @@ namespace {
 
 /// Of the largest of so many blocks along an axis: its cells, one more towards each neighbour, and
 /// two, as many as splines reach beyond a cell.
-double local_nodes(int cells, int blocks) {
-  return (cells + blocks - 1) / blocks + std::min(blocks - 1, 2) + 2;
+double local_nodes(double cells, int blocks) {
+  return std::ceil(cells / blocks) + std::min(blocks - 1, 2) + 2;
 }
 
 }  // namespace
 
-BlockLayout choose_layout(int ranks, const Grid& grid) {
+double columns_of_largest(const BlockLayout& layout, double cells_x, double cells_y) {
+  return local_nodes(cells_x, layout.x) * local_nodes(cells_y, layout.y);
+}
+
+BlockLayout choose_layout(int ranks, double cells_x, double cells_y) {
   BlockLayout best{ranks, 1};
   const auto columns = [&](const BlockLayout& layout) {
-    return local_nodes(grid.axis(0).cells(), layout.x) *
-           local_nodes(grid.axis(1).cells(), layout.y);
+    return columns_of_largest(layout, cells_x, cells_y);
   };
   for (int x = ranks - 1; x >= 1; --x) {
     if (ranks % x != 0) continue;

@@ -5,8 +5,6 @@
 
 #include <string>
 
-#include "mpm/grid.h"
-
 namespace furrow {
 
 struct BlockLayout {
@@ -14,9 +12,13 @@ struct BlockLayout {
   int y = 1;
 };
 
-/// The layout whose largest block has the fewest columns of nodes, those included that it shares:
-/// of blocks of equal size, the one with the least halo. Of equals, the one with more along x.
-BlockLayout choose_layout(int ranks, const Grid& grid);
+/// Columns of nodes of the largest of equal blocks, those included that it shares.
+/// @param cells_x, cells_y  of the whole grid; real numbers, for grids too large to be made
+double columns_of_largest(const BlockLayout& layout, double cells_x, double cells_y);
+
+/// The layout whose largest block has the fewest columns of nodes: of blocks of equal size, the one
+/// with the least halo. Of equals, the one with more along x.
+BlockLayout choose_layout(int ranks, double cells_x, double cells_y);
 
 /// @throws InputError naming `where` when there are not as many blocks as ranks
 void check_layout(const BlockLayout& layout, int ranks, const std::string& where);

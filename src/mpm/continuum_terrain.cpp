@@ -18,7 +18,8 @@ Discretisation discretise(const TerrainParameters& parameters, const Communicato
   check_memory(parameters, ranks, where);
   Grid grid = make_grid(parameters, where);
   const BlockLayout blocks =
-      parameters.blocks ? *parameters.blocks : choose_layout(ranks.size(), grid);
+      parameters.blocks ? *parameters.blocks
+                        : choose_layout(ranks.size(), grid.axis(0).cells(), grid.axis(1).cells());
   check_layout(blocks, ranks.size(), where + ", keyword 'blocks'");
   std::vector<ParticleGroup> groups;
   for (int field = 0; field < grid.fields(); ++field)
@@ -27,6 +28,7 @@ Discretisation discretise(const TerrainParameters& parameters, const Communicato
       groups.push_back({material, Particles(*material), n, field});
     }
   const Partition partition(ranks, blocks, grid);
+  grid.store(partition.local_nodes());
   return {std::move(grid), std::move(groups), partition};
 }
 
@@ -202,7 +204,7 @@ double ContinuumTerrain::particle_count() const {
 }
 
 void ContinuumTerrain::checkpoint(Checkpoint& state) {
-  if (!particle_numbers_) throw Error(state.owner() + ": a checkpoint has no place for particles");
+  if (!rank_numbers_) throw Error(state.owner() + ": a checkpoint has no place for particles");
   for (int a = 0; a < 3; ++a) {
     state.match("cells", grid().axis(a).cells());
     state.match("shortest_cell", grid().axis(a).shortest_at_start());
@@ -219,7 +221,6 @@ void ContinuumTerrain::checkpoint(Checkpoint& state) {
   energy_.checkpoint(state, ranks());
   fill_.checkpoint(state);
   remap_.checkpoint(state);
-  discretisation_.grid.checkpoint(state, ranks(), discretisation_.partition.owned_nodes());
   window_.checkpoint_rut(state);
   state.values("free_surface_force", free_surface_.surface().f);
   if (parameters_.multirate) multirate_.checkpoint(state, free_surface_.surface().x.cols());
@@ -227,16 +228,15 @@ void ContinuumTerrain::checkpoint(Checkpoint& state) {
   discretisation_.exchange.checkpoint(state, ranks());
   if (active_) active_->checkpoint(state);
   distribution_.checkpoint_drift(state);
-  distribution_.checkpoint_particles(state, *std::exchange(particle_numbers_, nullptr));
+  distribution_.checkpoint_values(state, *std::exchange(rank_numbers_, nullptr));
   if (!state.saving()) resume();
 }
 
-ContinuumTerrain::CheckpointSize ContinuumTerrain::checkpoint_size() const {
-  double numbers = 0.0;
+double ContinuumTerrain::checkpoint_size() const {
+  auto numbers = static_cast<double>(grid().saved_length(grid().stored()));
   for (const ParticleGroup& group : discretisation_.groups)
     numbers += static_cast<double>(group.particles.size() * group.particles.record_length());
-  return {sizeof(double) * ranks().sum(numbers),
-          static_cast<double>(sizeof(double) * Grid::numbers_in_checkpoint * grid().node_count())};
+  return sizeof(double) * ranks().sum(numbers);
 }
 
 void ContinuumTerrain::checkpoint_boundary(Checkpoint& state) {

@@ -60,16 +60,12 @@ class ContinuumTerrain : public Body {
   EnergyBudget energy_budget() const override;
   /// Where the work of contacts went since the start.
   TerrainWork work() const { return energy_.work(boundary_.work(), ranks()); }
-  /// Of the particles only their number is in it: they go to keep_particles_in().
+  /// Of particles and nodes only their number is in it: they go to keep_values_in().
   void checkpoint(Checkpoint& state) override;
-  /// Before checkpoint(): where each rank keeps its particles; not owned.
-  void keep_particles_in(RankNumbers& numbers) { particle_numbers_ = &numbers; }
-  /// What a checkpoint takes [bytes].
-  struct CheckpointSize {
-    double particles;  ///< in the files of all ranks
-    double nodes;      ///< in the record of the terrain, which the first rank writes
-  };
-  CheckpointSize checkpoint_size() const;
+  /// Before checkpoint(): where each rank keeps its particles and nodes; not owned.
+  void keep_values_in(RankNumbers& numbers) { rank_numbers_ = &numbers; }
+  /// What these take in a checkpoint, of all ranks [bytes].
+  double checkpoint_size() const;
 
   // Not collective.
   /// [m/s^2] from the next step on, in the place of that of the parameters.
@@ -148,7 +144,7 @@ class ContinuumTerrain : public Body {
   MovingWindow window_;
   FreeSurfaceMesh free_surface_;
   Multirate multirate_;
-  RankNumbers* particle_numbers_ = nullptr;
+  RankNumbers* rank_numbers_ = nullptr;
 };
 
 }  // namespace furrow

@@ -4,6 +4,7 @@
 /// which of them.
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "mpm/grid.h"
@@ -19,8 +20,7 @@ struct AwakeNodes {
   std::vector<NodeBlock> moving;  ///< those of them that are not held
 };
 
-/// The grid is replicated in size on every rank, but only the nodes of partition.local_nodes()
-/// have values here; `groups` holds this rank's particles.
+/// `grid` stores the nodes of partition.local_nodes(); `groups` holds this rank's particles.
 struct Discretisation {
   Grid grid;
   /// one for each layer, from the top; with a slide surface, first those of its inner side
@@ -45,6 +45,11 @@ struct Discretisation {
   void add_shared_sums() { exchange.add_shared_sums(grid, partition); }
   /// The grid as this rank's kernels may use it: particles in its block and one cell beyond.
   GridView local_view(int field = 0);
+  /// Nodes of blocks that change lose their values.
+  void set_bounds(Partition::Bounds bounds) {
+    partition.set_bounds(std::move(bounds));
+    grid.store(partition.local_nodes());
+  }
 
  private:
   template <class Visit>

@@ -6,12 +6,28 @@
 
 namespace furrow {
 
+namespace {
+
+constexpr std::size_t saved_numbers = 8;  // of a node: velocity, mass, displacement
+
+}  // namespace
+
 Grid::Grid(Axis x, Axis y, Axis z, int fields)
-    : axes_{std::move(x), std::move(y), std::move(z)}, fields_(fields) {
-  const std::size_t count = index(nodes(0), 0, 0, fields - 1);
-  sums_.resize(count);
-  motions_.resize(count);
-  displacements_.resize(count);
+    : axes_{std::move(x), std::move(y), std::move(z)}, fields_(fields) {}
+
+/// Old arrays go before new ones come.
+void Grid::store(const NodeBlock& columns) {
+  if (columns == stored_) return;
+  stored_ = columns;
+  const std::size_t count = saved_length(columns) / saved_numbers;
+  const auto renew = [count](auto& values) {
+    values = {};
+    values.shrink_to_fit();
+    values.resize(count);
+  };
+  renew(sums_);
+  renew(motions_);
+  renew(displacements_);
 }
 
 double Grid::shortest_cell() const {
@@ -69,32 +85,54 @@ void Grid::clear_displacement(const NodeBlock& block) {
 }
 
 GridView Grid::view(int field) {
-  const std::size_t n = index(0, 0, 0, field);
+  const std::size_t n = index(stored_.x.from, stored_.y.from, 0, field);
   return {{axes_[0].view(), axes_[1].view(), axes_[2].view()},
-          sums_[n].total,
-          motions_[n].velocity,
-          displacements_[n].u};
+          {stored_.x.from, stored_.y.from},
+          stored_.y.size(),
+          reinterpret_cast<double*>(sums_.data() + n),
+          reinterpret_cast<const double*>(motions_.data() + n),
+          reinterpret_cast<const double*>(displacements_.data() + n)};
 }
 
-void Grid::checkpoint(Checkpoint& state, const Communicator& ranks, const NodeBlock& owned) {
-  constexpr std::size_t length = numbers_in_checkpoint;
-  std::vector<double> numbers(length * motions_.size(), 0.0);
-  if (state.saving()) {
-    for_nodes(owned, [&](std::size_t n) {
-      std::copy_n(motions_[n].velocity, 3, numbers.data() + length * n);
-      numbers[length * n + 3] = motions_[n].mass;
-      std::copy_n(displacements_[n].u, 4, numbers.data() + length * n + 4);
-    });
-    ranks.sum(numbers.data(), numbers.size());
-  }
-  state.values("nodes", numbers.data(), numbers.size());
-  if (state.saving()) return;
-  for (std::size_t n = 0; n < motions_.size(); ++n) {
-    const double* node = numbers.data() + length * n;
-    std::copy_n(node, 3, motions_[n].velocity);
-    motions_[n].mass = node[3];
-    std::copy_n(node + 4, 4, displacements_[n].u);
-  }
+std::size_t Grid::saved_length(const NodeBlock& columns) const {
+  return saved_numbers * static_cast<std::size_t>(fields_) *
+         static_cast<std::size_t>(columns.x.size()) * static_cast<std::size_t>(columns.y.size()) *
+         static_cast<std::size_t>(nodes(2));
+}
+
+/// A plane of nodes across x at a time.
+void Grid::save(RankNumbers& numbers) const {
+  std::vector<double> plane;
+  for (int field = 0; field < fields_; ++field)
+    for (int i = stored_.x.from; i < stored_.x.to; ++i) {
+      plane.clear();
+      for (std::size_t n = index(i, stored_.y.from, 0, field),
+                       end = index(i, stored_.y.to, 0, field);
+           n < end; ++n) {
+        plane.insert(plane.end(), motions_[n].velocity, motions_[n].velocity + 3);
+        plane.push_back(motions_[n].mass);
+        plane.insert(plane.end(), displacements_[n].u, displacements_[n].u + 4);
+      }
+      numbers.append(plane.data(), plane.size());
+    }
+}
+
+void Grid::restore(RankNumbers& numbers, int rank, std::uint64_t first, const NodeBlock& columns) {
+  const NodeBlock both = overlap(stored_, columns);
+  if (both.x.size() == 0 || both.y.size() == 0) return;
+  std::vector<double> plane(saved_length(both) / static_cast<std::size_t>(fields_ * both.x.size()));
+  for (int field = 0; field < fields_; ++field)
+    for (int i = both.x.from; i < both.x.to; ++i) {
+      numbers.read(rank, first + saved_numbers * index(columns, i, both.y.from, 0, field),
+                   plane.data(), plane.size());
+      std::size_t n = index(i, both.y.from, 0, field);
+      for (const double *node = plane.data(), *end = node + plane.size(); node != end;
+           node += saved_numbers, ++n) {
+        std::copy_n(node, 3, motions_[n].velocity);
+        motions_[n].mass = node[3];
+        std::copy_n(node + 4, 4, displacements_[n].u);
+      }
+    }
 }
 
 }  // namespace furrow

@@ -2,15 +2,16 @@
 #pragma once
 /// The background grid on three axes: sums of the particles at its nodes, and the motion of the
 /// nodes. Ground that slides on a surface inside of it has two velocity fields, one for each side
-/// (slide_contact.h); otherwise there is one.
+/// (slide_contact.h); otherwise there is one. A rank stores only the columns of nodes that its
+/// particles reach.
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "core/communicator.h"
+#include "core/rank_numbers.h"
 #include "core/types.h"
 #include "mpm/axis.h"
 #include "mpm/transfer.h"
@@ -42,12 +43,14 @@ struct NodeRange {
   int from = 0, to = 0;
   int size() const { return to > from ? to - from : 0; }
   bool contains(int node) const { return node >= from && node < to; }
+  bool operator==(const NodeRange& other) const { return from == other.from && to == other.to; }
 };
 
 /// Columns of nodes along z.
 struct NodeBlock {
   NodeRange x, y;
   bool contains(int i, int j) const { return x.contains(i) && y.contains(j); }
+  bool operator==(const NodeBlock& other) const { return x == other.x && y == other.y; }
 };
 
 inline NodeRange overlap(const NodeRange& a, const NodeRange& b) {
@@ -59,8 +62,14 @@ inline NodeBlock overlap(const NodeBlock& a, const NodeBlock& b) {
 
 class Grid {
  public:
-  /// @param fields  velocity fields at each node
+  /// Stores no nodes before store(). @param fields  velocity fields at each node
   Grid(Axis x, Axis y, Axis z, int fields = 1);
+
+  /// Replaces the stored nodes by those of other columns, all values zero; nothing happens when
+  /// the columns stay.
+  void store(const NodeBlock& columns);
+  /// The columns in memory. Nodes are numbered as in the whole grid; only these may be asked for.
+  const NodeBlock& stored() const { return stored_; }
 
   int fields() const { return fields_; }
   const Axis& axis(int a) const { return axes_[static_cast<std::size_t>(a)]; }
@@ -74,7 +83,9 @@ class Grid {
     return displacements_[index(i, j, k, field)];
   }
   /// Of the columns from j on in the plane i of nodes across x: four numbers a node.
-  double* column_sums(int i, int j, int field) { return sums_[index(i, j, 0, field)].total; }
+  double* column_sums(int i, int j, int field) {
+    return reinterpret_cast<double*>(sums_.data() + index(i, j, 0, field));
+  }
 
   void clear_sums(const NodeBlock& block);
   /// Takes the masses; velocity = momentum/mass. The sums are zero afterwards.
@@ -87,20 +98,28 @@ class Grid {
 
   /// The axis moves along x by whole cells; the numbers of the nodes stay where they are in memory.
   void shift_x(int cells) { axes_[0].shift(cells); }
-  /// Valid until the grid is shifted.
+  /// Valid until the grid is shifted or stores other columns.
   GridView view(int field = 0);
 
-  /// Of all velocity fields.
+  /// Stored ones, of all velocity fields.
   std::size_t node_count() const { return motions_.size(); }
-  /// Of a node: velocity, mass and displacement.
-  static constexpr std::size_t numbers_in_checkpoint = 8;
-  /// Motion and displacement of all nodes, as of the rank that owns them. Collective.
-  void checkpoint(Checkpoint& state, const Communicator& ranks, const NodeBlock& owned);
+  /// [bytes]
+  static constexpr std::size_t bytes_of_node =
+      sizeof(NodeSum) + sizeof(NodeMotion) + sizeof(NodeDisplacement);
+
+  /// How many numbers save() appends for the nodes of some columns: motion and displacement.
+  std::size_t saved_length(const NodeBlock& columns) const;
+  void save(RankNumbers& numbers) const;
+  /// Takes from what a rank saved of its columns, from the given number on, the nodes that are
+  /// stored here.
+  void restore(RankNumbers& numbers, int rank, std::uint64_t first, const NodeBlock& columns);
 
  private:
-  std::size_t index(int i, int j, int k, int field) const {
-    return ((static_cast<std::size_t>(field * nodes(0) + i)) * static_cast<std::size_t>(nodes(1)) +
-            static_cast<std::size_t>(j)) *
+  std::size_t index(int i, int j, int k, int field) const { return index(stored_, i, j, k, field); }
+  std::size_t index(const NodeBlock& columns, int i, int j, int k, int field) const {
+    return ((static_cast<std::size_t>(field * columns.x.size() + i - columns.x.from)) *
+                static_cast<std::size_t>(columns.y.size()) +
+            static_cast<std::size_t>(j - columns.y.from)) *
                static_cast<std::size_t>(nodes(2)) +
            static_cast<std::size_t>(k);
   }
@@ -110,6 +129,7 @@ class Grid {
 
   std::array<Axis, 3> axes_;
   int fields_;
+  NodeBlock stored_;
   std::vector<NodeSum> sums_;
   std::vector<NodeMotion> motions_;
   std::vector<NodeDisplacement> displacements_;

@@ -85,11 +85,11 @@ Partition::Counts ParticleDistribution::count_in_layers() const {
 
 /// A far field is known at the local nodes; blocks that move get it from those that had it.
 void ParticleDistribution::rebalance() {
-  Partition& partition = discretisation_.partition;
+  const Partition& partition = discretisation_.partition;
   Partition::Bounds bounds = partition.balanced(count_in_layers());
   if (bounds == partition.bounds()) return;
   boundary_.synchronise(partition.ranks(), partition.owned_nodes());
-  partition.set_bounds(std::move(bounds));
+  discretisation_.set_bounds(std::move(bounds));
 }
 
 void ParticleDistribution::migrate() {
@@ -144,20 +144,39 @@ void ParticleDistribution::report_outside(const ParticleGroup& group) const {
                   drift_));
 }
 
+NodeBlock ParticleDistribution::Saved::columns_of(std::size_t rank) const {
+  const auto at = [&](std::size_t n) { return static_cast<int>(columns[4 * rank + n]); };
+  return {{at(0), at(1)}, {at(2), at(3)}};
+}
+
+std::uint64_t ParticleDistribution::Saved::start_of_nodes(std::size_t rank) const {
+  std::uint64_t start = 0;
+  for (const std::vector<double>& of_group : lengths)
+    start += static_cast<std::uint64_t>(of_group[rank]);
+  return start;
+}
+
 /// Collective calls come first: a rank whose disk is full fails alone.
-void ParticleDistribution::checkpoint_particles(Checkpoint& state, RankNumbers& numbers) {
+void ParticleDistribution::checkpoint_values(Checkpoint& state, RankNumbers& numbers) {
+  const Communicator& ranks = discretisation_.ranks();
   const bool same_layout = discretisation_.partition.checkpoint(state);
-  GroupLengths lengths;
+  Saved saved;
   for (ParticleGroup& group : discretisation_.groups) {
     const std::size_t mine = group.particles.size() * group.particles.record_length();
-    lengths.emplace_back();
-    if (state.saving()) lengths.back() = discretisation_.ranks().gather({double(mine)});
-    state.values("numbers_of_ranks", lengths.back());
+    saved.lengths.emplace_back();
+    if (state.saving()) saved.lengths.back() = ranks.gather({double(mine)});
+    state.values("numbers_of_ranks", saved.lengths.back());
   }
+  const auto [x, y] = discretisation_.grid.stored();
   if (state.saving())
+    saved.columns = ranks.gather({double(x.from), double(x.to), double(y.from), double(y.to)});
+  state.values("columns_of_ranks", saved.columns);
+  if (state.saving()) {
     save_particles(numbers);
-  else
-    restore_particles(numbers, lengths, same_layout);
+    discretisation_.grid.save(numbers);
+  } else {
+    restore(numbers, saved, same_layout);
+  }
 }
 
 void ParticleDistribution::save_particles(RankNumbers& numbers) const {
@@ -175,30 +194,32 @@ void ParticleDistribution::save_particles(RankNumbers& numbers) const {
 }
 
 /// The drift stays, so that the next sorting comes when it would have come.
-void ParticleDistribution::restore_particles(RankNumbers& numbers, const GroupLengths& lengths,
-                                             bool same_layout) {
-  const Communicator& ranks = discretisation_.ranks();
-  check_numbers(numbers, lengths);
+void ParticleDistribution::restore(RankNumbers& numbers, const Saved& saved, bool same_layout) {
+  const auto rank = static_cast<std::size_t>(discretisation_.ranks().rank());
+  check_numbers(numbers, saved);
   for (ParticleGroup& group : discretisation_.groups) group.particles.clear();
-  const std::size_t writers = lengths.front().size();
-  for (std::size_t r = 0; r < writers; ++r)
-    if (!same_layout || r == static_cast<std::size_t>(ranks.rank()))
-      read_rank(numbers, lengths, r, same_layout);
+  for (std::size_t r = 0; r < saved.ranks(); ++r)
+    if (!same_layout || r == rank) read_particles(numbers, saved, r, same_layout);
   const double drift = drift_;
   if (!same_layout) sort();
   drift_ = drift;
   ++generation_;
+  Grid& grid = discretisation_.grid;
+  grid.store(discretisation_.partition.local_nodes());
+  for (std::size_t r = 0; r < saved.ranks(); ++r)
+    if (!same_layout || r == rank)
+      grid.restore(numbers, static_cast<int>(r), saved.start_of_nodes(r), saved.columns_of(r));
 }
 
 /// The ranks share the files out among them; all of them throw what is wrong with one.
-void ParticleDistribution::check_numbers(RankNumbers& numbers, const GroupLengths& lengths) const {
+void ParticleDistribution::check_numbers(RankNumbers& numbers, const Saved& saved) const {
   const Communicator& ranks = discretisation_.ranks();
   const auto is_empty = [&](std::size_t r) {
-    return std::all_of(lengths.begin(), lengths.end(),
-                       [r](const std::vector<double>& group) { return group[r] == 0.0; });
+    return saved.start_of_nodes(r) == 0 &&
+           discretisation_.grid.saved_length(saved.columns_of(r)) == 0;
   };
   double wrong = -1.0;
-  for (auto r = static_cast<std::size_t>(ranks.rank()); r < lengths.front().size();
+  for (auto r = static_cast<std::size_t>(ranks.rank()); r < saved.ranks();
        r += static_cast<std::size_t>(ranks.size()))
     if (!is_empty(r)) try {
         numbers.check(static_cast<int>(r));
@@ -215,17 +236,17 @@ void ParticleDistribution::check_numbers(RankNumbers& numbers, const GroupLength
 }
 
 /// Takes the particles that belong to this rank.
-void ParticleDistribution::read_rank(RankNumbers& numbers, const GroupLengths& lengths,
-                                     std::size_t rank, bool all) {
+void ParticleDistribution::read_particles(RankNumbers& numbers, const Saved& saved,
+                                          std::size_t rank, bool all) {
   const Grid& grid = discretisation_.grid;
   const Partition& partition = discretisation_.partition;
   std::uint64_t first = 0;
   std::vector<double> chunk;
-  for (std::size_t g = 0; g < lengths.size(); ++g) {
+  for (std::size_t g = 0; g < saved.lengths.size(); ++g) {
     Particles& particles = discretisation_.groups[g].particles;
     const std::size_t length = particles.record_length();
     const std::size_t most = length * (1 + chunk_length / length);
-    auto left = static_cast<std::uint64_t>(lengths[g][rank]);
+    auto left = static_cast<std::uint64_t>(saved.lengths[g][rank]);
     if (all) particles.reserve(particles.size() + left / length);
     while (left > 0) {
       chunk.resize(std::min<std::uint64_t>(most, left));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Where particles are kept: in the order of their cells in memory, and on the rank that owns the
-/// cell.
+/// cell; and what each rank keeps of the ground in a checkpoint.
 
+#include <cstdint>
 #include <vector>
 
 #include "core/checkpoint.h"
@@ -32,18 +33,28 @@ class ParticleDistribution {
   [[noreturn]] void report_outside(const ParticleGroup& group) const;
 
   void checkpoint_drift(Checkpoint& state) { state.value("drift", drift_); }
-  /// Each rank keeps its particles by itself, as records of Particles::pack(), group after group.
-  /// Ranks in the same layout get them back as they had them, in the same order;
-  /// others by the owners of their cells, and then balanced. Collective.
-  void checkpoint_particles(Checkpoint& state, RankNumbers& numbers);
+  /// Each rank keeps its particles by itself, as records of Particles::pack(), group after group,
+  /// and then the nodes that it stores. Ranks in the same layout get them back as they had them,
+  /// in the same order; others take particles by the owners of their cells, balance the blocks, and
+  /// take the nodes of these. Collective.
+  void checkpoint_values(Checkpoint& state, RankNumbers& numbers);
 
  private:
-  /// Of each group: how many numbers each rank has.
-  using GroupLengths = std::vector<std::vector<double>>;
+  /// What the ranks have saved.
+  struct Saved {
+    /// of each group: how many numbers each rank has
+    std::vector<std::vector<double>> lengths = {};
+    std::vector<double> columns = {};  // of nodes, four numbers for each rank
+
+    std::size_t ranks() const { return columns.size() / 4; }
+    NodeBlock columns_of(std::size_t rank) const;
+    /// Where the nodes of a rank begin: so many numbers are its particles.
+    std::uint64_t start_of_nodes(std::size_t rank) const;
+  };
   void save_particles(RankNumbers& numbers) const;
-  void restore_particles(RankNumbers& numbers, const GroupLengths& lengths, bool same_layout);
-  void check_numbers(RankNumbers& numbers, const GroupLengths& lengths) const;
-  void read_rank(RankNumbers& numbers, const GroupLengths& lengths, std::size_t rank, bool all);
+  void restore(RankNumbers& numbers, const Saved& saved, bool same_layout);
+  void check_numbers(RankNumbers& numbers, const Saved& saved) const;
+  void read_particles(RankNumbers& numbers, const Saved& saved, std::size_t rank, bool all);
   void migrate();
   void rebalance();
   void send_along(int axis, ParticleGroup& group);

@@ -13,9 +13,6 @@ namespace furrow {
 
 namespace {
 
-// Of a rank, for every node of the whole grid and each velocity field; boundaries and sums of a
-// message come on top.
-constexpr double bytes_of_node = sizeof(NodeSum) + sizeof(NodeMotion) + sizeof(NodeDisplacement);
 // Measured, of a cap law in contact: 46 numbers of each, room to grow and to sort, candidates.
 constexpr double bytes_of_particle = 950.0;
 constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;
@@ -27,6 +24,14 @@ double cells_below_surface(const TerrainParameters& parameters) {
   return Axis::cell_count(below);
 }
 
+/// Of all velocity fields, on the rank with the largest block.
+double nodes_of_a_rank(const TerrainParameters& parameters, int ranks) {
+  const double x = Axis::cell_count(parameters.x), y = Axis::cell_count(parameters.y);
+  const BlockLayout blocks = parameters.blocks ? *parameters.blocks : choose_layout(ranks, x, y);
+  return parameters.velocity_fields() * columns_of_largest(blocks, x, y) *
+         (Axis::cell_count(parameters.z) + 2.0);
+}
+
 }  // namespace
 
 TerrainSize size_of(const TerrainParameters& parameters) {
@@ -36,17 +41,17 @@ TerrainSize size_of(const TerrainParameters& parameters) {
   const auto& trough = parameters.trough;
   const double left_out =
       trough ? x * (trough->width / parameters.y.cell) * (trough->depth / parameters.z.cell) : 0.0;
-  return {x * y * z, parameters.velocity_fields() * (x + 2.0) * (y + 2.0) * (z + 2.0),
-          (x * y * cells_below_surface(parameters) - left_out) * per_cell[0] * per_cell[1] *
-              per_cell[2]};
+  return {x * y * z, (x * y * cells_below_surface(parameters) - left_out) * per_cell[0] *
+                         per_cell[1] * per_cell[2]};
 }
 
 void check_memory(const TerrainParameters& parameters, const Communicator& ranks,
                   const std::string& where) {
   const TerrainSize size = size_of(parameters);
   const int here = ranks.on_this_machine();
-  const double needed =
-      here * bytes_of_node * size.nodes + bytes_of_particle * size.particles * here / ranks.size();
+  // boundaries and messages come on top
+  const double needed = here * (Grid::bytes_of_node * nodes_of_a_rank(parameters, ranks.size()) +
+                                bytes_of_particle * size.particles / ranks.size());
   const double usable = usable_memory(here);
   // the machine that is worst off speaks for all
   if (!(ranks.max(needed / usable) > 1.0)) return;

@@ -12,7 +12,6 @@ namespace furrow {
 /// Of the whole terrain. Real numbers: what is far too large must be told as well.
 struct TerrainSize {
   double cells = 0.0;
-  double nodes = 0.0;
   double particles = 0.0;
 };
 TerrainSize size_of(const TerrainParameters& parameters);

@@ -37,14 +37,16 @@ struct Weights {
   /// the second factor along each axis: G for force and strain, N d for momentum and motion
   double slope[3][stencil][batch];
   double inverse_spread[3][batch];  ///< 1/D; with N d only
-  int first_node[batch];            ///< the node at the lowest corner
+  int first_node[batch];            ///< in memory, the node at the lowest corner
 };
 constexpr std::size_t batches(std::size_t particles) { return (particles + batch - 1) / batch; }
 
 /// The grid as a kernel sees it: four numbers for each node, aligned to 32 bytes; z runs fastest,
-/// then y, then x.
+/// then y, then x. Columns of nodes along z are in memory for a rectangle along x and y.
 struct GridView {
   AxisView axis[3];
+  int first_column[2];         ///< the lowest of these along x and y
+  int columns_along_y;         ///< how many of them
   double* sums;                ///< momentum [N s] and mass [kg], or force [N] and zero
   const double* velocity;      ///< [m/s], and mass
   const double* displacement;  ///< since particles were last moved [m]; the fourth is unused

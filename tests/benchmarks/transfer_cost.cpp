@@ -23,6 +23,7 @@ class Scene {
             "elastic", std::vector<Entry>{{"density", {"200"}}, {"E", {"1e6"}}, {"nu", {"0.3"}}})),
         grid_(axis(50), axis(16), axis(8)),
         particles_(*material_) {
+    grid_.store(grid_.all_nodes());
     std::mt19937 engine(1);
     std::uniform_real_distribution<double> shake(-0.2, 0.2);
     for (int i = 0; i < 50; ++i)

@@ -30,13 +30,13 @@ class NumbersInMemory : public RankNumbers {
 
 /// Parts that keep numbers of each rank outside of the checkpoint's bytes: terrain.
 template <class Part, class = void>
-struct KeepsParticles : std::false_type {};
+struct KeepsValues : std::false_type {};
 template <class Part>
-struct KeepsParticles<Part, std::void_t<decltype(&Part::keep_particles_in)>> : std::true_type {};
+struct KeepsValues<Part, std::void_t<decltype(&Part::keep_values_in)>> : std::true_type {};
 
 template <class Part>
 void checkpoint_with(Part& part, Checkpoint& state, RankNumbers& numbers) {
-  if constexpr (KeepsParticles<Part>::value) part.keep_particles_in(numbers);
+  if constexpr (KeepsValues<Part>::value) part.keep_values_in(numbers);
   part.checkpoint(state);
 }
 

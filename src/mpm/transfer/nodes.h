@@ -18,7 +18,7 @@ typedef double Stored4 __attribute__((vector_size(32), aligned(8), may_alias));
 struct Strides {
   explicit Strides(const GridView& grid)
       : y(4 * (static_cast<std::size_t>(grid.axis[2].cells) + 2)),
-        x(y * (static_cast<std::size_t>(grid.axis[1].cells) + 2)) {}
+        x(y * static_cast<std::size_t>(grid.columns_along_y)) {}
   std::size_t y, x;
 };
 

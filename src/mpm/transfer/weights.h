@@ -121,9 +121,10 @@ void find_batch_weights(const GridView& grid, const double* const* position, std
       for (std::size_t p = 0; p < count; ++p)
         if (irregular[p]) cell[a][p] = find_weights_by_table<kind>(axis, a, x[p], p, weights);
   }
-  const int ny = grid.axis[1].cells + 2, nz = grid.axis[2].cells + 2;
+  const int ny = grid.columns_along_y, nz = grid.axis[2].cells + 2;
+  const int first_x = grid.first_column[0], first_y = grid.first_column[1];
   for (std::size_t p = 0; p < count; ++p)
-    weights.first_node[p] = (cell[0][p] * ny + cell[1][p]) * nz + cell[2][p];
+    weights.first_node[p] = ((cell[0][p] - first_x) * ny + cell[1][p] - first_y) * nz + cell[2][p];
 }
 
 /// `count` particles from `first` on. What a view leaves out is null and stays so.

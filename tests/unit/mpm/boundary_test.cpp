@@ -15,7 +15,9 @@ constexpr double mass = 2.0, dt = 1e-3;
 const Vector3 weightless = Vector3::Zero();
 
 Grid small_grid() {
-  return Grid(Axis(even(0, 4, 1), "x"), Axis(even(0, 3, 1), "y"), Axis(even(0, 2, 1), "z"));
+  Grid grid(Axis(even(0, 4, 1), "x"), Axis(even(0, 3, 1), "y"), Axis(even(0, 2, 1), "z"));
+  grid.store(grid.all_nodes());
+  return grid;
 }
 
 template <class Visit>
@@ -119,6 +121,7 @@ TEST(Boundary, AbsorbingIsDashpotAndSpring) {
 TEST(Boundary, HalfModelHasTheFarFieldOfTheWhole) {
   const auto velocity_after = [](double lower, BoundaryKind middle) {
     Grid grid(Axis(even(0, 4, 1), "x"), Axis(even(lower, 3, 1), "y"), Axis(even(0, 2, 1), "z"));
+    grid.store(grid.all_nodes());
     FaceArray<BoundaryKind> kinds = only(Face::y_upper, BoundaryKind::absorbing);
     kinds[Face::y_lower] = middle;
     Boundary boundary(grid, kinds, {2, 2, 2}, speeds(grid));

@@ -50,7 +50,7 @@ TEST(BlockLayout, HasTheLeastHalo) {
        {Case{1, 9, 9, 1, 1}, Case{2, 20, 5, 2, 1}, Case{2, 5, 20, 1, 2}, Case{2, 20, 20, 2, 1},
         Case{4, 20, 20, 2, 2}, Case{8, 100, 40, 4, 2}, Case{8, 400, 10, 8, 1},
         Case{7, 40, 30, 7, 1}, Case{64, 1000, 400, 8, 8}, Case{1024, 1000, 400, 64, 16}}) {
-    const BlockLayout layout = choose_layout(c.ranks, grid_of(c.x_cells, c.y_cells));
+    const BlockLayout layout = choose_layout(c.ranks, c.x_cells, c.y_cells);
     EXPECT_EQ(layout.x, c.x) << c.ranks << " ranks, " << c.x_cells << " x " << c.y_cells;
     EXPECT_EQ(layout.y, c.y) << c.ranks << " ranks, " << c.x_cells << " x " << c.y_cells;
   }

@@ -32,6 +32,7 @@ struct TwoFields {
   TwoFields(const Vector3& inner, const Vector3& outer, double friction, const Vector3& normal,
             BoundaryKind floor = BoundaryKind::free)
       : grid(Axis(even(0, 4, 1), "x"), Axis(even(0, 3, 1), "y"), Axis(even(0, 2, 1), "z"), 2) {
+    grid.store(grid.all_nodes());
     for (int i = 0; i < grid.nodes(0); ++i)
       for (int j = 0; j < grid.nodes(1); ++j)
         for (int k = 0; k < grid.nodes(2); ++k)

@@ -28,6 +28,7 @@ struct Cloud {
         volume(count),
         ratio(count),
         gradient(9 * count) {
+    grid.store(grid.all_nodes());
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(0.0, 1.0), sign(-1.0, 1.0);
     const double lower[3] = {0.0, -0.5, 0.0}, size[3] = {1.0, 1.0, 0.8};
@@ -156,12 +157,58 @@ TEST(Transfer, AllInstructionSetsAgree) {
   }
 }
 
+/// A rank that stores a part of the columns gets the bits of the whole grid.
+TEST(Transfer, StoredColumnsHaveTheBitsOfTheWholeGrid) {
+  const NodeBlock part = {{3, 9}, {2, 8}};
+  for (const InstructionSet set : available_instruction_sets()) {
+    const auto& kernels = kernels_for<TransferKernels>(set);
+    std::vector<std::vector<double>> nodes, taken;
+    for (const bool whole : {true, false}) {
+      Cloud cloud(203);
+      Grid& grid = cloud.grid;
+      // inside of the cells that these columns serve
+      const int last[2] = {part.x.to - 2, part.y.to - 2}, first[2] = {part.x.from, part.y.from};
+      for (int a = 0; a < 2; ++a)
+        for (double& x : cloud.position[a]) {
+          const Axis& axis = grid.axis(a);
+          const double from = axis.knot(first[a]), to = axis.knot(last[a]);
+          x = from + (to - from) * (x - axis.lower()) / (axis.upper() - axis.lower());
+        }
+      if (!whole) grid.store(part);
+      EXPECT_EQ(grid.node_count(),
+                static_cast<std::size_t>((whole ? grid.nodes(0) : 6) * (whole ? grid.nodes(1) : 6) *
+                                         grid.nodes(2)));
+      const ParticleView particles = cloud.view();
+      ASSERT_EQ(kernels.scatter_momentum(grid.view(), particles, rho), 0u);
+      grid.compute_velocities(part);
+      cloud.find_weights(kernels);
+      kernels.scatter_force(grid.view(), particles, cloud.weights.data());
+      nodes.emplace_back();
+      for (int i = part.x.from; i < part.x.to; ++i)
+        for (int j = part.y.from; j < part.y.to; ++j) {
+          const double* sums = grid.column_sums(i, j, 0);
+          nodes.back().insert(nodes.back().end(), sums, sums + 4 * grid.nodes(2));
+        }
+      grid.accelerate(part, dt, {100.0, 200.0, -9800.0});
+      grid.move(part, part, dt);
+      kernels.gather_strain(grid.view(), particles, cloud.weights.data(), dt, cloud.gradients);
+      kernels.gather_motion(grid.view(), particles);
+      taken.push_back(cloud.gradient);
+      for (const auto& x : cloud.moved) taken.back().insert(taken.back().end(), x.begin(), x.end());
+      taken.back().insert(taken.back().end(), cloud.affine.begin(), cloud.affine.end());
+    }
+    EXPECT_EQ(nodes[0], nodes[1]) << to_string(set);
+    EXPECT_EQ(taken[0], taken[1]) << to_string(set);
+  }
+}
+
 /// On an axis of equal cells, N and G in closed form: those of unit cells inside, with G = N D^-1
 /// d; in the cells at both ends the spline of the end alone differs, and G = grad N (transfer.h).
 TEST(Transfer, WeightsOfEqualCellsAndOfThoseAtTheEnds) {
   const double h = 0.125;
   Grid grid(Axis(even(-0.5, 0.5, h), "x"), Axis(even(0.0, 0.5, h), "y"),
             Axis(even(0.0, 1.0, h), "z"));
+  grid.store(grid.all_nodes());
   const double y = 0.25 + 0.3 * h, z = 0.4;  // x goes through all cells
   for (const InstructionSet set : available_instruction_sets())
     for (int n = 0; n <= 64; ++n) {

@@ -81,6 +81,11 @@ struct Scene {
     p.gravity = {0, 0, -standard_gravity};
     p.initial_stress = true;
     p.window = variant.window;
+    if (variant.window) {  // higher ground ahead: blocks follow
+      ReliefParameters relief;
+      relief.trapezoid = Eigen::Vector4d(0.4, 0.02, 0.399, 0.4);
+      p.relief = GroundRelief(relief, "ground");
+    }
     p.surface_mesh = variant.sheet;
     p.blocks = blocks;
     p.sleep_tolerance = variant.sleep_tolerance;
@@ -265,8 +270,13 @@ TEST_P(Variants, GiveTheAnswerOfOne) {
   for (const BlockLayout& layout : layouts()) {
     SCOPED_TRACE(::testing::Message() << layout.x << " x " << layout.y << " blocks");
     Scene many(world_ranks(), GetParam(), layout);
+    const Partition::Bounds before = many.ground.partition().bounds();
     many.run(30);
     expect_alike(many, one.get());
+    if (GetParam().window && layout.x % 2 == 0) {  // else not by a whole cell
+      EXPECT_NE(many.ground.partition().bounds(), before);
+    }
+    EXPECT_TRUE(many.ground.grid().stored() == many.ground.partition().local_nodes());
   }
 }
 
@@ -385,11 +395,12 @@ TEST(Blocks, CoverAllCellsAndOwnEveryNodeOnce) {
   }
 }
 
-/// What is sent in closed form. Blocks with 4 or more cells share nodes with the next block only: 4
-/// layers of them, one cell on either side of the border with two nodes more. A node has 4 numbers
-/// of 8 bytes; a step sends it once, for forces, and the first step of a remap interval once more,
-/// for momentum.
-TEST(Blocks, SendWhatTheClosedFormSays) {
+/// What a rank stores and sends, in closed form. It has the nodes of its cells, of one cell more
+/// towards each neighbour, and two nodes more, as many as splines reach beyond a cell. Blocks with
+/// 4 or more cells share nodes with the next block only: 4 layers of them. A node has 4 numbers of
+/// 8 bytes; a step sends it once, for forces, and the first step of a remap interval once more, for
+/// momentum.
+TEST(Blocks, StoreAndSendWhatTheClosedFormSays) {
   const Communicator ranks = world_ranks();
   constexpr int cells = 6, levels = 5 + 2, interval = 4, steps = 10, remaps = 3;
   for (const BlockLayout& layout : layouts()) {
@@ -409,6 +420,18 @@ TEST(Blocks, SendWhatTheClosedFormSays) {
         messages += along_x + along_y;
         bytes += 32.0 * levels * 4 * (along_x * y_nodes + along_y * x_nodes);
       }
+    double stored = 0.0;  // nodes of all ranks
+    for (int x = 0; x < layout.x; ++x)
+      for (int y = 0; y < layout.y; ++y) {
+        const int x_nodes = cells + (x > 0 ? 1 : 0) + (x + 1 < layout.x ? 1 : 0) + 2,
+                  y_nodes = cells + (y > 0 ? 1 : 0) + (y + 1 < layout.y ? 1 : 0) + 2;
+        const double nodes = levels * x_nodes * y_nodes;
+        stored += nodes;
+        if (ground.partition().rank_of(x, y) == ranks.rank()) {
+          EXPECT_EQ(static_cast<double>(ground.grid().node_count()), nodes);
+        }
+      }
+    EXPECT_EQ(ranks.sum(static_cast<double>(ground.grid().node_count())), stored);
     const HaloTraffic traffic = ground.halo_traffic();
     EXPECT_EQ(traffic.steps, steps);
     EXPECT_NEAR(traffic.messages * ranks.size(), (steps + remaps) * messages, 1e-6);
