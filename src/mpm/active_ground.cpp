@@ -227,6 +227,16 @@ bool ActiveGround::wake_near_bodies() {
   return any;
 }
 
+bool ActiveGround::wake_for_gravity() {
+  bool any = false;
+  for (Tile& one : tiles_)
+    if (gravity_changed_ && one.asleep) {
+      wake(one, true);
+      any = true;
+    }
+  return any;
+}
+
 bool ActiveGround::wake_for_force() {
   bool any = false;
   double force = held_force();
@@ -283,13 +293,15 @@ void ActiveGround::begin_period() {
 bool ActiveGround::decide() {
   sum_over_ranks();
   bool changes = wake_near_bodies();
+  changes |= wake_for_gravity();
   changes |= wake_for_force();
   if (steps_ >= period_steps) {
     neglect_.force = held_force();
-    changes |= fall_asleep();
+    if (!gravity_changed_) changes |= fall_asleep();
     begin_period();
   }
   for (Tile& one : tiles_) one.near_body = false;
+  gravity_changed_ = false;
   return changes;
 }
 
@@ -461,6 +473,8 @@ void ActiveGround::checkpoint(Checkpoint& state) {
     state.values("moved", one.moved);
     state.values("held_impulse", one.held_impulse);
   }
+  state.values("gravity", gravity_);
+  state.value("gravity_changed", gravity_changed_);
   state.value("steps", steps_);
   state.value("elapsed", elapsed_);
   state.value("interval", interval_);

@@ -21,6 +21,7 @@
 ///     work of a period. The neglected energy therefore stays below tau W.
 /// A tile wakes when a body comes near. When the neglected force exceeds tau F, the tiles with the
 /// largest shares wake. A tile that woke without a body waits for twice as many periods each time.
+/// All tiles wake when gravity changes, as while a rig tilts it onto a slope.
 ///
 /// For a body that is pressed by d into linearly elastic ground at rest, held nodes with forces f_i
 /// change its force P by sum f_i u_i/d (Betti), where u_i is what the nodes would move by if
@@ -61,6 +62,11 @@ class ActiveGround {
   /// Keeps the ground in and around a box awake, until the next decision. To be called on all
   /// ranks. [m]
   void keep_awake(const Vector3& lower, const Vector3& upper);
+  /// From the next step on [m/s^2]. To be called on all ranks.
+  void set_gravity(const Vector3& gravity) {
+    gravity_changed_ |= gravity != gravity_;
+    gravity_ = gravity;
+  }
 
   // ---- parts of a step
   /// The forces of this rank's contacts in a step [N].
@@ -126,6 +132,7 @@ class ActiveGround {
   double held_force() const;
   void sum_over_ranks();
   bool wake_near_bodies();
+  bool wake_for_gravity();
   bool wake_for_force();
   bool fall_asleep();
   void wake(Tile& tile, bool for_a_body);
@@ -141,7 +148,8 @@ class ActiveGround {
   std::vector<double> count_in_columns(const ParticleGroup& group) const;
 
   double tolerance_;
-  Vector3 gravity_;  // [m/s^2]
+  Vector3 gravity_;               // [m/s^2]
+  bool gravity_changed_ = false;  // since the last decision
   Discretisation& discretisation_;
   Boundary& boundary_;
   const TerrainEnergy& energy_;

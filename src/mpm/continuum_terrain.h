@@ -69,7 +69,10 @@ class ContinuumTerrain : public Body {
 
   // Not collective.
   /// [m/s^2] from the next step on, in the place of that of the parameters.
-  void set_gravity(const Vector3& gravity) { step_.set_gravity(gravity); }
+  void set_gravity(const Vector3& gravity) {
+    step_.set_gravity(gravity);
+    if (active_) active_->set_gravity(gravity);
+  }
   const TerrainParameters& parameters() const { return parameters_; }
   const Grid& grid() const { return discretisation_.grid; }
   const Communicator& ranks() const { return discretisation_.ranks(); }

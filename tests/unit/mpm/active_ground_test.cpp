@@ -139,6 +139,21 @@ TEST(ActiveGround, SleepingGroundStaysAndIsHeld) {
   EXPECT_NEAR(impulse, weight * time + push + change, 0.02 * (weight * time + push));
 }
 
+/// Held nodes would balance the weight of level ground.
+TEST(ActiveGround, WakesWhenGravityTiltsAndSleepsAgain) {
+  Scene scene(0.05);
+  scene.touch();
+  scene.run(0.06, -0.1);
+  ASSERT_TRUE(scene.ground.active()->asleep(1.9, 0.05));
+  const Vector3 tilted = standard_gravity * Vector3(-std::sin(0.1), 0.0, -std::cos(0.1));
+  scene.ground.set_gravity(tilted);
+  scene.run(0.004, -0.1);
+  EXPECT_EQ(scene.ground.active()->awake_share(), 1.0);
+  scene.ground.set_gravity(tilted);  // as a rig does in every step
+  scene.run(0.1, -0.1);
+  EXPECT_LT(scene.ground.active()->awake_share(), 1.0);
+}
+
 /// A weightless elastic bar along x that a force pushes at its absorbing end; the other end is
 /// fixed. A plate above, which touches nothing, keeps the first three of five tiles awake.
 struct Bar {
