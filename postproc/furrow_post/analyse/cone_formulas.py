@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 
 from ..errors import ResultsError
-from .prediction import Limit, require_positive, require_range
+from .prediction import Limit, require_positive, require_range, require_wheel
 from .tyre_size import INCH
 
 POUND_FORCE = 4.4482216152605  # [N]
@@ -70,7 +70,7 @@ class Tyre:
 
     def require(self, method: str, deflected: bool) -> None:
         """@raises ResultsError"""
-        require_positive(method, load=self.load, diameter=self.diameter, width=self.width)
+        require_wheel(method, self.load, self.diameter, self.width)
         if deflected:
             require_positive(
                 method, section_height=self.section_height, deflection=self.deflection

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from ..arrays import Floats
 from ..errors import ResultsError
-from .prediction import Limit, OutOfRange, Prediction, Result, require_positive, require_range
+from .prediction import Limit, OutOfRange, Prediction, Result, require_positive, require_range, require_wheel
 from .terrain_values import TerrainValues, terrains
 
 # ---- snow
@@ -89,6 +89,7 @@ def nrmm(
     """
     sizes = {"load": load, "radius": radius, "width": width, "depth": depth}
     require_positive("NRMM", **sizes, density=density, pressure=pressure)
+    require_wheel("NRMM", load, 2 * radius, width)
     require_pressure(pressure)
     if sinkage is not None and not 0.0 <= sinkage < depth:
         raise ResultsError(
@@ -185,7 +186,7 @@ def bekker(
     z = (3 W/((3 - n) b k sqrt(D)))^(2/(2n+1)), R = b k z^(n+1)/(n+1). load [N], diameter and width
     [m]. @raises OutOfRange
     """
-    require_positive("Bekker's wheel", load=load, diameter=diameter, width=width)
+    require_wheel("Bekker's wheel", load, diameter, width)
     k, n = ground.modulus(width), ground.n
     z = (3 * load / ((3 - n) * width * k * np.sqrt(diameter))) ** (2 / (2 * n + 1))
     series = "Wong: for n up to 1.3, the series of the load integral is cut after two terms"
@@ -195,6 +196,7 @@ def bekker(
             Limit("diameter", diameter, 0.5, math.inf, "m", "Wong: poor for wheels below 50 cm"),
             Limit("n", n, 0.0, 1.3, "", series),
             Limit("sinkage over diameter", z / diameter, 0, 1 / 6, "", "Wong: for moderate sinkage"),
+            Limit("sinkage", z, 0, ground.deepest, "m", "the plates of the card"),
         ],
         extrapolate,
     )
@@ -249,7 +251,7 @@ def wong_reece(
     is not here). The resistance is minus the drawbar pull. @raises OutOfRange; ResultsError where
     terrains.csv has no K, c1 or c2 for this ground
     """
-    require_positive("Wong-Reece", load=load, diameter=diameter, width=width)
+    require_wheel("Wong-Reece", load, diameter, width)
     lacking = [name for name in ("K", "c1", "c2") if not np.isfinite(getattr(ground, name))]
     if lacking:
         complete = [t.name for t in terrains().values() if np.isfinite([t.K, t.c1, t.c2]).all()]
@@ -283,6 +285,7 @@ def wong_reece(
             Limit("slip", slip, 0.0, 0.8, "", "the wheels of the paper"),
             Limit("diameter", diameter, 0.5, math.inf, "m", small),
             Limit("sinkage over diameter", z / diameter, 0.0, 0.26, "", "the paper's loose sand"),
+            Limit("sinkage", z, 0.0, ground.deepest, "m", "the plates of the card"),
         ],
         extrapolate,
     )

@@ -109,6 +109,21 @@ def require_range(method: str, limits: Sequence[Limit], extrapolate: bool) -> tu
     return outside
 
 
+# Load over diameter and width [Pa], by a wide margin: microrovers on the Moon have 100 Pa, lorries 1e5
+WHEEL_PRESSURES = (20.0, 5e5)
+
+
+def require_wheel(method: str, load: float, diameter: float, width: float) -> None:
+    """@raises ResultsError for what no wheel has, such as a load in kN or a width in mm"""
+    require_positive(method, load=load, diameter=diameter, width=width)
+    pressure, (low, high) = load / (diameter * width), WHEEL_PRESSURES
+    if not low <= pressure <= high:
+        raise ResultsError(
+            f"{method}: {load:g} N on a wheel of {diameter:g} m x {width:g} m are {pressure:.3g} Pa over "
+            f"diameter and width; allowed: {low:g} to {high:g} Pa. Give N and m"
+        )
+
+
 def require_positive(method: str, **values: float) -> None:
     """@raises ResultsError naming the first that is not a finite number above 0"""
     for name, value in values.items():

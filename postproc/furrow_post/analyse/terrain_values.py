@@ -28,12 +28,23 @@ class TerrainValues:
     K: float  # shear displacement [m]
     c1: float
     c2: float
+    deepest: float = math.inf  # sinkage of the plates behind the values [m]
 
     def modulus(self, width: float) -> float:
-        """k of p = k z^n [Pa/m^n] under a contact of this width [m]."""
+        """k of p = k z^n [Pa/m^n] under a contact of this width [m].
+
+        @raises ResultsError where the ground would not resist
+        """
         if self.pressure == "bekker":
-            return self.k_1 / width + self.k_2
-        return float((self.k_1 + self.k_2 * width) / width**self.n)
+            modulus = self.k_1 / width + self.k_2
+        else:
+            modulus = float((self.k_1 + self.k_2 * width) / width**self.n)
+        if not modulus > 0:
+            raise ResultsError(
+                f"'{self.name}' does not resist under a contact {width:g} m wide: its modulus is {modulus:.3g} "
+                "Pa/m^n; take a wider one"
+            )
+        return modulus
 
     def plate_pressure(self, sinkage: Floats, width: float) -> Floats:
         """Mean pressure [Pa] under a plate at this sinkage [m]."""
@@ -74,6 +85,7 @@ def terrain_of_card(path: Path) -> TerrainValues:
         shear.K.value,
         sand.c1,
         sand.c2,
+        plate.sinkage.high,
     )
 
 

@@ -126,6 +126,17 @@ class SandTest(unittest.TestCase):
             empirical.wong_reece(5000, 1.2, 0.3, -0.1, compact, extrapolate=True)
         with self.assertRaisesRegex(ResultsError, "no terrain 'moon'; name a soil card, or one of LLL dry sand"):
             terrain("moon")
+        with self.assertRaisesRegex(ResultsError, "6 N on a wheel of 0.9 m x 0.35 m are 19 Pa over diameter and width"):
+            empirical.bekker(6, 0.9, 0.35, lete)
+
+    def test_card_is_used_within_its_plates(self) -> None:
+        card = terrain(str(SOURCE / "inputs" / "soils" / "dry_sand_smooth.yaml"))
+        self.assertFalse(empirical.bekker(3000, 0.74, 0.272, card).outside)
+        with self.assertRaisesRegex(OutOfRange, "sinkage 0.*allowed 0 to 0.0598.* .the plates of the card"):
+            empirical.bekker(9000, 0.74, 0.272, card)
+        self.assertIn("plates", str(empirical.wong_reece(9000, 0.74, 0.272, 0.1, card, extrapolate=True).outside))
+        with self.assertRaisesRegex(ResultsError, "does not resist under a contact 0.009 m wide"):
+            card.modulus(0.009)
 
 
 if __name__ == "__main__":
