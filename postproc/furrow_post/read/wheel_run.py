@@ -76,6 +76,7 @@ class WheelRun:
     floor: float = float("-inf")  # z of the ground under a bed whose lowest grains are frozen [m]
     below: float = 0.0  # depth of the continuum under the grains of a hybrid [m]
     values: dict[str, SteadyValue] = field(default_factory=dict)  # STEADY_QUANTITIES
+    rolling_radius: float = float("nan")  # travel along x per turn in the window [m/rad]
     wall_time: float = float("nan")  # [s]
     cpu_time: float = float("nan")  # measured by the runner, else wall time x ranks [s]
 
@@ -222,6 +223,8 @@ def _wheel_conditions(wheel: Style, results: Results) -> dict[str, Condition]:
         low, high = surface.x.min(axis=0), surface.x.max(axis=0)
         diameter = float(high[0] - low[0])
         width = float(2 * high[1] if wheel.flag("half") else high[1] - low[1])
+        if wheel.has("radius"):  # without the grousers of the surface
+            diameter = 2.0 * wheel.number("radius")
     found["wheel_diameter"] = Condition(diameter, "m")
     found["wheel_width"] = Condition(width, "m")
     return found
@@ -300,12 +303,13 @@ def _read_values(run: WheelRun, reference: Grains | None) -> None:
         )
     for name in FROM_CHANNELS:
         _require_mean(run, name, float(columns[name][inside].mean()))
-    v = columns["velocity_x"][inside].mean()
-    rim = run.radius * columns["spin_rate"][inside].mean()
+    v, spin = (float(columns[name][inside].mean()) for name in ("velocity_x", "spin_rate"))
+    run.rolling_radius = v / spin if spin else float("nan")
+    rim = float(columns["rim_speed"][inside].mean()) if "rim_speed" in columns else run.radius * spin
     if run.text("travel") == "free":  # an answer of the ground
-        run.conditions["speed"] = Condition(float(v), "m/s")
+        run.conditions["speed"] = Condition(v, "m/s")
     run.conditions["slip"] = Condition(float(run.values["slip"].mean))
-    by_speed = float((rim - v) / v) if v else float("nan")
+    by_speed = (rim - v) / v if v else float("nan")
     run.conditions["slip_by_vehicle_speed"] = Condition(by_speed)
     # The rig counts the hub drop from ground_level, which may differ from the top of the ground
     if reference is not None and np.isfinite(reference.bed_level):

@@ -2,10 +2,10 @@
 """What a point of a sweep gave: the steady values of its run and what follows from them.
 
 torque coefficient = T/(W r), net traction coefficient = P/W, tractive efficiency = P v/(T omega), with
-the drawbar pull P, the torque T, the vertical force W, the radius r of the undeformed wheel, and
-v/(omega r) from the slip (v_rim - v)/max(|v_rim|, |v|). Errors of ratios take both parts as
-independent, which is too much where both rise and fall together. The efficiency is that of a wheel
-that pulls: P and T above 0.
+the drawbar pull P, the torque T, the vertical force W, the radius r of the undeformed wheel, and the
+means v of the speed along x and omega of the spin. Errors of ratios take both parts as independent,
+which is too much where both rise and fall together. The efficiency is that of a wheel that pulls: P
+and T above 0.
 
 Several packings of one point are averaged. Their variance is that of the time averages and that
 of the packing; the packing's part is what the time averages leave of it.
@@ -64,8 +64,7 @@ def _of_run(run: WheelRun, families: Families) -> dict[str, Value]:
         found["net_traction_coefficient"] = _ratio(pull, load)
     found["torque_coefficient"] = _ratio(torque, load, 1 / run.radius)
     if pull.mean > 0 and torque.mean > 0:
-        speed_ratio = speed_over_rim(found["slip"].mean)
-        found["tractive_efficiency"] = _ratio(pull, torque, run.radius * speed_ratio)
+        found["tractive_efficiency"] = _ratio(pull, torque, run.rolling_radius)
     return found
 
 

@@ -24,6 +24,18 @@ class WheelRunTest(FolderTest):
         self.assertAlmostEqual(run.number("slip"), 0.2, places=12)
         self.assertAlmostEqual(run.number("slip_by_vehicle_speed"), 0.25, places=12)  # s/(1 - s)
 
+    def test_radius_of_a_mesh_is_without_its_grousers(self) -> None:
+        mesh = style("wheel", "wheel/mesh", "wheel", radius=RADIUS)
+        write_run(self.folder, styles=[mesh, rig()])
+        tip = 1.08 * RADIUS
+        with h5py.File(self.folder / "history.h5", "a") as content:
+            content["surface/triangles"] = np.array([[0, 1, 2]])
+            content["surface/x"] = np.array([[-tip, 0, 0], [tip, 0.1, 0], [0, -0.1, tip]])
+        run = read_wheel_run(self.folder)
+        self.assertAlmostEqual(run.radius, RADIUS)
+        self.assertAlmostEqual(run.number("slip_by_vehicle_speed"), 0.25, places=12)
+        self.assertAlmostEqual(run.rolling_radius, 0.8 * RADIUS)
+
     def test_a_fix_may_be_called_like_a_keyword(self) -> None:
         write_run(self.folder, styles=[rigid_wheel("speed"), rig(identity="load_force")])
         run = read_wheel_run(self.folder)
@@ -54,7 +66,7 @@ class WheelRunTest(FolderTest):
         self.assertEqual((run.wheel, run.deformable), ("rigid wheel", False))
         self.assertEqual(run.radius, RADIUS)
 
-    def test_a_wheel_of_a_mesh_is_rigid_and_has_the_sizes_of_its_surface(self) -> None:
+    def test_a_wheel_of_a_mesh_is_rigid_and_has_the_width_of_its_surface(self) -> None:
         wheel = style("wheel", "wheel/mesh", "wheel", file="wheel.stl", radius=0.3)
         write_run(self.folder, styles=[wheel, rig()])
         with h5py.File(self.folder / "history.h5", "a") as content:
@@ -62,7 +74,7 @@ class WheelRunTest(FolderTest):
             content["surface/x"] = np.array([[0.0, -0.1, 0], [0.7, 0.1, 0.1], [0.3, 0, 0.7]])
         run = read_wheel_run(self.folder)
         self.assertEqual((run.wheel, run.deformable), ("mesh wheel", False))
-        self.assertAlmostEqual(run.number("wheel_diameter"), 0.7)
+        self.assertAlmostEqual(run.number("wheel_diameter"), 0.6)
         self.assertAlmostEqual(run.number("wheel_width"), 0.2)
 
     def test_without_a_wheel_it_is_no_wheel_run(self) -> None:

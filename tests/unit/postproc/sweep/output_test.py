@@ -61,6 +61,17 @@ class OutputTest(FolderTest):
         expected = [p * LOAD * (1 - s) * RADIUS / t for s, p, t in PULLING[1:]]
         self.assertEqual([round(e, 9) for e in efficiency], [round(e, 9) for e in expected])
 
+    def test_efficiency_is_that_of_speed_and_spin_whatever_radius_the_slip_has(self) -> None:
+        write_pulling(self.folder / "a")
+        tips = 1.08  # over the radius without grousers: the slip is by the tips
+        for file in (self.folder / "a").glob("*/history.h5"):
+            with h5py.File(file, "a") as content:
+                content["history/spin_rate"][...] /= tips
+        (line,) = evaluate([Named(self.folder / "a")], Wanted()).figure.lines
+        efficiency = [value.mean for _, _, value in line.values(EFFICIENCY)]
+        expected = [p * LOAD * (1 - s) * tips * RADIUS / t for s, p, t in PULLING[1:]]
+        self.assertEqual([round(e, 9) for e in efficiency], [round(e, 9) for e in expected])
+
     def test_of_wheels_that_are_free_the_slip_is_an_answer(self) -> None:
         for slope in (0.0, 5.0, 10.0):
             free = rig(LOAD)
