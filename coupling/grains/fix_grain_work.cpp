@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "coupling/base/checkpoint_totals.h"
 #include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/fix_rig.h"
 #include "coupling/base/require_unique.h"
 #include "coupling/base/snow_pairs.h"
 #include "coupling/liggghts/global_properties.h"
@@ -171,17 +172,19 @@ FixGrainWork::Taken FixGrainWork::power(const PairContact& contact) const {
   return taken;
 }
 
+/// A rig on a slope tilts the gravity of the scene.
 double FixGrainWork::lifting_power() const {
-  double momentum[3] = {0.0, 0.0, 0.0};
-  for (int i = 0; i < atom->nlocal; ++i)
-    for (int k = 0; k < 3; ++k) momentum[k] += atom->rmass[i] * atom->v[i][k];
-  double power = 0.0;
+  Vector3 momentum = Vector3::Zero(), gravity = Vector3::Zero();
+  for (int i = 0; i < atom->nlocal; ++i) momentum += atom->rmass[i] * vector(atom->v[i]);
   for (auto* weight : fixes_of<LAMMPS_NS::FixGravity>(*modify)) {
-    double gravity[3];
-    weight->get_gravity(gravity);
-    for (int k = 0; k < 3; ++k) power -= gravity[k] * momentum[k];
+    Vector3 one;
+    weight->get_gravity(one.data());
+    gravity += one;
   }
-  return power;
+  for (const FixRig* fix : fixes_of<const FixRig>(*modify))
+    if (fix->rig().on_slope())
+      return -momentum.dot(fix->rig().tilt(FixCoupledSystem::of(*lmp).time()) * gravity);
+  return -momentum.dot(gravity);
 }
 
 double FixGrainWork::power_of_all_forces() const {

@@ -76,6 +76,23 @@ TEST(GrainWork, OfGrainsThatMeetHeadOnIsWhatTheDampingTakes) {
   EXPECT_NEAR(entry(scene, roll), 0.0, 1e-6 * before);
 }
 
+// A grain falls freely while a rig tilts gravity onto a slope: nothing is left for walls.
+TEST(GrainWork, OfAGrainThatFallsOnASlopeIsAgainstTiltedGravity) {
+  Scene scene;
+  box(scene);
+  scene.commands(
+      "fix weight all gravity 9.80665 vector 0 0 -1\n"
+      "fix rig all wheel/rig wheel wheel sinkage -0.05 speed 0 mode towed slope 30 "
+      "settle_time 4e-4 accelerate_time 1e-4 ground_level 0");
+  add_grain(scene, {0.0, 0.0, 0.1});
+  begin(scene);
+  scene.command("run 1000");
+  const double energy = scene.grain_kinetic_energy();
+  EXPECT_GT(energy, 0.0);
+  EXPECT_NEAR(entry(scene, lifted), -energy, 5e-3 * energy);
+  EXPECT_NEAR(entry(scene, walls), 0.0, 5e-3 * energy);
+}
+
 /// Lumps of 27 grains that meet off centre and fall apart.
 double lumps_meet(Scene& scene, const Eigen::Vector2d& middle) {
   const double x = middle[0], y = middle[1];
