@@ -28,7 +28,7 @@ check(postproc inputs inputs/laboratory ${examples} FILES postproc/furrow_post $
 check(postproc inputs/crosscheck FILES ${of_crosscheck})
 check(postproc ${validation}/grains FILES ${of_validation/grains})
 check(postproc ${validation}/snow_wheel FILES ${of_validation/snow_wheel})
-check(postproc ${tests} inputs/laboratory inputs/crosscheck ${validation}/grains FILES ${of_tests})
+check(postproc tests/support ${tests} inputs/laboratory inputs/crosscheck ${validation}/grains FILES tests/support/copied.py ${of_tests})
 if(failed)
   message(FATAL_ERROR "mypy: see above")
 endif()
