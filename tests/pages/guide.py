@@ -16,6 +16,9 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+sys.path[:0] = [str(Path(__file__).resolve().parents[k] / name) for k, name in ((1, "support"), (2, "postproc"))]
+from copied import is_python, run_script
+
 SECONDS = 900  # of one command
 PROGRAM = re.compile(
     r"([A-Z_]+=\S+ )*(bash (inputs|results)/|cd |cp |mkdir |mpirun |ctest |cmake |ffmpeg |furrow(-\w+)? "
@@ -64,6 +67,17 @@ class Session:
 
     def run(self, command: str, folder: str = ".", fails: bool = False) -> str:
         print(f"+ {command}", flush=True)
+        # what inputs/run becomes, when nothing is to be built
+        direct = re.sub("^bash inputs/run (.*--no-build)", r"postproc/furrow-post run \1", command)
+        if is_python(direct):
+            status, said = run_script(direct, self.root / folder, FURROW_BUILD=str(self.root / "build"))
+        else:
+            status, said = self.run_in_shell(command, folder)
+        if bool(status) != fails:
+            sys.exit(f"{said}\n'{command}' ended with status {status}")
+        return said
+
+    def run_in_shell(self, command: str, folder: str) -> tuple[int, str]:
         done = subprocess.run(
             ["bash", "-c", f'PATH="$ROOT/build/bin:$PATH"; {command}'],
             cwd=self.root / folder,
@@ -74,9 +88,7 @@ class Session:
             stderr=subprocess.STDOUT,
             timeout=SECONDS,
         )
-        if bool(done.returncode) != fails:
-            sys.exit(f"{done.stdout}\n'{command}' ended with status {done.returncode}")
-        return done.stdout
+        return done.returncode, done.stdout
 
     def command(self, command: str, later: str) -> None:
         """Runs a command of a page, small, once; later: the commands after it."""

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The first example of each style's page runs: snippets.py <source> <build> <scratch>.
 
-It is the first code block of the section Examples, saved next to the scenes and run from there.
+It is the first code block of the section Examples, saved next to the scenes and run from there. A run
+ends after STEPS at the latest, when the wheels stand on their ground.
 """
 
 import os
@@ -12,6 +13,13 @@ import sys
 from pathlib import Path
 
 SECONDS = 120  # of one script
+STEPS = 1000
+
+
+def shortened(script: str) -> str:
+    """Scripts with "upto" go on to a step that they need."""
+    script = re.sub(r"^(run +)(\d+)$", lambda run: f"{run[1]}{min(int(run[2]), STEPS)}", script, flags=re.M)
+    return re.sub(r"\bwall_time \d+", "wall_time 1", script)
 
 
 def snippet(page: Path) -> str:
@@ -38,7 +46,7 @@ def main(source: Path, build: Path, scratch: Path) -> None:
         if not re.search(rf"\b{style}\b", script) and "restart" not in page.stem:
             sys.exit(f"{page}: its script has no line of the style")
         path = scenes / f"{page.stem}.lig"
-        path.write_text(script, encoding="utf-8")
+        path.write_text(shortened(script), encoding="utf-8")
         print(f"+ {page.stem}", flush=True)
         done = subprocess.run(
             [build / "bin" / "furrow", "-in", path.name, "-log", "none"],
