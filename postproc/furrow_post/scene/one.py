@@ -103,13 +103,16 @@ def _values(run: SceneRun, folder: Path) -> dict[str, str]:
     return values
 
 
-def post(*words: object, shown: bool = True) -> None:
-    """Runs furrow-post. @raises Failed"""
-    code = "import sys; from furrow_post.cli.main import main; sys.exit(main())"
+def post(*commands: Sequence[object], shown: bool = True) -> None:
+    """Runs commands of furrow-post in one process, which imports matplotlib once. @raises Failed"""
+    code = (
+        f"import json, sys; sys.path.insert(0, {str(PACKAGE.parent)!r}); from furrow_post.cli.main import main; "
+        "sys.exit(next(filter(None, map(main, json.loads(sys.argv[1]))), 0))"
+    )
+    words = json.dumps([[str(word) for word in command] for command in commands])
     sys.stdout.flush()
     done = subprocess.run(
-        [sys.executable, "-c", f"import sys; sys.path.insert(0, {str(PACKAGE.parent)!r}); {code}", *map(str, words)],
-        stdout=None if shown else subprocess.DEVNULL,
+        [sys.executable, "-c", code, words], stdout=None if shown else subprocess.DEVNULL
     )
     if done.returncode:
         raise Failed(done.returncode)
@@ -119,11 +122,12 @@ def show(folder: Path, quick: bool, shown: bool = True) -> None:
     """Pictures of a run with a history; those of a quick run are small."""
     if not (folder / "history.h5").is_file():
         return
-    post("plot", folder, shown=shown)
+    commands: list[Sequence[object]] = [("plot", folder)]
     # Neither a rigid plane nor a height field has grains or particles to draw
     cost = parse_json((folder / "summary.json").read_text()).get("cost", {})
     if cost.get("grains") or (folder / "terrain.h5").is_file():
-        post("picture", folder, *(("--pixels", 500) if quick else ()), shown=shown)
+        commands.append(("picture", folder, *(("--pixels", 500) if quick else ())))
+    post(*commands, shown=shown)
 
 
 def words_of(scene: str, variables: Sequence[tuple[str, str]]) -> str:

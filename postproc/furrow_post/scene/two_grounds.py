@@ -87,5 +87,4 @@ def _run(name: str, folder: Path, quick: bool, runs: Runs) -> None:
 def _compare(folder: Path, errors: Path, *words: object) -> None:
     """Table, picture and report. errors: table of runs of other sizes."""
     given = [*words, *(("--errors", errors) if errors.is_file() else ())]
-    post("compare", *given, "-o", folder)
-    post("report", *given, "-o", folder / "report.html")
+    post(("compare", *given, "-o", folder), ("report", *given, "-o", folder / "report.html"))
