@@ -29,18 +29,22 @@ def check_audit(audit, name, energy_limit):
                     audit[f"{what}_scale"], MOMENTUM_LIMIT)
 
 
+def check_pictures(folder, drawn):
+    """There are the pictures of a run, or none."""
+    summary = json.loads((folder / "summary.json").read_text())
+    grains = summary["cost"]["grains"] > 0 or (folder / "terrain.h5").exists()
+    wanted = {"histories.png", *(["rut.png"] if grains else [])} if drawn else set()
+    there = {file.name for file in folder.glob("*.png") if file.read_bytes().startswith(b"\x89PNG")}
+    if not wanted <= there or (there and not drawn):
+        sys.exit(f"{folder} has the pictures {there}, not {wanted}")
+
+
 def wheel_quantities(folder):
     """Of summary.json, which the run itself writes, and of history.h5."""
     summary = json.loads((folder / "summary.json").read_text())
     if not summary["complete"]:
         sys.exit(f"{folder} did not come to its end")
     check_audit(summary["audit"], "wheel", ENERGY_LIMIT)
-    pictures = ["histories.png"]
-    if summary["cost"]["grains"] > 0 or (folder / "terrain.h5").exists():
-        pictures.append("rut.png")
-    for picture in pictures:
-        if not (folder / picture).read_bytes().startswith(b"\x89PNG"):
-            sys.exit(f"{folder / picture} is no picture")
     with h5py.File(folder / "history.h5") as content:
         found = {}
         for name, column in content["history"].items():

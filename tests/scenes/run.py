@@ -37,7 +37,7 @@ import h5py
 import numpy as np
 
 from head import Head
-from quantities import continuum_quantities, plate_quantities, wheel_quantities
+from quantities import check_pictures, continuum_quantities, plate_quantities, wheel_quantities
 from refused import REFUSED
 
 PROJECT = Path(__file__).resolve().parents[2]
@@ -74,23 +74,27 @@ def empty(folder):
     return Path(folder)
 
 
-def check_scene(script, folder):
+def check_scene(script, folder, drawn=True):
     found = continuum_quantities(folder)
     if (folder / "history.h5").is_file():
         found.update(wheel_quantities(folder))
+        check_pictures(folder, drawn)
     if (folder / "curve.txt").is_file():
         found.update(plate_quantities(folder))
     Head(script).check(found)
 
 
+# Of each kind of body and ground one scene is drawn: drawing takes longer than most quick runs.
+DRAWN = ("grains_on_continuum", "rover_wheel_mesh", "two_axles", "tyre_on_continuum", "tyre_on_plane",
+         "wheel_climbs_slope", "wheel_on_sand", "wheel_on_scm", "wheel_on_washboard")
+
+
 def scene(script, ranks, results):
-    folder = empty(results)
+    folder, drawn = empty(results), Path(script).stem in DRAWN
     # A cache of its own: the bed is made, not read.
-    inputs_run(script, "--quick", "-n", ranks, "-o", folder / BLANKS,
+    inputs_run(script, "--quick", "-n", ranks, "-o", folder / BLANKS, *([] if drawn else ["--no-pictures"]),
                FURROW_CACHE=str(folder / "cache"))
-    check_scene(script, folder / BLANKS)
-    if (folder / BLANKS / "history.h5").is_file() and not (folder / BLANKS / "histories.png").is_file():
-        sys.exit("the run has drawn no picture of its histories")
+    check_scene(script, folder / BLANKS, drawn)
 
 
 def two_grounds(results):
