@@ -12,13 +12,14 @@ from ..arguments import number, path, positive, shield_negative_numbers, words
 from ..errors import ResultsError
 from ..program import run_program
 from ..scene.process import Runs
-from ..read.soil_card import markdown, read_card
+from ..read.soil_card import SoilCard, markdown, read_card
 from ..soil.exports import EXPORTS
+from ..soil import grains
 from ..soil.instruments import Bench
 from ..soil.make import CLASSES, compression, from_bekker, from_cone, from_strength, read_oedometer
-from ..soil.material import NewMaterial, find_material
+from ..soil.material import OF_GRAINS, NewMaterial, find_ground
 from ..soil.point import oedometer_misfit
-from ..soil.testing import FULL, QUICK, cone_misfit, default_folder, make_card, plate_misfit
+from ..soil.testing import FULL, QUICK, cone_misfit, default_folder, make_card, make_grain_card, plate_misfit
 from ..soil.units import EARTH
 
 SIZES = (0.1, 0.15, 0.2)  # [m]
@@ -44,6 +45,7 @@ EXAMPLES = """examples:
   furrow-soil make my_loam.yaml --k_c 5270 --k_phi 1515040 --n 0.7 --c 1720 --phi 29 --K 0.025
   furrow-soil make my_clay.yaml --cone_index 4e5 --class CL --no-check
   furrow-soil card dry_sand_smooth -o results/card --export chrono altair table
+  furrow-soil card sand_cmu -o results/card_of_grains
   furrow-soil export results/card/card.yaml chrono"""
 
 
@@ -66,12 +68,15 @@ def parser() -> argparse.ArgumentParser:
     make.add_argument("--no-check", action="store_true", help="no virtual plate or cone")
     make.set_defaults(run=run_make)
     card = commands.add_parser("card", help="runs plates, shear ring and cone, and fits a card")
-    card.add_argument("ground", type=words, help="material file, or one of inputs/materials")
+    card.add_argument("ground", type=words, help="material file, ground of grains (.lig), or the name of one of inputs/materials or inputs/laboratory/grounds")
     card.add_argument("-o", "--output", type=path, help="folder, by default results/soil_GROUND")
     card.add_argument(
-        "--sizes", type=positive, nargs="+", default=SIZES, help="diameters of the plates [m]"
+        "--sizes",
+        type=positive,
+        nargs="+",
+        help="diameters of the plates [m], by default 0.1 0.15 0.2, or 10 and 13 grains",
     )
-    card.add_argument("--quick", action="store_true", help="coarse cells and two loads: a first look")
+    card.add_argument("--quick", action="store_true", help="coarse cells or one packing, and two loads: a first look")
     card.add_argument("--gravity", type=positive, default=EARTH, help="[m/s2]")
     card.add_argument("--export", nargs="+", choices=EXPORTS, default=list(EXPORTS), help="formats")
     card.set_defaults(run=run_card)
@@ -86,17 +91,33 @@ def parser() -> argparse.ArgumentParser:
 
 
 def run_card(given: argparse.Namespace) -> None:
-    ground = find_material(given.ground)
+    ground = find_ground(given.ground)
     folder = given.output or default_folder(ground)
-    if len(set(given.sizes)) < 2:
+    if given.sizes and len(set(given.sizes)) < 2:
         raise ResultsError("--sizes: k_c and k_phi need plates of two diameters or more")
-    folder.mkdir(parents=True, exist_ok=True)
-    with Runs() as runs:
-        bench = Bench.of(ground, folder, given.gravity)
-        effort = QUICK if given.quick else FULL
-        card = make_card(bench, given.sizes, effort, given.export, runs)
+    make = _grain_card if ground.suffix == OF_GRAINS else _continuum_card
+    card = make(given, ground, folder)
     print(card.report())
     print(f"  card          {folder / 'card.yaml'}\n  page          {folder / 'card.html'}")
+
+
+def _continuum_card(given: argparse.Namespace, ground: Path, folder: Path) -> SoilCard:
+    bench = Bench.of(ground, folder, given.gravity)
+    folder.mkdir(parents=True, exist_ok=True)
+    with Runs() as runs:
+        return make_card(bench, given.sizes or SIZES, QUICK if given.quick else FULL, given.export, runs)
+
+
+def _grain_card(given: argparse.Namespace, path: Path, folder: Path) -> SoilCard:
+    if given.gravity != EARTH:
+        raise ResultsError(f"--gravity: the beds of grains settle under {EARTH:g} m/s2; leave it out for {path.name}")
+    ground = grains.read_ground(path)
+    sizes = given.sizes or [part * ground.diameter for part in grains.SIZES]
+    grains.require_sizes(sizes, ground)
+    folder.mkdir(parents=True, exist_ok=True)
+    with Runs() as runs:
+        bench = grains.GrainBench(ground, folder, max(sizes))
+        return make_grain_card(bench, sizes, grains.QUICK if given.quick else grains.FULL, given.export, runs)
 
 
 def run_export(given: argparse.Namespace) -> None:

@@ -53,11 +53,17 @@ class ShearCurve:
     load: float = 0.0  # [Pa] that the drive should hold; 0: not known
     sinking: float = 0.0  # sinkage over shear displacement in its second half
     widening: float = 1.0  # of the sheared area, as cells next to the ring shear too: a factor of the cohesion
+    compacts: bool = False  # sinks as its strength grows, where the correction of share() does not hold
 
     def late(self) -> npt.NDArray[np.bool_]:
         """Points in the second half of the displacement, where the strength is mobilised."""
         late: npt.NDArray[np.bool_] = self.displacement > 0.5 * self.displacement.max()
         return late
+
+    def growth(self) -> float:
+        """Of the shear stress over the second half of the displacement, over its mean there."""
+        x, y = self.displacement[self.late()], self.shear[self.late()]
+        return float(line_fit(x - x.mean(), y)[0] * (x.max() - x.min()) / y.mean())
 
     def share(self, sine: float) -> float:
         """Of the strength, what a ring measures that sinks. A ground of friction angle phi' that flows down by
@@ -66,7 +72,7 @@ class ShearCurve:
 
         @param sine  sin(phi')
         """
-        psi = math.atan(self.sinking)
+        psi = 0.0 if self.compacts else math.atan(self.sinking)
         return math.cos(psi) / (1 + sine * math.sin(psi))
 
 

@@ -24,6 +24,10 @@ RING_PACE, FAST_RING_PACE = 1 / 1600, 1 / 400
 FASTEST = 1.0  # [m/s] 100 Pa of dynamic pressure on snow, 800 Pa on sand
 RING = (0.2, 0.12)  # [m] outer and inner diameter
 PRESS = 0.015  # [m] that the drive would move in the time of pressing
+# Young's modulus of the ring's ground, over the pressure under the smallest plate. Above it one step of the
+# drive changes the pressure by more than the load, and sound carries more than the strength
+STIFFEST = 100
+SOFTEST = 0.01  # modulus_scale of terrain/continuum
 CONE_BASE = 0.02027  # [m] 323 mm2, ASABE S313.3
 CONE_ANGLE = 30.0  # [degrees]
 
@@ -50,27 +54,47 @@ class Bench:
 
         @return folder of the results @raises ResultsError, Stopped, Failed
         """
-        inputs = inputs_folder()
-        if inputs is None:
-            raise ResultsError("furrow-soil needs Furrow's inputs; run it from the tree or installed")
-        script = inputs / "soils" / "instruments" / f"{instrument}.lig"
-        folder = (self.folder / name).resolve()
         values = {"gravity": self.gravity, **variables}
-        lines = [str(self.path), content_with_bases(self.path)]
-        record = "\n".join([*lines, *(f"{key} {value!r}" for key, value in values.items())])
-        done = folder / "done.txt"
-        if done.is_file() and done.read_text(encoding="utf-8") == record:
-            return folder
-        folder.mkdir(parents=True, exist_ok=True)
-        done.unlink(missing_ok=True)
-        command: list[object] = [find_program("furrow"), "-in", script, "-log", folder / "log.liggghts"]
-        command += ["-var", "results", folder, "-var", "material", self.path]
-        for key, value in values.items():
-            command += ["-var", key, repr(float(value)) if isinstance(value, float) else value]
-        print(f"{name} ...", flush=True)
-        runs.run(command, folder, folder, f"{name}: ")
-        done.write_text(record, encoding="utf-8")
+        content = content_with_bases(self.path)
+        return run_instrument(instrument, self.folder / name, {"material": self.path}, content, values, runs)
+
+
+def run_instrument(
+    instrument: str,
+    folder: Path,
+    surroundings: Mapping[str, object],
+    content: str,
+    values: Mapping[str, float],
+    runs: Runs,
+) -> Path:
+    """Runs a script of inputs/soils/instruments unless its results are in the folder.
+
+    @param surroundings  variables that name files
+    @param content       of the ground: another one repeats the run
+    @return the folder @raises ResultsError, Stopped, Failed
+    """
+    inputs = inputs_folder()
+    if inputs is None:
+        raise ResultsError("furrow-soil needs Furrow's inputs; run it from the tree or installed")
+    script = inputs / "soils" / "instruments" / f"{instrument}.lig"
+    name, folder = folder.name, folder.resolve()
+    lines = [*map(str, surroundings.values()), content]
+    record = "\n".join([*lines, *(f"{key} {value!r}" for key, value in values.items())])
+    done = folder / "done.txt"
+    if done.is_file() and done.read_text(encoding="utf-8") == record:
         return folder
+    folder.mkdir(parents=True, exist_ok=True)
+    done.unlink(missing_ok=True)
+    command: list[object] = [find_program("furrow"), "-in", script, "-log", folder / "log.liggghts"]
+    command += ["-var", "results", folder]
+    for key, place in surroundings.items():
+        command += ["-var", key, place]
+    for key, value in values.items():
+        command += ["-var", key, repr(float(value)) if isinstance(value, float) else value]
+    print(f"{name} ...", flush=True)
+    runs.run(command, folder, folder, f"{name}: ")
+    done.write_text(record, encoding="utf-8")
+    return folder
 
 
 def plate_test(bench: Bench, size: float, sinkage: float, cells: int, runs: Runs) -> PlateCurve:
@@ -82,18 +106,24 @@ def plate_test(bench: Bench, size: float, sinkage: float, cells: int, runs: Runs
         "speed": bench.speed(PLATE_PACE),
     }
     folder = bench.run("plate", f"plate_{1e3 * size:.0f}mm", variables, runs)
-    rows = _rows(folder)
+    rows = read_curve(folder)
     return PlateCurve(0.5 * size, rows[:, 1], rows[:, 3])
 
 
+def ring_scale(material: Material, carried: float) -> float:
+    """Factor on Young's modulus under the ring; carried: by the smallest plate [Pa]."""
+    return min(1.0, max(SOFTEST, STIFFEST * carried / material.young))
+
+
 def ring_test(
-    bench: Bench, pressure: float, turn: float, cells: int, runs: Runs, pace: float = RING_PACE
+    bench: Bench, pressure: float, turn: float, cells: int, runs: Runs, pace: float, scale: float = 1.0
 ) -> ShearCurve:
     """The ring under a mean pressure [Pa], whose middle turns by so many metres; stresses from its
-    force and torque."""
+    force and torque. scale: of Young's modulus"""
     outer, inner = 0.5 * RING[0], 0.5 * RING[1]
     middle = 2 / 3 * (outer**3 - inner**3) / (outer**2 - inner**2)
-    speed, press_speed = bench.speed(pace), bench.speed(PRESS_PACE)
+    slower = math.sqrt(scale)  # as waves are
+    speed, press_speed = bench.speed(pace * slower), bench.speed(PRESS_PACE * slower)
     variables = {
         "size": RING[0],
         "inner_size": RING[1],
@@ -103,16 +133,22 @@ def ring_test(
         "press_time": PRESS / press_speed,
         "spin": speed / middle,
         "angle": turn / middle,
+        "modulus_scale": scale,
     }
-    name = f"ring_{1e-3 * pressure:.3g}kPa{'' if pace == RING_PACE else '_fast'}"
-    rows = _rows(bench.run("shear", name, variables, runs))
-    turning = rows[rows[:, 5] > 0]
-    # tau = T / (2 pi integral r^2 dr), which is uniform stress; half a cell on each side shears too
-    cubes = outer**3 - inner**3
+    name = f"ring_{1e-3 * pressure:.3g}kPa{'_fast' if pace == FAST_RING_PACE else ''}"
+    rows = read_curve(bench.run("shear", name, variables, runs))
+    # half a cell on each side shears too
     half = 0.5 * (outer - inner) / cells
-    widening = ((outer + half) ** 3 - (inner - half) ** 3) / cubes
-    tau = -turning[:, 4] / (2 / 3 * math.pi * cubes)
-    curve = ShearCurve(turning[:, 5] * middle, turning[:, 3], tau, speed, pressure, widening=widening)
+    widening = ((outer + half) ** 3 - (inner - half) ** 3) / (outer**3 - inner**3)
+    return replace(ring_curve(rows, outer, inner, speed, pressure), widening=widening, compacts=scale < 1)
+
+
+def ring_curve(rows: Floats, outer: float, inner: float, speed: float, pressure: float) -> ShearCurve:
+    """From the torque, which a uniform shear stress has: tau = T / (2 pi integral r^2 dr). Radii in m."""
+    middle = 2 / 3 * (outer**3 - inner**3) / (outer**2 - inner**2)
+    turning = rows[rows[:, 5] > 0]
+    tau = -turning[:, 4] / (2 / 3 * math.pi * (outer**3 - inner**3))
+    curve = ShearCurve(turning[:, 5] * middle, turning[:, 3], tau, speed, pressure)
     late = curve.late()
     return replace(curve, sinking=line_fit(curve.displacement[late], turning[late, 1])[0])
 
@@ -126,12 +162,13 @@ def cone_test(bench: Bench, depth: float, cells: int, runs: Runs) -> ConeCurve:
         "cells": cells,
         "speed": bench.speed(CONE_PACE),
     }
-    rows = _rows(bench.run("cone", "cone", variables, runs))
+    rows = read_curve(bench.run("cone", "cone", variables, runs))
     height = 0.5 * CONE_BASE / math.tan(math.radians(0.5 * CONE_ANGLE))
     return ConeCurve(rows[:, 1] - height, rows[:, 3])
 
 
-def _rows(folder: Path) -> Floats:
+def read_curve(folder: Path) -> Floats:
+    """Rows of step, sinkage [m], force [N], pressure [Pa], and of a ring torque [N m] and angle [rad]."""
     rows = read_matrix(folder / "curve.txt", 4)
     if len(rows) < 20 or not np.isfinite(rows).all():
         raise ResultsError(f"{folder}/curve.txt: has too few rows; remove the folder and run again")

@@ -14,6 +14,7 @@ from ..formatting import yaml_text
 from ..programs import inputs_folder
 
 MOST_BASES = 8
+OF_GRAINS = ".lig"  # ending of a ground of grains
 SECTIONS = ("law", "elasticity", "hardening")
 TYPICAL_PRESSURE = 1e4  # [Pa] where laws whose stiffness grows with pressure have the constants below
 NORSAND_PRESSURE = 1e5  # [Pa] of G, src/material/models/norsand
@@ -41,16 +42,20 @@ class Material:
         return 2 * self.young / (math.pi * radius * (1 - self.poisson**2))
 
 
-def find_material(name: str) -> Path:
-    """A file, or one of inputs/materials by its name. @raises ResultsError"""
+def find_ground(name: str) -> Path:
+    """A file, or one of inputs/materials or of the laboratory's grounds of grains by its name.
+    @raises ResultsError"""
     if Path(name).is_file():
         return Path(name).resolve()
     inputs = inputs_folder()
-    folder = inputs / "materials" if inputs else None
-    if folder and (folder / f"{Path(name).stem}.yaml").is_file():
-        return folder / f"{Path(name).stem}.yaml"
-    known = ", ".join(sorted(f.stem for f in folder.glob("*.yaml"))) if folder else "none"
-    raise ResultsError(f"there is no material '{name}'; name a file, or one of {known}")
+    known = []
+    if inputs:
+        every = [*(inputs / "materials").glob("*.yaml"), *(inputs / "laboratory" / "grounds").glob(f"*{OF_GRAINS}")]
+        for file in every:
+            if Path(name).stem == file.stem:
+                return file
+        known = sorted({file.stem for file in every})
+    raise ResultsError(f"there is no ground '{name}'; name a file, or one of {', '.join(known) or 'none'}")
 
 
 def read_material(path: Path) -> Material:

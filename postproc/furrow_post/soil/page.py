@@ -2,6 +2,7 @@
 """The page of a soil card: curves with their fits, values, ranges."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -15,17 +16,21 @@ from .fits import INDEX_DEPTH, ConeCurve, PlateCurve, ShearCurve
 FITTED = {"color": "0.25", "lw": 1.0, "ls": "--"}
 
 
-def draw_card(
-    card: SoilCard,
-    plates: Sequence[PlateCurve],
-    rings: Sequence[ShearCurve],
-    cone: ConeCurve,
-    target: Path,
-) -> None:
-    """Three panels: plates, ring, cone; dashed: the card."""
+@dataclass(frozen=True)
+class Curves:
+    """What the instruments measured; cone: None where there was none."""
+
+    plates: Sequence[PlateCurve]
+    rings: Sequence[ShearCurve]
+    cone: ConeCurve | None
+
+
+def draw_card(card: SoilCard, curves: Curves, target: Path) -> None:
+    """A panel each of plates, ring and cone; dashed: the card."""
     use_style()
-    figure, axes = plt.subplots(1, 3, figsize=(10.5, 3.6), layout="constrained")
-    for curve, colour in zip(plates, RUN_COLOURS):
+    panels, cone = 3 if curves.cone else 2, curves.cone
+    figure, axes = plt.subplots(1, panels, figsize=(3.5 * panels, 3.6), layout="constrained")
+    for curve, colour in zip(curves.plates, RUN_COLOURS):
         z = np.linspace(0, curve.sinkage.max(), 100)
         label = f"diameter {2 * MILLIMETRE * curve.radius:.0f} mm"
         axes[0].plot(MILLIMETRE * curve.sinkage, KILOPASCAL * curve.pressure, color=colour, label=label)
@@ -34,7 +39,7 @@ def draw_card(
             axes[0].plot(MILLIMETRE * z, KILOPASCAL * fit, **FITTED)
     axes[0].set(xlabel="sinkage [mm]", ylabel="mean pressure [kPa]", xlim=(0, None), ylim=(0, None))
     annotate_panel(axes[0], "a", "plates")
-    for ring, colour in zip(rings, RUN_COLOURS):
+    for ring, colour in zip(curves.rings, RUN_COLOURS):
         label = f"normal stress {KILOPASCAL * ring.normal.mean():.3g} kPa"
         j = MILLIMETRE * ring.displacement
         axes[1].plot(j, KILOPASCAL * ring.shear, color=colour, label=label)
@@ -42,17 +47,18 @@ def draw_card(
             axes[1].plot(j, KILOPASCAL * card.shear.at(ring.displacement, ring.normal), **FITTED)
     axes[1].set(xlabel="shear displacement [mm]", ylabel="shear stress [kPa]", xlim=(0, None), ylim=(0, None))
     annotate_panel(axes[1], "b", "shear ring")
-    axes[2].plot(KILOPASCAL * cone.pressure, MILLIMETRE * cone.depth, color=RUN_COLOURS[0], label="cone")
-    if isinstance(card.cone, Cone):
-        index = KILOPASCAL * card.cone.index.value
-        axes[2].plot((index, index), (0, MILLIMETRE * card.cone.depth.high), label="cone index", **FITTED)
-    axes[2].set(
-        xlabel="pressure on the base [kPa]",
-        ylabel="depth of the base [mm]",
-        ylim=(MILLIMETRE * min(cone.depth.max(), INDEX_DEPTH), 0),
-        xlim=(0, None),
-    )
-    annotate_panel(axes[2], "c", "cone")
+    if cone:
+        axes[2].plot(KILOPASCAL * cone.pressure, MILLIMETRE * cone.depth, color=RUN_COLOURS[0], label="cone")
+        if isinstance(card.cone, Cone):
+            index = KILOPASCAL * card.cone.index.value
+            axes[2].plot((index, index), (0, MILLIMETRE * card.cone.depth.high), label="cone index", **FITTED)
+        axes[2].set(
+            xlabel="pressure on the base [kPa]",
+            ylabel="depth of the base [mm]",
+            ylim=(MILLIMETRE * min(cone.depth.max(), INDEX_DEPTH), 0),
+            xlim=(0, None),
+        )
+        annotate_panel(axes[2], "c", "cone")
     for panel in axes:
         panel.legend(fontsize=7)
     save(figure, target)

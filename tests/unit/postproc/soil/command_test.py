@@ -20,15 +20,17 @@ words = sys.argv
 values = {words[k + 1]: words[k + 2] for k, word in enumerate(words) if word == "-var"}
 name = words[words.index("-in") + 1].rpartition("/")[2].removesuffix(".lig")
 results = values.pop("results")
-material = values.pop("material")
+for key in ("material", "ground", "laboratory", "ring"):
+    values.pop(key, None)
 v = {key: float(value) for key, value in values.items()}
 t = TRUTH
 rows = []
 for k in range(301):
     s = k / 300
-    if name == "plate":
+    packing = PACKING if v.get("seed") == 49979687 else 1
+    if name in ("plate", "grain_plate"):
         z = s * v["sinkage"]
-        p = (t["k_c"] / (0.5 * v["size"]) + t["k_phi"]) * z ** t["n"]
+        p = packing * (t["k_c"] / (0.5 * v["size"]) + t["k_phi"]) * z ** t["n"]
         rows.append((k, z, 0, p))
     elif name == "shear":
         outer, inner = 0.5 * v["size"], 0.5 * v["inner_size"]
@@ -41,6 +43,13 @@ for k in range(301):
         strength = t["c"] * wide + normal * math.tan(math.radians(t["phi"])) + SPEED_STRESS * math.sqrt(speed)
         tau = strength * (1 - math.exp(-turned * moment / area / t["K"]))
         rows.append((k, 0.001, v["load"], normal, -tau * moment, turned))
+    elif name == "grain_ring":
+        outer, inner = 0.09, 0.05  # 18 and 10 grains of 10 mm
+        area, moment = math.pi * (outer**2 - inner**2), 2 / 3 * math.pi * (outer**3 - inner**3)
+        turned = max(0, 2 * s - 1) * v["angle"]
+        normal = v["load"] / area
+        tau = packing * (t["c"] + normal * math.tan(math.radians(t["phi"]))) * (1 - math.exp(-turned * moment / area / t["K"]))
+        rows.append((k, 0.001, v["load"], normal, -tau * moment, turned))
     else:
         height = 0.5 * v["size"] / math.tan(math.radians(0.5 * v["angle"]))
         z = s * (v["depth_of_base"] + height)
@@ -48,6 +57,8 @@ for k in range(301):
 with open(f"{results}/curve.txt", "w") as file:
     file.write("# LIGGGHTS\\n# columns\\n")
     file.writelines(" ".join(map(str, row)) + "\\n" for row in rows)
+with open(f"{results}/facts.txt", "w") as file:
+    file.write("test bulk 1330")
 with open("LOG", "a") as log:
     log.write(name + "\\n")
 sys.exit(STATUS)
@@ -60,10 +71,11 @@ class CardCommandTest(FolderTest):
         (self.folder / "bin").mkdir()
         self.furrow(0)
 
-    def furrow(self, status: int) -> None:
+    def furrow(self, status: int, packing: float = 1.0) -> None:
+        """packing: strength of the second packing of grains over the first"""
         program = self.folder / "bin" / "furrow"
         text = STAND_IN.replace("TRUTH", repr(TRUTH)).replace("CONE", repr(CONE))
-        text = text.replace("SPEED_STRESS", str(SPEED_STRESS)).replace("LOG", str(self.folder / "log.txt")).replace("STATUS", str(status))
+        text = text.replace("SPEED_STRESS", str(SPEED_STRESS)).replace("LOG", str(self.folder / "log.txt")).replace("STATUS", str(status)).replace("PACKING", str(packing))
         program.write_text(text, encoding="utf-8")
         program.chmod(0o755)
 
@@ -124,9 +136,48 @@ class CardCommandTest(FolderTest):
         self.assertNotEqual(done.returncode, 0)
         self.assertFalse((self.folder / "card" / "card.yaml").exists())
 
+    def test_a_card_of_grains_has_the_parameters_and_no_cone(self) -> None:
+        done = self.soil("card", "sand_cmu", "-o", "card")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        card = read_card(self.folder / "card" / "card.yaml")
+        for name, truth in TRUTH.items():
+            self.assertAlmostEqual(card.parameters()[name].value / truth, 1, delta=2e-3, msg=name)
+        self.assertEqual(card.ground, "sand_cmu.lig")
+        self.assertAlmostEqual(card.density, 1330)
+        self.assertAlmostEqual(card.bekker_and_shear()[0].radii.low, 0.05)
+        self.assertIn("standard cone is 2.0 grains wide, and needs 10", card.failures()["cone"])
+        self.assertIn("packings: 2", card.notes[1])
+        self.assertEqual(self.runs(), 4 * ["grain_plate"] + 6 * ["grain_ring"])
+
+    def test_the_scatter_of_packings_is_in_the_errors(self) -> None:
+        self.soil("card", "sand_cmu", "-o", "equal")
+        self.furrow(0, packing=1.1)
+        self.soil("card", "sand_cmu", "-o", "apart")
+        equal, apart = (read_card(self.folder / name / "card.yaml").parameters() for name in ("equal", "apart"))
+        middle = math.degrees(math.atan(1.05 * math.tan(math.radians(TRUTH["phi"]))))
+        self.assertLess(abs(apart["phi"].value - middle), 2 * apart["phi"].error)
+        for name in ("k_phi", "phi"):
+            self.assertGreater(apart[name].error, 10 * equal[name].error, name)
+
+    def test_wrong_grounds_of_grains_are_refused(self) -> None:
+        good = (SOURCE / "inputs/laboratory/grounds/sand_cmu.lig").read_text(encoding="utf-8")
+        ground = self.folder / "my_sand.lig"
+        for text, message in (
+            (good + "fix soil all terrain/continuum cell 0.01\n", r"my_sand.lig:12: 'terrain/continuum' belongs to a continuum"),
+            (good.replace("family string sand", "family string gravel"), "line 'variable family string NAME', NAME one of .*sand"),
+            (good.replace("diameter index 0.010", "diameter index 10"), "variable diameter is '10'; allowed: 0.0001 to 0.5 m"),
+        ):
+            ground.write_text(text, encoding="utf-8")
+            self.assertRegex(self.soil("card", ground).stderr, message)
+        done = self.soil("card", "sand_cmu", "--sizes", 0.08, 0.1)
+        self.assertIn("a plate of 0.08 m is 8.0 grains wide; allowed: 10 grains or more, 0.1 m on sand_cmu.lig", done.stderr)
+        done = self.soil("card", "sand_cmu", "--gravity", 1.62)
+        self.assertIn("the beds of grains settle under 9.80665 m/s2", done.stderr)
+        self.assertFalse((self.folder / "log.txt").exists())
+
     def test_wrong_grounds_and_sizes_are_refused(self) -> None:
         done = self.soil("card", "moon")
-        self.assertRegex(done.stderr, "^furrow-soil: there is no material 'moon'; name a file, or one of .*dry_sand")
+        self.assertRegex(done.stderr, "^furrow-soil: there is no ground 'moon'; name a file, or one of .*dry_sand")
         done = self.soil("card", "dry_sand", "--sizes", 0.1)
         self.assertIn("k_c and k_phi need plates of two diameters or more", done.stderr)
         (self.folder / "ground.yaml").write_text("law: {density: 1500}\n", encoding="utf-8")

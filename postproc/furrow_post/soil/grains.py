@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Plates and shear ring on a bed of grains, packing by packing."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import ResultsError
+from ..programs import inputs_folder
+from ..read.script import script_variables
+from ..read.soil_card import NoResult
+from ..scene.process import Runs
+from .fits import PlateCurve, ShearCurve
+from .instruments import CONE_BASE, read_curve, ring_curve, run_instrument
+
+FEWEST_GRAINS = 10.0  # across a plate: below, single grains make the curve
+SIZES = (10.0, 13.0)  # diameters of the plates, in grains
+SINKAGE = 0.2  # of the diameter of a plate
+RING = (18.0, 10.0)  # outer and inner diameter of the ring, in grains
+GROUSER = 1.0  # height of the grousers, in grains
+BARS, PARTS = 16, 4  # grousers around the ring; one part in so many of the way around is grouser
+HEIGHT = 5.0  # of the ring, in grains
+PRESS_TIME = 0.12  # [s] in which the ring is pressed before it turns
+PLATE_SPEED, RING_SPEED = 0.2, 0.12  # [m/s] of the middle of the ring
+PRESS_SPEED = 0.2  # [m/s] of the ring without load
+TURN = 2.0  # grains that the middle of the ring turns
+BED_WIDTH, BED_DEPTH = 28.0, 11.0  # least of a bed, in grains
+WIDTH_OF_PLATE, DEPTH_OF_PLATE = 2.1, 0.8  # least width and depth of a bed over the largest plate
+LOADS = (0.06, 0.12, 0.24)  # of the ring, over what the smallest plate carries
+SEEDS = (86028121, 49979687)  # of the packings
+FACE_FRICTION = 0.5  # of plates, ring and grains
+CONTINUUM = ("terrain/continuum", "terrain/scm", "material", "cell")  # what a ground of grains does not have
+
+
+@dataclass(frozen=True)
+class GrainGround:
+    """A file of inputs/laboratory/grounds, or one like it: variables of the grains and how a bed is made."""
+
+    path: Path
+    diameter: float  # [m] mean of the grains
+
+    @property
+    def title(self) -> str:
+        return f"{self.path.stem}, grains of {1e3 * self.diameter:g} mm"
+
+
+@dataclass(frozen=True)
+class Packings:
+    """How much a card of grains costs: packings by their seeds, and loads of the ring."""
+
+    seeds: tuple[int, ...]
+    loads: tuple[float, ...]
+
+
+FULL = Packings(SEEDS, LOADS)
+QUICK = Packings(SEEDS[:1], LOADS[::2])
+
+
+def laboratory_folder() -> Path:
+    """@raises ResultsError where the inputs are missing"""
+    inputs = inputs_folder()
+    if inputs is None or not (inputs / "laboratory" / "parts").is_dir():
+        raise ResultsError("a card of grains needs inputs/laboratory; run furrow-soil from the source tree")
+    return inputs / "laboratory"
+
+
+def read_ground(path: Path) -> GrainGround:
+    """@raises ResultsError where the file is no ground of grains"""
+    _refuse_continuum(path)
+    parts = laboratory_folder() / "parts"
+    families = sorted(f.name.removesuffix("_bed.lig") for f in parts.glob("*_bed.lig"))
+    text = path.read_text(encoding="utf-8")
+    named = [line.split()[3] for line in text.splitlines() if line.split()[:3] == ["variable", "family", "string"]]
+    if named[-1:] == [] or named[-1] not in families:
+        raise ResultsError(
+            f"{path}: a ground of grains has the line 'variable family string NAME', NAME one of "
+            f"{', '.join(families)}; copy a file of inputs/laboratory/grounds"
+        )
+    value = script_variables(path, {}).defaults.get("diameter", "")
+    try:
+        diameter = float(value)
+    except ValueError:
+        diameter = 0.0
+    if not 1e-4 <= diameter <= 0.5:
+        raise ResultsError(f"{path}: variable diameter is '{value}'; allowed: 0.0001 to 0.5 m, of the grains")
+    return GrainGround(path, diameter)
+
+
+def _refuse_continuum(path: Path) -> None:
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        words = line.partition("#")[0].split()
+        found = next((word for word in CONTINUUM if word in words), None)
+        if found:
+            raise ResultsError(
+                f"{path}:{number}: '{found}' belongs to a continuum, and this file to grains; allowed: "
+                "variables of grains, as in inputs/laboratory/grounds. For a card of a continuum name its material file"
+            )
+
+
+def require_sizes(sizes: Sequence[float], ground: GrainGround) -> None:
+    """@raises ResultsError for a plate that is narrower than ten grains"""
+    for size in sizes:
+        if size < (FEWEST_GRAINS - 1e-6) * ground.diameter:
+            raise ResultsError(
+                f"--sizes: a plate of {size:g} m is {size / ground.diameter:.1f} grains wide; allowed: "
+                f"{FEWEST_GRAINS:g} grains or more, {FEWEST_GRAINS * ground.diameter:g} m on {ground.path.name}. Below "
+                "that single grains make the curve"
+            )
+
+
+def write_ring(path: Path, grain: float) -> None:
+    """The ring as STL [m]: a plate with grousers, which stand on z = 0."""
+    outer, inner = 0.5 * RING[0] * grain, 0.5 * RING[1] * grain
+    top, low = HEIGHT * grain, GROUSER * grain
+    count = BARS * PARTS
+
+    def at(radius: float, k: int, z: float) -> tuple[float, float, float]:
+        angle = 2 * math.pi * k / count
+        return radius * math.cos(angle), radius * math.sin(angle), z
+
+    quads = []
+    for k in range(count):
+        bar, n = k % PARTS == 0, k + 1
+        face = 0.0 if bar else low
+        quads.append((at(inner, k, top), at(outer, k, top), at(outer, n, top), at(inner, n, top)))
+        quads.append((at(inner, k, face), at(inner, n, face), at(outer, n, face), at(outer, k, face)))
+        for a, b in [(0.0, low)] * bar + [(low, top)]:
+            quads.append((at(outer, k, a), at(outer, n, a), at(outer, n, b), at(outer, k, b)))
+            quads.append((at(inner, n, a), at(inner, k, a), at(inner, k, b), at(inner, n, b)))
+        if bar:
+            quads.append((at(inner, k, 0), at(outer, k, 0), at(outer, k, low), at(inner, k, low)))
+            quads.append((at(outer, n, 0), at(inner, n, 0), at(inner, n, low), at(outer, n, low)))
+    lines = ["solid ring"]
+    for first, second, third, fourth in quads:
+        for corners in ((first, second, third), (first, third, fourth)):
+            vertices = "".join(f"vertex {x:.9g} {y:.9g} {z:.9g}\n" for x, y, z in corners)
+            lines.append(f"facet normal 0 0 0\nouter loop\n{vertices}endloop\nendfacet")
+    path.write_text("\n".join([*lines, "endsolid ring", ""]), encoding="utf-8")
+
+
+@dataclass(frozen=True)
+class GrainBench:
+    """A ground of grains, the beds of its tests, and where the results go."""
+
+    ground: GrainGround
+    folder: Path
+    largest: float  # [m] plate
+
+    def _run(self, script: str, name: str, seed: int, values: dict[str, float], runs: Runs) -> Path:
+        grain = self.ground.diameter
+        surroundings: dict[str, object] = {"ground": self.ground.path, "laboratory": laboratory_folder()}
+        if script == "grain_ring":
+            self.folder.mkdir(parents=True, exist_ok=True)
+            surroundings["ring"] = (self.folder / "ring.stl").resolve()
+            write_ring(self.folder / "ring.stl", grain)
+        bed = {
+            "width": max(BED_WIDTH * grain, WIDTH_OF_PLATE * self.largest),
+            "depth": max(BED_DEPTH * grain, DEPTH_OF_PLATE * self.largest),
+            "face_friction": FACE_FRICTION,
+        }
+        content = self.ground.path.read_text(encoding="utf-8")
+        return run_instrument(
+            script, self._folder(name, seed), surroundings, content, {"seed": seed, **bed, **values}, runs
+        )
+
+    def _folder(self, name: str, seed: int) -> Path:
+        return self.folder / f"{name}_{seed}"
+
+    def plate(self, size: float, seed: int, runs: Runs) -> PlateCurve:
+        """A round plate of a diameter [m]."""
+        values = {"size": size, "sinkage": SINKAGE * size, "speed": PLATE_SPEED}
+        folder = self._run("grain_plate", plate_name(size), seed, values, runs)
+        rows = read_curve(folder)
+        return PlateCurve(0.5 * size, rows[:, 1], rows[:, 3])
+
+    def ring(self, pressure: float, seed: int, runs: Runs) -> ShearCurve:
+        """The ring under a mean pressure [Pa]."""
+        outer, inner = (0.5 * part * self.ground.diameter for part in RING)
+        middle = 2 / 3 * (outer**3 - inner**3) / (outer**2 - inner**2)
+        values = {
+            "load": pressure * math.pi * (outer**2 - inner**2),
+            "press_speed": PRESS_SPEED,
+            "press_time": PRESS_TIME,
+            "spin": RING_SPEED / middle,
+            "angle": TURN * self.ground.diameter / middle,
+        }
+        folder = self._run("grain_ring", f"ring_{1e-3 * pressure:.3g}kPa", seed, values, runs)
+        return ring_curve(read_curve(folder), outer, inner, RING_SPEED, pressure)
+
+    def bulk_density(self, seeds: Sequence[int]) -> float:
+        """Of the beds of the plates, mean [kg/m3]."""
+        found = []
+        for seed in seeds:
+            words = (self._folder(plate_name(self.largest), seed) / "facts.txt").read_text(encoding="utf-8").split()
+            found.append(float(words[words.index("bulk") + 1]))
+        return float(np.mean(found))
+
+
+def plate_name(size: float) -> str:
+    return f"plate_{1e3 * size:.0f}mm"
+
+
+def cone_on_grains(ground: GrainGround) -> NoResult:
+    return NoResult(
+        f"the standard cone is {CONE_BASE / ground.diameter:.1f} grains wide, and needs {FEWEST_GRAINS:g}: grains of "
+        f"{1e3 * CONE_BASE / FEWEST_GRAINS:.0f} mm or finer"
+    )
+
+
+def grain_notes(bench: GrainBench, effort: Packings, sizes: Sequence[float]) -> tuple[str, ...]:
+    grain = bench.ground.diameter
+    wide = ", ".join(f"{size / grain:.3g}" for size in sizes)
+    count = len(effort.seeds)
+    scatter = "their scatter is part of the errors" if count > 1 else "the scatter of packings is not in the errors"
+    return (
+        f"grains of {1e3 * grain:g} mm, packings: {count}; {scatter}",
+        f"plates {wide} grains wide, ring {0.5 * (RING[0] - RING[1]):g} grains wide with grousers of one grain",
+        "stiffness is the steepest slope of the plates, a lower bound: no plate was unloaded",
+    )
+
+
+def steepest(plates: Sequence[PlateCurve]) -> float:
+    """Largest pressure over sinkage between points a tenth of the sinkage apart, mean of the plates [Pa/m]."""
+    slopes = []
+    for curve in plates:
+        used = curve.used()
+        step = max(used.sinkage.size // 10, 1)
+        rise = used.pressure[step:] - used.pressure[:-step]
+        slopes.append(float((rise / (used.sinkage[step:] - used.sinkage[:-step])).max()))
+    return float(np.mean(slopes))
