@@ -2,18 +2,54 @@
 """The cards of inputs/soils: their grounds, the table of the page, and Bekker-Wong with a card against
 the rigid wheel on the same ground, as the tutorial quotes it."""
 
+import math
 import unittest
 from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import yaml
+from scipy.optimize import brentq
 
 from furrow_post.analyse import empirical
 from furrow_post.analyse.terrain_values import terrain
 from furrow_post.csv_table import read_rows
-from furrow_post.read.soil_card import NoResult, markdown, read_card
-from furrow_post.soil.material import read_material
+from furrow_post.read.soil_card import NoResult, Shear, markdown, read_card
+from furrow_post.soil.grains import read_ground
+from furrow_post.soil.material import OF_GRAINS, content_with_bases, read_material
 from support.command import SOURCE
 
 SOILS = SOURCE / "inputs" / "soils"
+MATERIALS = SOURCE / "inputs" / "materials"
 TUTORIAL = SOURCE / "inputs" / "guide" / "tutorials" / "8_soil_card.md"
+
+
+def strengths(name: str, normal: float) -> tuple[float, float]:
+    """Shear strength [Pa] of a law of snow under a normal stress [Pa]: at its density and constant volume,
+    and in the steady state (cohesive_cam_clay.h; theory: snow, eqs. 1 and 2)."""
+    content = yaml.safe_load(content_with_bases(MATERIALS / f"{name}.yaml"))
+    law, hardening = content["law"], content["hardening"]
+    log_rho, log_p = (np.log([float(x) for x in hardening[key]]) for key in ("rho", "p"))
+    rho = float(law["density"])
+
+    def cap(density: float) -> float:
+        return math.exp(float(np.interp(math.log(density), log_rho, log_p)))
+
+    if law["type"] == "cohesive_cam_clay":
+        beta = float(law["tension_ratio"])
+        slope = float(law["M"]) / math.sqrt(3 * (1 + 2 * beta)) * (1 + beta)
+        return 0.5 * slope * cap(rho), slope / (1 - beta) * normal
+    tangent, nu_p = math.tan(math.radians(float(law["beta"]))), float(law["nu_p"])
+    aspect = math.sqrt(4.5 * (1 - 2 * nu_p) / (1 + nu_p))
+
+    def line(density: float) -> float:
+        cohesion = float(law["d"]) * math.pow(density / float(law["d_density"]), float(law["d_exponent"]))
+        return cohesion + normal * tangent
+
+    if normal == 0:  # where the preset has both at its density
+        return line(rho) / math.sqrt(3), line(rho) / math.sqrt(3)
+    meet = float(brentq(lambda x: aspect * math.sqrt(max(cap(x) ** 2 - normal**2, 0.0)) - line(x), rho, 2 * rho))
+    return line(rho) / math.sqrt(3), line(meet) / math.sqrt(3)
 
 
 class LibraryTest(unittest.TestCase):
@@ -22,17 +58,53 @@ class LibraryTest(unittest.TestCase):
         self.assertGreater(len(paths), 0)
         cards = [read_card(path) for path in paths]
         for path, card in zip(paths, cards):
-            material = read_material(SOURCE / "inputs" / "materials" / card.ground)
-            self.assertEqual(path.name, card.ground)
-            self.assertEqual(card.density, material.density)
+            self.assertEqual(path.stem, Path(card.ground).stem)
+            of_grains = card.ground.endswith(OF_GRAINS)
+            if of_grains:
+                read_ground(SOURCE / "inputs" / "laboratory" / "grounds" / card.ground)
+            else:
+                self.assertEqual(card.density, read_material(MATERIALS / card.ground).density)
             for name, fitted in card.parameters().items():
-                self.assertGreater(fitted.error, 0, f"{path}: {name}")
+                if not (of_grains and name == "speed_stress"):  # which is of the grid
+                    self.assertGreater(fitted.error, 0, f"{path}: {name}")
             for part in (card.pressure_sinkage, card.shear):
                 self.assertTrue(isinstance(part, NoResult) or part.residual < 0.1, path)
             page = (SOILS / "README.md").read_text(encoding="utf-8")
             for instrument in card.failures():  # with the reason, in words
                 self.assertRegex(page, f"{path.stem}`[^|]*{instrument}")
         self.assertIn(markdown(cards), (SOILS / "README.md").read_text(encoding="utf-8"))
+
+    def test_the_ring_on_snow_lies_between_the_closed_forms(self) -> None:
+        """Of fresh snow at constant volume and of the steady state; c is the former."""
+        page = (SOILS / "README.md").read_text(encoding="utf-8")
+        for name in ("field_snow", "fresh_snow_cam_clay", "snow"):
+            shear = read_card(SOILS / f"{name}.yaml").shear
+            assert isinstance(shear, Shear)
+            fresh_c, _ = strengths(name, 0.0)
+            self.assertLess(abs(shear.c.value - fresh_c), 2 * shear.c.error, name)
+            for normal in (shear.normal.low, shear.normal.high):
+                fresh, steady = strengths(name, normal)
+                found = float(shear.at(np.array(shear.displacement.high), np.array(normal)))
+                self.assertTrue(fresh < found < steady, f"{name}: {fresh:.0f} {found:.0f} {steady:.0f} Pa")
+                self.assertIn(f"| `{name}` | {normal:.0f} | {fresh:.0f} | {found:.0f} | {steady:.0f} |", page)
+
+    def test_the_card_of_grains_agrees_with_other_tests_of_them(self) -> None:
+        """The angle with the law of their triaxial, extension and plane strain tests, a plate with the
+        measured one within the misfit of the calibration."""
+        study = SOURCE / "inputs" / "validation" / "cmu_sand"
+        plate, shear = read_card(SOILS / "sand_cmu.yaml").bekker_and_shear()
+        tangent = math.tan(math.radians(float(yaml.safe_load((study / "sand.yaml").read_text())["law"]["beta"])))
+        plane = math.degrees(math.atan(3 * tangent / (6 + tangent)))  # tan(phi) = sin(phi')
+        self.assertLess(abs(shear.phi.value - plane), 2 * shear.phi.error)
+        self.assertLess(shear.c.value, 2 * shear.c.error)  # the grains do not stick
+        misfit = float(read_rows(study / "calibration.csv")[0]["rms_100"])
+        area, logarithms = math.pi * 0.05**2, []
+        for row in read_rows(study / "reference.csv"):
+            if row["kind"] == "plate" and row["size_mm"] == "100" and row["sinkage_mm"] in ("10", "20"):
+                found = float(plate.at(np.array(1e-3 * float(row["sinkage_mm"])), 0.05))
+                logarithms.append(math.log(found * area / float(row["force_N"])))
+        self.assertEqual(len(logarithms), 2)
+        self.assertLess(math.sqrt(float(np.mean(np.square(logarithms)))), misfit)
 
     def test_bekker_wong_with_a_card_against_the_wheel(self) -> None:
         ground = terrain(str(SOILS / "dry_sand_smooth.yaml"))
