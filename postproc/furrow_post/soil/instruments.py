@@ -24,9 +24,9 @@ RING_PACE, FAST_RING_PACE = 1 / 1600, 1 / 400
 FASTEST = 1.0  # [m/s] 100 Pa of dynamic pressure on snow, 800 Pa on sand
 RING = (0.2, 0.12)  # [m] outer and inner diameter
 PRESS = 0.015  # [m] that the drive would move in the time of pressing
-# Young's modulus of the ring's ground, over the pressure under the smallest plate. Above it one step of the
-# drive changes the pressure by more than the load, and sound carries more than the strength
-STIFFEST = 100
+# Young's modulus over the pressure under the smallest plate. Above STIFF one step of the drive changes the pressure
+# of the ring by more than its load, and the ring's ground has SCALED. Sand has 20 to 100, snow 1000 to 4000
+STIFF, SCALED = 500, 100
 SOFTEST = 0.01  # modulus_scale of terrain/continuum
 CONE_BASE = 0.02027  # [m] 323 mm2, ASABE S313.3
 CONE_ANGLE = 30.0  # [degrees]
@@ -110,9 +110,10 @@ def plate_test(bench: Bench, size: float, sinkage: float, cells: int, runs: Runs
     return PlateCurve(0.5 * size, rows[:, 1], rows[:, 3])
 
 
-def ring_scale(material: Material, carried: float) -> float:
-    """Factor on Young's modulus under the ring; carried: by the smallest plate [Pa]."""
-    return min(1.0, max(SOFTEST, STIFFEST * carried / material.young))
+def ring_scale(young: float, carried: float) -> float:
+    """Factor on Young's modulus [Pa] under the ring; carried: by the smallest plate [Pa]."""
+    ratio = young / carried
+    return 1.0 if ratio < STIFF else max(SOFTEST, SCALED / ratio)
 
 
 def ring_test(

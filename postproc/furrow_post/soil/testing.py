@@ -30,7 +30,7 @@ from .units import PLAUSIBLE
 
 Part = TypeVar("Part")
 SINKAGE = 0.3  # of the diameter
-# Ground that is soft for its modulus, as snow, compacts while it shears: loads of the ring over what the smallest
+# Ground that is soft for its modulus is snow, which compacts while it shears: loads of the ring over what the smallest
 # plate carries and turn of its middle [m]. A smaller load does not press all of the ring on the ground
 SOFT_LOADS, SOFT_TURN, SOFT_PACES = (0.08, 0.16, 0.32), 0.04, (1 / 800, 1 / 400)
 LARGEST_GROWTH = 0.05  # of the shear stress in the second half of the turn, which a note states
@@ -64,7 +64,7 @@ def make_card(
     cells = effort.plate_cells
     plates = [plate_test(bench, size, SINKAGE * size, cells, runs) for size in sizes]
     carried = carried_pressure(plates)
-    scale = ring_scale(bench.material, carried)
+    scale = ring_scale(bench.material.young, carried)
     loads, turn, paces = effort.loads, effort.turn, (RING_PACE, FAST_RING_PACE)
     if scale < 1:
         loads, turn, paces = SOFT_LOADS, SOFT_TURN, SOFT_PACES

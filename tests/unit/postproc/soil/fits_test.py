@@ -3,6 +3,7 @@
 
 import math
 import unittest
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from furrow_post.soil.fits import (
     fit_plates,
     fit_shear,
 )
+from furrow_post.soil.instruments import ring_scale
 
 K_C, K_PHI, N = 2.0e4, 1.5e6, 0.8
 C, PHI, K, SPEED_STRESS = 900.0, 31.0, 0.012, 700.0
@@ -171,6 +173,26 @@ class RefusalTest(unittest.TestCase):
             fit_shear([first, sinks])
         with self.assertRaisesRegex(ResultsError, "a cone whose base is below the surface"):
             cone_index(ConeCurve(-z, z))
+
+
+class RingOnSnowTest(unittest.TestCase):
+    def test_only_a_modulus_far_above_the_pressure_is_scaled(self) -> None:
+        self.assertEqual(ring_scale(4.78e6, 4.9e4), 1)  # dry_sand_smooth
+        self.assertEqual(ring_scale(499e4, 1e4), 1)
+        self.assertAlmostEqual(ring_scale(13.79e6, 3900), 100 * 3900 / 13.79e6)  # field_snow
+        self.assertEqual(ring_scale(1e10, 1e3), 0.01)  # least modulus_scale of terrain/continuum
+
+    def test_growth_of_the_shear_stress_without_a_steady_state(self) -> None:
+        j = np.linspace(0, 0.04, 401)
+        for shear, growth in ((1e5 * j, 2 / 3), (np.full(j.size, 500.0), 0.0)):
+            self.assertAlmostEqual(ShearCurve(j, np.full(j.size, 1e3), shear).growth(), growth, delta=0.01)
+
+    def test_the_correction_for_sinking_needs_constant_strength(self) -> None:
+        j = np.linspace(0, 0.04, 11)
+        ring = ShearCurve(j, 1e3 + 0 * j, 500 + 0 * j, sinking=0.3)
+        psi = math.atan(0.3)
+        self.assertAlmostEqual(ring.share(0.5), math.cos(psi) / (1 + 0.5 * math.sin(psi)))
+        self.assertEqual(replace(ring, compacts=True).share(0.5), 1)
 
 
 if __name__ == "__main__":
