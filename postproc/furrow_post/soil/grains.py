@@ -30,6 +30,7 @@ TURN = 2.0  # grains that the middle of the ring turns
 BED_WIDTH, BED_DEPTH = 28.0, 11.0  # least of a bed, in grains
 WIDTH_OF_PLATE, DEPTH_OF_PLATE = 2.1, 0.8  # least width and depth of a bed over the largest plate
 LOADS = (0.06, 0.12, 0.24)  # of the ring, over what the smallest plate carries
+FAMILIES = ("sand", "snow_bonded")  # beds of the laboratory that have room for plates and ring
 SEEDS = (86028121, 49979687)  # of the packings
 FACE_FRICTION = 0.5  # of plates, ring and grains
 CONTINUUM = ("terrain/continuum", "terrain/scm", "material", "cell")  # what a ground of grains does not have
@@ -70,14 +71,12 @@ def laboratory_folder() -> Path:
 def read_ground(path: Path) -> GrainGround:
     """@raises ResultsError where the file is no ground of grains"""
     _refuse_continuum(path)
-    parts = laboratory_folder() / "parts"
-    families = sorted(f.name.removesuffix("_bed.lig") for f in parts.glob("*_bed.lig"))
     text = path.read_text(encoding="utf-8")
     named = [line.split()[3] for line in text.splitlines() if line.split()[:3] == ["variable", "family", "string"]]
-    if named[-1:] == [] or named[-1] not in families:
+    if not named or named[-1] not in FAMILIES:
         raise ResultsError(
-            f"{path}: a ground of grains has the line 'variable family string NAME', NAME one of "
-            f"{', '.join(families)}; copy a file of inputs/laboratory/grounds"
+            f"{path}: a card of grains needs the line 'variable family string NAME', NAME one of "
+            f"{', '.join(FAMILIES)}; copy a file of inputs/laboratory/grounds"
         )
     value = script_variables(path, {}).defaults.get("diameter", "")
     try:

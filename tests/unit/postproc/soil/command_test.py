@@ -164,13 +164,14 @@ class CardCommandTest(FolderTest):
         ground = self.folder / "my_sand.lig"
         for text, message in (
             (good + "fix soil all terrain/continuum cell 0.01\n", r"my_sand.lig:12: 'terrain/continuum' belongs to a continuum"),
-            (good.replace("family string sand", "family string gravel"), "line 'variable family string NAME', NAME one of .*sand"),
+            (good.replace("family string sand", "family string gravel"), "line 'variable family string NAME', NAME one of sand, snow_bonded"),
             (good.replace("diameter index 0.010", "diameter index 10"), "variable diameter is '10'; allowed: 0.0001 to 0.5 m"),
         ):
             ground.write_text(text, encoding="utf-8")
             self.assertRegex(self.soil("card", ground).stderr, message)
         done = self.soil("card", "sand_cmu", "--sizes", 0.08, 0.1)
         self.assertIn("a plate of 0.08 m is 8.0 grains wide; allowed: 10 grains or more, 0.1 m on sand_cmu.lig", done.stderr)
+        self.assertIn("NAME one of sand, snow_bonded", self.soil("card", "snow_rough").stderr)
         done = self.soil("card", "sand_cmu", "--gravity", 1.62)
         self.assertIn("the beds of grains settle under 9.80665 m/s2", done.stderr)
         self.assertFalse((self.folder / "log.txt").exists())
