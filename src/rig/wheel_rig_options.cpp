@@ -191,6 +191,7 @@ WheelRig::WheelRig(const Options& options, WheelHub& wheel, const Courses& table
   read_slip(options);
   read_vertical(options);
   read_travel(options);
+  read_dragged_mass(options);
   read_drive(options);
   read_passes(options);
   read_suspension(options);
@@ -304,6 +305,11 @@ void WheelRig::retarget(const Options& options) {
                      fmt::format("is {}, and targets change during the run", passes_.passes()),
                      "one pass", "the passes are planned before the first");
   check_constants(options);
+  if (suspension_ && options.given("load_mass") &&
+      options.number("load_mass") * options.number("gravity") != load_)
+    throw InputError(options.where("load_mass"), "changes during the run",
+                     "the value of the script with a suspension, whose sprung mass it has set",
+                     "give the rig a load_force: a change of it leaves the sprung mass as it is");
   const auto read = [&](WheelRig& rig) {
     rig.read_load(options);
     rig.read_travel(options);
@@ -312,6 +318,7 @@ void WheelRig::retarget(const Options& options) {
   WheelRig trial(*this);
   read(trial);
   read(*this);
+  read_dragged_mass(options);  // part of the wheel, which the trial shares
 }
 
 void WheelRig::read_load(const Options& options) {
@@ -396,7 +403,6 @@ void WheelRig::read_travel(const Options& options) {
   if (sinkage_prescribed_ && lateral_free_)
     throw InputError(options.where("lateral"), "is free with a prescribed sinkage",
                      "lateral free with load_mass or load_force", "give a load");
-  if (travel_free_ || lateral_free_) read_dragged_mass(options);
   if (!travel_free_) return;
   if (sinkage_prescribed_)
     throw InputError(options.where("travel"), "is free with a prescribed sinkage",
@@ -413,6 +419,7 @@ void WheelRig::read_travel(const Options& options) {
 }
 
 void WheelRig::read_dragged_mass(const Options& options) {
+  if (!travel_free_ && !lateral_free_) return;
   const double own = wheel_.total_mass();
   const double dragged = options.has("dragged_mass")
                              ? options.number("dragged_mass")

@@ -60,6 +60,42 @@ TEST(WheelRig, ChannelsAndRowsAgree) {
   for (const Channel& each : WheelRig::channels()) EXPECT_FALSE(each.meaning.empty());
 }
 
+/// Other targets, as Python sets them.
+std::string refused_targets(WheelRig& rig, const Words& words) {
+  return error_of<InputError>(
+      [&] { rig.retarget(WheelRig::schema("fix wheel/rig").read(with(words))); });
+}
+
+TEST(WheelRig, RefusedTargetsLeaveTheDraggedMass) {
+  RigidWheel wheel = make_wheel();
+  const auto words = [](const char* mass, const char* torque) {
+    return Words{"load_mass", mass, "mode", "torque", "torque", torque, "travel", "free"};
+  };
+  WheelRig rig = make_rig(wheel, words("15", "1"));
+  EXPECT_THAT(refused_targets(rig, words("30", "1e9")), HasSubstr("'torque'"));
+  const auto speed_after_a_push = [&] {
+    wheel.hold(Coordinate::x);
+    wheel.advance(1e-3);
+    wheel.release(Coordinate::x);
+    wheel.set_load({10.0, 0.0, 0.0});
+    wheel.advance(1e-3);
+    return wheel.velocity().x();
+  };
+  EXPECT_NEAR(speed_after_a_push(), 10.0 * 1e-3 / 15.0, 1e-12);
+  EXPECT_EQ(refused_targets(rig, words("30", "1")), "no error");
+  EXPECT_NEAR(speed_after_a_push(), 10.0 * 1e-3 / 30.0, 1e-12);
+}
+
+TEST(WheelRig, SprungMassIsThatOfTheScript) {
+  RigidWheel wheel = make_wheel();
+  const auto words = [](const char* mass) {
+    return Words{"load_mass", mass, "mode", "towed", "speed", "1", "suspension_stiffness", "4000"};
+  };
+  WheelRig rig = make_rig(wheel, words("15"));
+  EXPECT_EQ(refused_targets(rig, words("15")), "no error");
+  EXPECT_THAT(refused_targets(rig, words("30")), HasSubstr("sprung mass"));
+}
+
 TEST(WheelRig, PhasesFollowTheClock) {
   RigidWheel wheel = make_wheel();
   const WheelRig rig =
