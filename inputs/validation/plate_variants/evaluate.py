@@ -93,7 +93,7 @@ def best_estimates(rows: Sequence[Mapping[str, Any]]) -> list[Row]:
     where the sizes allow it."""
     peaks = {row["case"]: float(row["peak_N"]) for row in rows if row.get("peak_N")}
     found: list[Row] = []
-    for name in ("cap", "cap_slide"):
+    for name in peaks:
         known = {cell: peaks[name + end] for end, cell in SIZES.items() if name + end in peaks}
         if len(known) < 3:
             continue
