@@ -70,7 +70,10 @@ EFFECTS = {
     "slip_free_d5_impulse": "slip_free_d5",
     **{f"{run}{end}": f"{base}{end}" for run, base in IN_BOTH_CELLS.items() for end in ("", COARSE)},
 }
-FIELDS = ("d_5", "d_10", "d_20", "d_30", f"d_5{COARSE}", f"d_30{COARSE}")  # runs whose ground is looked into
+FIELDS = (  # runs whose ground is looked into
+    *("d_5", "d_10", "d_20", "d_30", f"d_5{COARSE}", f"d_30{COARSE}"),
+    *("times_2_d20", "times_4_d10", "times_8_d10"),
+)
 
 Row = dict[str, Any]
 
