@@ -49,7 +49,8 @@ START = (100.0, 15.0)  # [kg/m3], [Pa]: below the lightest snow of the rows, har
 CRUSHED = 3.3  # K0 = 0.12 [Shoop2001] eq 24
 FLOWING = 2.0  # K0 = 0.41: round; slope.csv has 1.84 (1.73 to 1.98) on all rows of 220 kg/m3
 SOFTEST = 1.4  # K0 = 0.61: beyond what it finds
-SPREADING = 1.1  # K0 = 0.72: with sinkages read as depths of ruts
+SPREADING = 1.1  # K0 = 0.72: with sinkages read as depths of ruts, in cells of 5 cm
+FINE = 1.25  # K0 = 0.66: the same in cells of 2.5 cm
 TENSION_RATIO = 0.1  # of fresh_snow_cam_clay.yaml
 
 # Axial stresses [Pa] at the first of IDENTIFIED_DENSITIES; from the last of them on straight in ln p
@@ -174,17 +175,30 @@ def row_of(run: Run) -> Row:
 
 
 class Found:
-    """Rows of the runs that are there, evaluated once."""
+    """Rows of the runs that are there, evaluated once; of others those that are stored."""
 
-    def __init__(self, runs: Runs) -> None:
+    def __init__(self, runs: Runs, stored: Sequence[Mapping[str, str]] = ()) -> None:
         self.runs = {run.name: run for run in runs.ended("*")}
-        self.rows: dict[str, Row] = {}
+        self.rows: dict[str, Row] = {row["run"]: numbers_of(row) for row in stored}
+        self.rows.update({name: row_of(run) for name, run in self.runs.items()})
 
     def __call__(self, name: str) -> Row:
         """Empty where the run is not there."""
-        if name not in self.rows:
-            self.rows[name] = row_of(self.runs[name]) if name in self.runs else {}
-        return self.rows[name]
+        return self.rows.get(name, {})
+
+
+def numbers_of(row: Mapping[str, str]) -> Row:
+    """The values of a stored row that are numbers, as such."""
+    found: Row = dict(row)
+    for name in row.keys() - {"run", "stage", "what", "change", "error"}:
+        found[name] = float(row[name]) if row[name] else ""
+    return found
+
+
+def stored_rows(output: Output) -> list[dict[str, str]]:
+    """Of all runs, where others are merged into the stored tables."""
+    names = ("results.csv", "error.csv") if output.merge else ()
+    return [row for name in names for row in read_rows(output.folder / name)]
 
 
 # ---- the slope M of Cam clay, and so K0, that the measured rows ask for, all else the same
@@ -406,10 +420,13 @@ COMPUTED = {  # model of rows.csv -> name, colour, mark
     "tyre": ("tyre on field snow", "tab:blue", "s"),
     "flowing": ("the same with K0 0.41", "tab:orange", "^"),
     "spreading": ("K0 0.72, depth of the rut", "tab:green", "v"),
+    "fine": ("K0 0.66, depth of the rut, cells of 2.5 cm", "tab:red", "D"),
 }
 # Model -> of ROWS
-IDENTIFIED_ON = {"tyre": "calibration", "flowing": "220 kg/m3", "spreading": "calibration"}
-RUTS = ("spreading",)  # models whose rut is compared with the measured sinkage
+IDENTIFIED_ON = {
+    "tyre": "calibration", "flowing": "220 kg/m3", "spreading": "calibration", "fine": "calibration",
+}  # fmt: skip
+RUTS = ("spreading", "fine")  # models whose rut is compared with the measured sinkage
 SECTIONS = {  # runs that are drawn -> title
     ERROR_BASE: "tyre on field snow, 220 kg/m3",
     "rigid_towed": "rigid wheel on fresh_snow, towed",
@@ -432,6 +449,7 @@ def measured_row(found: Found, r: Mapping[str, float]) -> Row:
         ("tyre", f"row_{place}"),
         ("flowing", f"flowing_{place}"),
         ("spreading", f"m_1.1_{place}"),
+        ("fine", f"m_1.25_{place}"),
     ):
         computed = found(name)
         for what in COMPARED:
@@ -489,6 +507,7 @@ def readings(found: Found) -> list[Reading]:
             "sinkage_m",
         ),
         ("rut", (1.0, SPREADING, 1.4), (0.20,), {SPREADING: "spreading"}, "rut_depth_m"),
+        ("rut, cells of 2.5 cm", (SPREADING, FINE, 1.4), (0.20,), {FINE: "fine"}, "rut_depth_m"),
     ):
         names = [[slope_run(name, slope, depth) for depth in depths] for slope in slopes]
         if values := computed(found, names, column):
@@ -497,8 +516,10 @@ def readings(found: Found) -> list[Reading]:
 
 
 def slope_run(reading: str, slope: float, depth: float) -> str:
-    """Name of the run in 220 kg/m3 with this slope, in cells of about 5 cm."""
+    """Name of the run in 220 kg/m3 with this slope, in cells of about 5 cm or as the reading says."""
     place = f"220_{100 * depth:.0f}cm"
+    if reading == "rut, cells of 2.5 cm":
+        return f"m_{slope:g}_{place}" + ("" if slope == FINE else "_2.5cm")
     if reading == "rut":
         return f"m_{slope:g}_{place}"
     elsewhere = {(CRUSHED, 0.18): f"row_{place}", (CRUSHED, 0.20): "error_cell_5cm"}
@@ -555,8 +576,8 @@ CELL_SERIES = {  # runs that differ in the cells alone, the coarsest first
         "m_1.1_220_20cm", "m_1.1_220_20cm_fine", "m_1.1_220_20cm_3.3cm", "m_1.1_220_20cm_2.5cm",
     ),
     "rut reading, 0.38 m": ("m_1.1_160_38cm", "m_1.1_160_38cm_3.8cm"),
+    "M = 1.25, 0.20 m": ("m_1.25_220_20cm_5cm", "m_1.25_220_20cm_3.3cm", "m_1.25_220_20cm"),
 }  # fmt: skip
-SCALED = "rut reading, 0.20 m"  # the series whose change is applied to all rows of the rut reading
 CELL_COLUMNS = ("sinkage_m", "rut_depth_m", "resistance", "numerical", "density_under", "user_s")
 
 
@@ -579,55 +600,33 @@ def cell_table(cells: Mapping[str, float], known: Mapping[str, Mapping[str, Any]
     ]
 
 
-def numerical_table(table: Sequence[Row], known: Mapping[str, Mapping[str, Any]]) -> list[Row]:
-    """Accuracy of the rut reading as run, with the grid's loss subtracted row by row, and with rut
-    and resistance scaled as in the finest cells of SCALED.
+def numerical_table(table: Sequence[Row], found: Callable[[str], Mapping[str, Any]]) -> list[Row]:
+    """Accuracy of the rut readings as run, and with the grid's loss subtracted row by row.
 
-    table: rows of rows.csv; known: those of results.csv by run
+    table: rows of rows.csv; found: rows of results.csv by run
     """
-    series = [known[run] for run in CELL_SERIES[SCALED] if run in known]
-    if len(series) < 2 or any(row["spreading_rut_depth_m"] == "" for row in table):
-        return []
-    rut, c = (float(series[-1][k]) / float(series[0][k]) for k in ("rut_depth_m", "resistance"))
-
-    def loss(row: Row) -> float:
-        run = known[f"m_1.1_{float(row['density_kgm3']):.0f}_{100 * float(row['depth_m']):.0f}cm"]
-        return float(run["numerical"])
-
-    cases: dict[str, Callable[[Row], tuple[float, float]]] = {
-        "as run": lambda row: (row["spreading_rut_depth_m"], row["spreading_resistance"]),
-        "loss subtracted": lambda row: (
-            row["spreading_rut_depth_m"], row["spreading_resistance"] - loss(row)
-        ),
-        "finest cells": lambda row: (
-            rut * row["spreading_rut_depth_m"], c * row["spreading_resistance"]
-        ),
-    }  # fmt: skip
-    found = []
-    for used in ("prediction", "all"):
-        rows = [row for row in table if ROWS[used](row)]
-        shares = [loss(row) / row["spreading_resistance"] for row in rows]
-        for case, values in cases.items():
-            wrong = np.array([values(row) for row in rows])
-            wrong -= np.array([(row["sinkage_m"], row["resistance"]) for row in rows])
-            found.append(
+    lines = []
+    for model, slope in (("spreading", SPREADING), ("fine", FINE)):
+        for used in ("prediction", "all"):
+            rows = [row for row in table if ROWS[used](row) and row[f"{model}_resistance"] != ""]
+            if not rows:
+                continue
+            places = [f"{row['density_kgm3']:.0f}_{100 * row['depth_m']:.0f}cm" for row in rows]
+            loss = np.array([found(f"m_{slope:g}_{place}")["numerical"] for place in places])
+            c = np.array([row[f"{model}_resistance"] for row in rows])
+            wrong = c - np.array([row["resistance"] for row in rows])
+            lines.append(
                 {
-                    "case": f"{case}, {used}: {len(rows)}",
-                    "rut_m_rms": round(rms(wrong[:, 0]), 4),
-                    "rut_m_mean": round(float(wrong[:, 0].mean()), 4),
-                    "resistance_rms": round(rms(wrong[:, 1]), 4),
-                    "resistance_mean": round(float(wrong[:, 1].mean()), 4),
-                    "least_loss_share": round(min(shares), 3),
-                    "greatest_loss_share": round(max(shares), 3),
+                    "case": f"M = {slope:g}, {used}: {len(rows)}",
+                    "resistance_rms": round(rms(wrong), 4),
+                    "resistance_mean": round(float(wrong.mean()), 4),
+                    "without_loss_rms": round(rms(wrong - loss), 4),
+                    "without_loss_mean": round(float((wrong - loss).mean()), 4),
+                    "least_loss_share": round(float((loss / c).min()), 3),
+                    "greatest_loss_share": round(float((loss / c).max()), 3),
                 }
             )
-    return found
-
-
-def stored_table() -> list[Row]:
-    """Rows of the rows.csv that is stored, where runs are only merged into other tables."""
-    rows = read_rows(Path(__file__).resolve().parent / "rows.csv")
-    return [{k: v if k == "used" else float(v) for k, v in row.items()} for row in rows]
+    return lines
 
 
 # ---- errors of one choice, designs, passes
@@ -661,11 +660,6 @@ def grid_series(table: Sequence[Row]) -> list[Row]:
     """Rows that differ in the cells alone: the base, and other sizes."""
     sound = [r for r in table if not r["error"]]
     return [r for r in sound if r["cell_m"] != 0.04 or r is table[0]]
-
-
-def of_errors(output: Output, changes: Sequence[Row]) -> Sequence[Mapping[str, Any]]:
-    """Rows of error.csv, those of the stored one where runs are only merged into other tables."""
-    return read_rows(output.folder / "error.csv") if output.merge else changes
 
 
 def draw_errors(table: Sequence[Row], limits: Mapping[str, Convergence], path: Path) -> None:
@@ -738,17 +732,17 @@ def pass_table(run: Run) -> Iterator[Row]:
 
 
 def evaluate(runs: Runs, output: Output) -> Sequence[str]:
-    found = Found(runs)
+    found = Found(runs, stored_rows(output))
     staged = runs.ended("predict", "rows", "flowing", "slope", "spreading")
     results = [{"run": "", "stage": run.case.stage, "what": run.what, **found(run.name)} for run in staged]
     output.table("results.csv", results)
     measured = reference()
     table = [measured_row(found, row) for row in measured]
-    output.table("rows.csv", table)
-    draw_comparison(table, output.path("comparison.png"))
+    output.table(output.of_all_runs("rows.csv"), table)
+    draw_comparison(table, output.path(output.of_all_runs("comparison.png")))
     scores = [accuracy(table, used, model) for model in (*COMPUTED, "nrmm") for used in ROWS]
-    output.table("accuracy.csv", scores)
-    output.table("slope.csv", slope_table(found, table))
+    output.table(output.of_all_runs("accuracy.csv"), scores)
+    output.table(output.of_all_runs("slope.csv"), slope_table(found, table))
     choices = {
         "prediction": [row for row in measured if not is_calibration(row)],
         "other_densities": [row for row in measured if not has_calibration_density(row)],
@@ -757,10 +751,9 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     output.table("mass_balance.csv", mass_table(choices))
     changes, limits = error_table(found)
     output.table("error.csv", changes)
-    known = {row["run"]: row for row in (*of_errors(output, changes), *output.known("results.csv", results))}
     cells = {case.name: float(str(case.variables["cell"])) for case in runs.cases}
-    output.table("cells.csv", cell_table(cells, known))
-    output.table("numerical.csv", numerical_table(stored_table() if output.merge else table, known))
+    output.table(output.of_all_runs("cells.csv"), cell_table(cells, found.rows))
+    output.table(output.of_all_runs("numerical.csv"), numerical_table(table, found))
     for what, series in limits.items():
         way = series.reason or f"extrapolated, order {series.order:.2f}"
         print(f"{what}: best estimate {series.value:.4f} ± {series.error:.4f} ({way})")

@@ -67,13 +67,14 @@ class Output:
     breaks off replaces nothing. To be used in a with statement.
 
     page: README.md is there and gets the section between its marks; else the section is a file of
-    its own. merge: only tables with a row for each run are written; rows of these runs replace
-    those that are stored, and the others stay.
+    its own. merge: only tables with a row for each run are written, and files that are named by
+    of_all_runs(); rows of these runs replace those that are stored, and the others stay.
     """
 
     def __init__(self, folder: Path, page: bool, merge: bool = False) -> None:
         self.folder, self.page, self.merge = folder, page, merge
         self.files: list[str] = []
+        self._of_all_runs: set[str] = set()
         self._written = tempfile.TemporaryDirectory()
         folder.mkdir(parents=True, exist_ok=True)
 
@@ -89,6 +90,11 @@ class Output:
             self.files.append(name)
         return Path(self._written.name) / name
 
+    def of_all_runs(self, name: str) -> str:
+        """Names a file that is made of the rows of all runs, stored ones too: merge writes it."""
+        self._of_all_runs.add(name)
+        return name
+
     def table(
         self, name: str, rows: Sequence[Mapping[str, Any]], comments: Sequence[str] = ()
     ) -> None:
@@ -99,7 +105,8 @@ class Output:
 
     def known(self, name: str, rows: Sequence[Mapping[str, Any]]) -> Sequence[Mapping[str, Any]]:
         """What table() writes of these rows: with merge, stored rows of other runs too."""
-        return merged(self.folder / name, rows) if self.merge else rows
+        joins = self.merge and name not in self._of_all_runs
+        return merged(self.folder / name, rows) if joins else rows
 
     def section(self, lines: Sequence[str]) -> None:
         """Writes the generated part of the study's page."""
@@ -111,7 +118,10 @@ class Output:
         self.path(PAGE).write_text(with_section(page, lines), encoding="utf-8")
 
     def _joins(self, file: str, known: Mapping[str, Any]) -> bool:
-        """Whether a file may be put beside stored ones: a table by run, stored before or new."""
+        """Whether a file may be put beside stored ones: of all runs, or a table by run, stored
+        before or new."""
+        if file in self._of_all_runs:
+            return True
         stored = self.folder / file
         return file in known and by_run(stored) if stored.is_file() else by_run(self.path(file))
 

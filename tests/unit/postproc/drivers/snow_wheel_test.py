@@ -7,12 +7,16 @@ import io
 import math
 import re
 import unittest
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from furrow_post.arrays import Floats
 from furrow_post.study.case import Case
+from furrow_post.study.launch import Tools
+from furrow_post.study.runner import Runner
+from furrow_post.study.runs import Runs
 from support.command import SOURCE
 from support.evaluation import VALIDATION, cases, evaluation
 
@@ -58,7 +62,7 @@ class FieldSnowTest(unittest.TestCase):
             if "cohesive_cam_clay" not in text:
                 continue
             density, m = number(text, "density"), number(text, "M")
-            beginning = study.TWO_STRESSES if case.stage == "spreading" else study.FIELD_SNOW
+            beginning = study.TWO_STRESSES if case.stage in ("spreading", "fine") else study.FIELD_SNOW
             title = f"field snow of {density:g} kg/m3"
             self.assertEqual(text, study.field_snow(density, beginning, title, m), name)
             self.assertEqual(case.fallback, {} if name == "passes" else {"remap_interval": 8})
@@ -250,39 +254,42 @@ class IdentifyTest(unittest.TestCase):
 
 
 class CellsTest(unittest.TestCase):
-    """A rut that grows and a resistance that falls with finer cells, the grid's loss a tenth of it."""
+    """The grid's loss is a tenth of the resistance."""
 
     def run_row(self, rut: float, resistance: float) -> dict[str, Any]:
         names = {**dict.fromkeys(study.CELL_COLUMNS, 1.0), "rut_depth_m": rut}
         return {**names, "resistance": resistance, "numerical": 0.1 * resistance, "error": ""}
 
-    def known(self) -> dict[str, dict[str, Any]]:
-        coarse, _, fine, _ = study.CELL_SERIES[study.SCALED]
-        return {coarse: self.run_row(0.15, 0.08), fine: self.run_row(0.165, 0.06)}
-
     def test_the_loss_is_a_share_of_the_resistance(self) -> None:
-        known = self.known()
+        name, (coarse, _, fine, _) = next(
+            (name, runs) for name, runs in study.CELL_SERIES.items() if len(runs) == 4
+        )
+        known = {coarse: self.run_row(0.15, 0.08), fine: self.run_row(0.165, 0.06)}
         first, second = study.cell_table(dict.fromkeys(known, 0.05), known)
         self.assertEqual((first["loss_share"], second["without_loss"]), (0.1, 0.054))
-        self.assertEqual(first["case"], f"{study.SCALED}, 5 cm")
+        self.assertEqual(first["case"], f"{name}, 5 cm")
 
-    def test_all_rows_change_as_the_series_does(self) -> None:
-        """Rut times 1.1 and resistance times 3/4 meet the test; the loss explains a part of it."""
-        row: dict[str, Any] = {"used": "prediction", "depth_m": 0.2, "density_kgm3": 220.0}
-        row |= {"sinkage_m": 0.165, "resistance": 0.06}
-        row |= {"spreading_rut_depth_m": 0.15, "spreading_resistance": 0.08}
-        found = {line["case"]: line for line in study.numerical_table([row], self.known())}
-        as_run, less, fine = (
-            found[f"{case}, prediction: 1"] for case in ("as run", "loss subtracted", "finest cells")
-        )
-        self.assertEqual((as_run["rut_m_mean"], as_run["resistance_mean"]), (-0.015, 0.02))
-        self.assertEqual((less["rut_m_rms"], less["resistance_rms"]), (0.015, 0.012))
-        self.assertEqual((fine["rut_m_rms"], fine["resistance_rms"]), (0.0, 0.0))
-        self.assertEqual(as_run["greatest_loss_share"], 0.1)
+    def test_the_loss_is_subtracted_row_by_row(self) -> None:
+        """0.08 with a loss of 0.008 leaves 0.072 for a measured 0.06."""
+        row: dict[str, Any] = {"used": "prediction", "depth_m": 0.2, "density_kgm3": 220}
+        row |= {"resistance": 0.06, "spreading_resistance": 0.08, "fine_resistance": ""}
+        found = {"m_1.1_220_20cm": self.run_row(0.15, 0.08)}
+        prediction, everything = study.numerical_table([row], lambda name: found[name])
+        self.assertEqual(prediction["case"], "M = 1.1, prediction: 1")
+        self.assertEqual((prediction["resistance_rms"], prediction["without_loss_mean"]), (0.02, 0.012))
+        self.assertEqual((everything["least_loss_share"], everything["greatest_loss_share"]), (0.1, 0.1))
 
-    def test_one_size_says_nothing_about_others(self) -> None:
-        coarse = study.CELL_SERIES[study.SCALED][0]
-        self.assertEqual(study.numerical_table([], {coarse: self.run_row(0.15, 0.08)}), [])
+
+class StoredTest(unittest.TestCase):
+    def runs(self) -> Runs:
+        """None was made."""
+        return Runs([], Runner(Path("none"), Tools.of(SOURCE / "inputs", SOURCE / "build")))
+
+    def test_a_stored_row_stands_for_a_run_that_is_not_there(self) -> None:
+        stored = {"run": "a", "what": "5", "error": "", "resistance": "0.07", "slip": ""}
+        found = study.Found(self.runs(), [stored])
+        self.assertEqual(found("a"), {**stored, "resistance": 0.07})
+        self.assertEqual(found("b"), {})
 
 
 class AccuracyTest(unittest.TestCase):

@@ -164,6 +164,14 @@ class StudyTest(unittest.TestCase):
         self.assertEqual(stored, [{"run": "a1", "value": "1.0"}])
         self.assertEqual(self.page.read_text(), page)
 
+    def test_a_file_of_all_runs_is_written_whole(self) -> None:
+        stored = self.tree.study / "sums.csv"
+        stored.write_text("case,value\nall,1\nold,2\n")
+        with Output(self.tree.study, page=False, merge=True) as output:
+            output.table(output.of_all_runs("sums.csv"), [{"case": "all", "value": 3}])
+            output.publish([], self.tree.study)
+        self.assertEqual(read_rows(stored), [{"case": "all", "value": "3"}])
+
     def test_missed_limit_counts_in_a_check_only(self) -> None:
         status, printed = self.run_study(low=0.5)
         self.assertEqual(status, 0)
