@@ -50,7 +50,7 @@ CRUSHED = 3.3  # K0 = 0.12 [Shoop2001] eq 24
 FLOWING = 2.0  # K0 = 0.41: round; slope.csv has 1.84 (1.73 to 1.98) on all rows of 220 kg/m3
 SOFTEST = 1.4  # K0 = 0.61: beyond what it finds
 SPREADING = 1.1  # K0 = 0.72: with sinkages read as depths of ruts, in cells of 5 cm
-FINE = 1.25  # K0 = 0.66: the same in cells of 2.5 cm
+FINE = 1.25  # K0 = 0.67: the same in cells of 2.5 cm
 TENSION_RATIO = 0.1  # of fresh_snow_cam_clay.yaml
 
 # Axial stresses [Pa] at the first of IDENTIFIED_DENSITIES; from the last of them on straight in ln p
@@ -420,12 +420,13 @@ COMPUTED = {  # model of rows.csv -> name, colour, mark
     "tyre": ("tyre on field snow", "tab:blue", "s"),
     "flowing": ("the same with K0 0.41", "tab:orange", "^"),
     "spreading": ("K0 0.72, depth of the rut", "tab:green", "v"),
-    "fine": ("K0 0.66, depth of the rut, cells of 2.5 cm", "tab:red", "D"),
+    "fine": ("K0 0.67, depth of the rut", "tab:red", "D"),
 }
 # Model -> of ROWS
 IDENTIFIED_ON = {
     "tyre": "calibration", "flowing": "220 kg/m3", "spreading": "calibration", "fine": "calibration",
 }  # fmt: skip
+DRAWN = ("tyre", "flowing", "fine")
 RUTS = ("spreading", "fine")  # models whose rut is compared with the measured sinkage
 SECTIONS = {  # runs that are drawn -> title
     ERROR_BASE: "tyre on field snow, 220 kg/m3",
@@ -546,11 +547,12 @@ def draw_comparison(table: Sequence[Row], path: Path) -> None:
         (panels[0], "sinkage_m", "sinkage [m]"),
         (panels[1], "resistance", "resistance over load"),
     ):
-        columns = {model: column_of(model, what) for model in COMPUTED}
+        columns = {model: column_of(model, what) for model in DRAWN}
         sources = (what, f"nrmm_{what}", *columns.values())
         top = 1.08 * max(r[source] or 0 for r in table for source in sources)
         axes.plot([0, top], [0, top], color="0.5", lw=0.8)
-        for model, (name, colour, mark) in COMPUTED.items():
+        for model in DRAWN:
+            name, colour, mark = COMPUTED[model]
             identified = ROWS[IDENTIFIED_ON[model]]
             for used, how, fill in ((True, "identified on", "none"), (False, "others", colour)):
                 mine = [r for r in table if identified(r) is used and r[columns[model]] != ""]
@@ -634,8 +636,7 @@ def numerical_table(table: Sequence[Row], found: Callable[[str], Mapping[str, An
 
 def error_table(found: Found) -> tuple[list[Row], dict[str, Convergence]]:
     """Each change of one choice with the base; and what the sizes of cells come to."""
-    base = found(ERROR_BASE)
-    if not base or base["error"]:
+    if ERROR_BASE not in found.runs or found(ERROR_BASE)["error"]:
         return [], {}
     names = [ERROR_BASE, *(name for name, run in found.runs.items() if run.case.stage == "error")]
     table = [
@@ -733,7 +734,7 @@ def pass_table(run: Run) -> Iterator[Row]:
 
 def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     found = Found(runs, stored_rows(output))
-    staged = runs.ended("predict", "rows", "flowing", "slope", "spreading")
+    staged = runs.ended("predict", "rows", "flowing", "slope", "spreading", "fine")
     results = [{"run": "", "stage": run.case.stage, "what": run.what, **found(run.name)} for run in staged]
     output.table("results.csv", results)
     measured = reference()

@@ -55,6 +55,13 @@ class FieldSnowTest(unittest.TestCase):
         for key in ("M", "tension_ratio", "E", "nu"):
             self.assertEqual(number(preset, key), number(found, key), key)
 
+    def test_the_preset_of_the_rut_reading_is_the_snow_of_its_runs(self) -> None:
+        preset = (SOURCE / "inputs/materials/variants/field_snow_rut.yaml").read_text()
+        found = study.field_snow(220.0, study.TWO_STRESSES, slope=study.FINE)
+        for key in ("rho", "p"):
+            self.assertEqual(column(preset, key), column(found, key))
+        self.assertEqual(number(preset, "M"), number(found, "M"))
+
     def test_runs_have_the_field_snow_of_their_density_and_slope(self) -> None:
         """Their texts in study.yaml are those that field_snow() writes."""
         for name, case in cases("snow_wheel").items():
@@ -270,7 +277,6 @@ class CellsTest(unittest.TestCase):
         self.assertEqual(first["case"], f"{name}, 5 cm")
 
     def test_the_loss_is_subtracted_row_by_row(self) -> None:
-        """0.08 with a loss of 0.008 leaves 0.072 for a measured 0.06."""
         row: dict[str, Any] = {"used": "prediction", "depth_m": 0.2, "density_kgm3": 220}
         row |= {"resistance": 0.06, "spreading_resistance": 0.08, "fine_resistance": ""}
         found = {"m_1.1_220_20cm": self.run_row(0.15, 0.08)}
