@@ -33,6 +33,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 import numpy as np
 from same_results import compare_arrays
 
+LOOK = 0.03  # [s] between looks at a run
 PRINTED = 1e-5  # a last digit of a curve
 INPUTS = Path(__file__).resolve().parents[3] / "inputs"
 
@@ -87,7 +88,7 @@ def finish(folder: Path, script: str) -> tuple[float, float]:
             os.killpg(run.pid, signal.SIGKILL)
         if not prepared and any((folder / "results").glob("*.h5")):
             prepared = time.monotonic() - began
-        time.sleep(0.01)
+        time.sleep(LOOK)
     if run.returncode != 0:
         sys.exit(f"{folder.name} stopped:\n" + (folder / "screen.txt").read_text()[-3000:])
     return prepared, time.monotonic() - began
@@ -119,7 +120,7 @@ def end(run: subprocess.Popen) -> int:
         for process in left:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(process, signal.SIGKILL)
-        time.sleep(0.01)
+        time.sleep(LOOK)
     return status
 
 
@@ -129,7 +130,7 @@ def kill_after_checkpoint(folder: Path) -> Path | None:
     run = start(folder, whole_script())
     files = [folder / "ck.1", folder / "ck.2"]
     while not all(file.exists() for file in files) and run.poll() is None:
-        time.sleep(0.01)
+        time.sleep(LOOK)
     time.sleep(random.uniform(0.0, 0.3) * (time.monotonic() - began))  # well before the end
     if run.poll() is not None:
         sys.exit("the run ended before it was killed:\n" + (folder / "screen.txt").read_text()[-2000:])
@@ -190,8 +191,8 @@ random.seed(words.seed)
 print("seed", words.seed, flush=True)
 with tempfile.TemporaryDirectory() as name:
     whole, killed = Path(name) / "whole", Path(name) / "killed"
-    if has_bed:
-        finish(killed, whole_script())  # makes the bed, whose minutes are none of the run's
+    if has_bed and words.kills > 1:
+        finish(killed, whole_script())  # makes the bed, whose minutes are none of those that moments are drawn from
     prepared, duration = finish(whole, whole_script())
     continued = 0
     for kill in range(words.kills):
