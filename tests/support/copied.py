@@ -15,7 +15,7 @@ from pathlib import Path
 from furrow_post.cli import report, soil
 
 LOADED = (report, soil)  # with what they import: most of what other commands need
-POST = re.compile(r"postproc/furrow-post |(/usr/bin/python3 )?inputs/[\w/]+\.py( |$)")
+POST = re.compile(r"postproc/furrow-(post|soil) |(/usr/bin/python3 )?inputs/[\w/]+\.py( |$)")
 SHELL = re.compile(r"[][$*?|&;<>`(){}~!]")  # what only a shell understands
 
 
