@@ -28,6 +28,7 @@ PLATE_SPEED, RING_SPEED = 0.2, 0.12  # [m/s] of the middle of the ring
 PRESS_SPEED = 0.2  # [m/s] of the ring without load
 TURN = 2.0  # grains that the middle of the ring turns
 BED_WIDTH, BED_DEPTH = 28.0, 11.0  # least of a bed, in grains
+RING_BED_WIDTH = 2 * RING[0]  # in grains
 WIDTH_OF_PLATE, DEPTH_OF_PLATE = 2.1, 0.8  # least width and depth of a bed over the largest plate
 LOADS = (0.06, 0.12, 0.24)  # of the ring, over what the smallest plate carries
 FAMILIES = ("sand", "snow_bonded")  # beds of the laboratory that have room for plates and ring
@@ -155,8 +156,9 @@ class GrainBench:
             self.folder.mkdir(parents=True, exist_ok=True)
             surroundings["ring"] = (self.folder / "ring.stl").resolve()
             write_ring(self.folder / "ring.stl", grain)
+        plates = max(BED_WIDTH * grain, WIDTH_OF_PLATE * self.largest)
         bed = {
-            "width": max(BED_WIDTH * grain, WIDTH_OF_PLATE * self.largest),
+            "width": RING_BED_WIDTH * grain if script == "grain_ring" else plates,
             "depth": max(BED_DEPTH * grain, DEPTH_OF_PLATE * self.largest),
             "face_friction": FACE_FRICTION,
         }
