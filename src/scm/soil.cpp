@@ -15,8 +15,8 @@ namespace {
 
 constexpr double least_angle = 2.0, largest_angle = 60.0;  // degrees
 const Range exponents{0.0, 3.0, true, false};
-// Soils of [Wong2008] and snow, by a wide margin: c to 7e4 Pa, K to 0.04 m
-const Range cohesions = Range::closed(0.0, 5e5), shear_lengths{0.0, 0.3, true, false};
+// Soils of [Wong2008] and snow have c to 7e4 Pa and K to 0.04 m, compacted sand c of 7e5 Pa
+const Range cohesions = Range::closed(0.0, 1e6), shear_lengths{0.0, 0.3, true, false};
 constexpr double least_cohesion = 20.0;      // [Pa]
 constexpr double no_cohesion = 1e-6;         // [Pa] a fit gives this for 0
 constexpr double least_shear_length = 1e-3;  // [m]; soils of [Wong2008] have 5 mm and more

@@ -127,6 +127,8 @@ def run_export(given: argparse.Namespace) -> None:
         target = given.card.with_name(file)
         write(card, target)
         print(f"  {name:13} {target}")
+    for doubt in card.doubts():
+        print(f"furrow-soil: warning: {doubt}", file=sys.stderr)
 
 
 def run_table(given: argparse.Namespace) -> None:

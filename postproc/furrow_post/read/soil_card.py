@@ -131,6 +131,17 @@ class SoilCard:
         assert isinstance(plate, PressureSinkage) and isinstance(shear, Shear)
         return plate, shear
 
+    def doubts(self) -> list[str]:
+        """What a vehicle code should know before it takes the values."""
+        plate = self.pressure_sinkage
+        if isinstance(plate, NoResult) or plate.k_c.value >= 0.0:
+            return []
+        width = -plate.k_c.value / plate.k_phi.value
+        return [
+            f"{self.title}: k_c is negative, so a contact of b = {width:.2g} m or less carries nothing; "
+            f"the plates had {plate.radii.low:.3g} m or more"
+        ]
+
     def parameters(self) -> dict[str, Fitted]:
         """Name -> value and standard error, of the instruments that have a result."""
         found = {}

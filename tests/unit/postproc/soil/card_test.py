@@ -86,6 +86,16 @@ class SoilCardTest(FolderTest):
         self.assertEqual(soil["Janosi shear coefficient"], SHEAR.K.value)
         self.assertGreater(soil["Elastic stiffness"], soil["Bekker Kphi"])
 
+    def test_a_negative_k_c_says_below_which_width_nothing_is_carried(self) -> None:
+        """k_c/b + k_phi is zero there."""
+
+        def doubts(k_c: float) -> list[str]:
+            return replace(CARD, pressure_sinkage=replace(PLATE, k_c=Fitted(k_c, 1.0))).doubts()
+
+        self.assertEqual(doubts(1.0), [])
+        (doubt,) = doubts(-0.02 * PLATE.k_phi.value)
+        self.assertIn("a contact of b = 0.02 m or less carries nothing", doubt)
+
     def test_altair_has_the_card_with_the_angle_in_radians(self) -> None:
         target = self.folder / "road.rdf"
         write_altair(CARD, target)
