@@ -11,13 +11,12 @@ command that no rule knows fails.
 import re
 import shlex
 import shutil
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).resolve().parents[k] / name) for k, name in ((1, "support"), (2, "postproc"))]
-from copied import is_python, run_script
+from copied import run_command
 
 PAGES_OF = ("src", "coupling", "inputs", "tests", "postproc")
 PROGRAM = re.compile(
@@ -57,25 +56,10 @@ class Tree:
     def run(self, command: str) -> str:
         """What it says; the test ends where its status is not 0."""
         print(f"+ {command}", flush=True)
-        if is_python(command):
-            status, said = run_script(command, self.root, FURROW_BUILD=str(self.root / "build"))
-        else:
-            status, said = self.run_in_shell(command)
+        status, said = run_command(command, self.root, self.root / "build", SECONDS)
         if status:
             sys.exit(f"{said}\n'{command}' ended with status {status}")
         return said
-
-    def run_in_shell(self, command: str) -> tuple[int, str]:
-        done = subprocess.run(
-            ["bash", "-c", f'PATH="$PWD/build/bin:$PATH"; {command}'],
-            cwd=self.root,
-            text=True,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            timeout=SECONDS,
-        )
-        return done.returncode, done.stdout
 
 
 def run(tree: Tree, command: str) -> None:

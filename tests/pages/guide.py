@@ -7,17 +7,15 @@ complete script. A scene runs small, with the variables of its line "# Quick:" o
 checked. Commands that several pages show run once, and equal runs of a scene share their results.
 """
 
-import os
 import re
 import shlex
 import shutil
-import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).resolve().parents[k] / name) for k, name in ((1, "support"), (2, "postproc"))]
-from copied import is_python, run_script
+from copied import is_python, run_command
 
 SECONDS = 900  # of one command
 PROGRAM = re.compile(
@@ -69,26 +67,11 @@ class Session:
         print(f"+ {command}", flush=True)
         # what inputs/run becomes, when nothing is to be built
         direct = re.sub("^bash inputs/run (.*--no-build)", r"postproc/furrow-post run \1", command)
-        if is_python(direct):
-            status, said = run_script(direct, self.root / folder, FURROW_BUILD=str(self.root / "build"))
-        else:
-            status, said = self.run_in_shell(command, folder)
+        chosen = direct if is_python(direct) else command
+        status, said = run_command(chosen, self.root / folder, self.root / "build", SECONDS)
         if bool(status) != fails:
             sys.exit(f"{said}\n'{command}' ended with status {status}")
         return said
-
-    def run_in_shell(self, command: str, folder: str) -> tuple[int, str]:
-        done = subprocess.run(
-            ["bash", "-c", f'PATH="$ROOT/build/bin:$PATH"; {command}'],
-            cwd=self.root / folder,
-            env={**os.environ, "ROOT": str(self.root), "FURROW_BUILD": str(self.root / "build")},
-            text=True,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            timeout=SECONDS,
-        )
-        return done.returncode, done.stdout
 
     def command(self, command: str, later: str) -> None:
         """Runs a command of a page, small, once; later: the commands after it."""

@@ -24,18 +24,40 @@ def is_python(command: str) -> bool:
     return bool(POST.match(command)) and not SHELL.search(command)
 
 
-def run_script(command: str, folder: Path, **environment: str) -> tuple[int, str]:
-    """The status of such a command, and all that it printed."""
-    words = shlex.split(command.removeprefix("/usr/bin/python3 "))
-    script = folder / words[0]
+def run_command(command: str, folder: Path, build: Path, seconds: float) -> tuple[int, str]:
+    """The status of a command of a page with the programs of a build, and all that it printed."""
+    environment = {"FURROW_BUILD": str(build)}
+    if is_python(command):
+        return _run_script(command, folder, environment)
+    done = subprocess.run(
+        ["bash", "-c", command],
+        cwd=folder,
+        env={**os.environ, **environment, "PATH": f"{build}/bin:{os.environ['PATH']}"},
+        text=True,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        timeout=seconds,
+    )
+    return done.returncode, done.stdout
+
+
+def file_program(script: Path) -> Callable[[], None]:
+    """What Python does with a file."""
 
     def program() -> None:
         sys.path.insert(0, str(script.resolve().parent))
         runpy.run_path(str(script), run_name="__main__")
 
+    return program
+
+
+def _run_script(command: str, folder: Path, environment: Mapping[str, str]) -> tuple[int, str]:
+    words = shlex.split(command.removeprefix("/usr/bin/python3 "))
+    script = folder / words[0]
     with tempfile.TemporaryFile() as printed:
         files = printed.fileno(), printed.fileno()
-        status = run_copy(program, [str(script), *words[1:]], folder, files, environment)
+        status = run_copy(file_program(script), [str(script), *words[1:]], folder, files, environment)
         printed.seek(0)
         return status, printed.read().decode()
 

@@ -435,9 +435,14 @@ SECTIONS = {  # runs that are drawn -> title
 }
 
 
+def place_of(row: Mapping[str, Any]) -> str:
+    """Density and depth of a measured row, in the names of its runs."""
+    return f"{row['density_kgm3']:.0f}_{100 * row['depth_m']:.0f}cm"
+
+
 def measured_row(found: Found, r: Mapping[str, float]) -> Row:
     depth, density, sinkage = r["depth_m"], r["density_kgm3"], r["sinkage_m"]
-    place = f"{density:.0f}_{100 * depth:.0f}cm"
+    place = place_of(r)
     row: Row = {
         "row": int(r["row"]),
         "used": "calibration" if is_calibration(r) else "prediction",
@@ -613,8 +618,7 @@ def numerical_table(table: Sequence[Row], found: Callable[[str], Mapping[str, An
             rows = [row for row in table if ROWS[used](row) and row[f"{model}_resistance"] != ""]
             if not rows:
                 continue
-            places = [f"{row['density_kgm3']:.0f}_{100 * row['depth_m']:.0f}cm" for row in rows]
-            loss = np.array([found(f"m_{slope:g}_{place}")["numerical"] for place in places])
+            loss = np.array([found(f"m_{slope:g}_{place_of(row)}")["numerical"] for row in rows])
             c = np.array([row[f"{model}_resistance"] for row in rows])
             wrong = c - np.array([row["resistance"] for row in rows])
             lines.append(

@@ -14,7 +14,7 @@ from ..read.script import script_variables
 from ..read.soil_card import NoResult
 from ..scene.process import Runs
 from .fits import PlateCurve, ShearCurve
-from .instruments import CONE_BASE, read_curve, ring_curve, run_instrument
+from .instruments import CONE_BASE, mean_radius, read_curve, ring_curve, run_instrument
 
 FEWEST_GRAINS = 10.0  # across a plate: below, single grains make the curve
 SIZES = (10.0, 13.0)  # diameters of the plates, in grains
@@ -180,7 +180,7 @@ class GrainBench:
     def ring(self, pressure: float, seed: int, runs: Runs) -> ShearCurve:
         """The ring under a mean pressure [Pa]."""
         outer, inner = (0.5 * part * self.ground.diameter for part in RING)
-        middle = 2 / 3 * (outer**3 - inner**3) / (outer**2 - inner**2)
+        middle = mean_radius(outer, inner)
         values = {
             "load": pressure * math.pi * (outer**2 - inner**2),
             "press_speed": PRESS_SPEED,

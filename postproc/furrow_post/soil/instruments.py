@@ -122,7 +122,7 @@ def ring_test(
     """The ring under a mean pressure [Pa], whose middle turns by so many metres; stresses from its
     force and torque. scale: of Young's modulus"""
     outer, inner = 0.5 * RING[0], 0.5 * RING[1]
-    middle = 2 / 3 * (outer**3 - inner**3) / (outer**2 - inner**2)
+    middle = mean_radius(outer, inner)
     slower = math.sqrt(scale)  # as waves are
     speed, press_speed = bench.speed(pace * slower), bench.speed(PRESS_PACE * slower)
     variables = {
@@ -144,9 +144,14 @@ def ring_test(
     return replace(ring_curve(rows, outer, inner, speed, pressure), widening=widening, compacts=scale < 1)
 
 
+def mean_radius(outer: float, inner: float) -> float:
+    """Of a ring, over its area [m]."""
+    return 2 / 3 * (outer**3 - inner**3) / (outer**2 - inner**2)
+
+
 def ring_curve(rows: Floats, outer: float, inner: float, speed: float, pressure: float) -> ShearCurve:
     """From the torque, which a uniform shear stress has: tau = T / (2 pi integral r^2 dr). Radii in m."""
-    middle = 2 / 3 * (outer**3 - inner**3) / (outer**2 - inner**2)
+    middle = mean_radius(outer, inner)
     turning = rows[rows[:, 5] > 0]
     tau = -turning[:, 4] / (2 / 3 * math.pi * (outer**3 - inner**3))
     curve = ShearCurve(turning[:, 5] * middle, turning[:, 3], tau, speed, pressure)

@@ -2,24 +2,18 @@
 """Runs test files one after the other: run.py FILE... Each runs in a copy of this process, which has
 imported what most of them need."""
 
-import runpy
 import sys
 import time
 from pathlib import Path
 
-from copied import run_copy
+from copied import file_program, run_copy
 
 
 def main(files: list[Path]) -> None:
     failed = []
     for file in files:
         began = time.monotonic()
-
-        def program(file: Path = file) -> None:
-            sys.path.insert(0, str(file.parent))
-            runpy.run_path(str(file), run_name="__main__")
-
-        status = run_copy(program, [str(file)], None, (1, 2), {})
+        status = run_copy(file_program(file), [str(file)], None, (1, 2), {})
         print(f"{file.name}: {'FAILED' if status else 'ok'}, {time.monotonic() - began:.1f} s", flush=True)
         failed += [file.name] if status else []
     if failed:
