@@ -7,10 +7,11 @@
 /// awake ground ends there as at a rough face. Decisions are made between two intervals of steps,
 /// and weighed over a period of some intervals:
 ///
-///   neglected force   sum over the tiles of |mean of the force that holds their nodes|. That force
-///                     is zero while tile and awake ground are in equilibrium: it has the stress
-///                     of both, gravity and what the faces of the grid give
+///   neglected force   sum over the tiles of |mean of the force that holds their nodes|
 ///   neglected energy  kinetic energy of the tiles that fall asleep, since the start
+///
+/// The force that holds a tile's nodes balances the stresses of tile and awake ground, gravity and
+/// the loads of the grid's faces. It is zero in equilibrium.
 ///
 /// The tolerance tau allows a share of the mean force F of the contacts and of their work W since
 /// the start. A tile falls asleep under three conditions.
@@ -23,9 +24,9 @@
 /// largest shares wake. A tile that woke without a body waits for twice as many periods each time.
 /// All tiles wake when gravity changes, as while a rig tilts it onto a slope.
 ///
-/// For a body that is pressed by d into linearly elastic ground at rest, held nodes with forces f_i
-/// change its force P by sum f_i u_i/d (Betti), where u_i is what the nodes would move by if
-/// they were free. As |u_i| <= d, the neglected force bounds the change.
+/// The neglected force bounds the error of a contact force, by Betti's theorem. Press a body by d
+/// into linearly elastic ground at rest. Free nodes would move by u_i. Held by forces f_i, they
+/// change the force on the body by sum f_i u_i/d, and |u_i| <= d.
 
 #include <array>
 #include <vector>

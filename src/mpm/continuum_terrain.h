@@ -102,9 +102,9 @@ class ContinuumTerrain : public Body {
   unsigned long generation() const { return distribution_.generation(); }
   /// At the start of the remap interval, or seen at loaded points since [m/s].
   double largest_speed() const { return remap_.largest_speed(); }
-  /// A force on the ground during the next step [N], through the weights of a particle near the
-  /// point where it acts [m]. @param work  gets its work in that step [J], and must live until
-  /// then; none: nobody asks for it
+  /// Applies a force [N] to the ground at a point [m] during the next step. The weights of a
+  /// particle nearby spread it over the nodes.
+  /// @param work  gets its work in that step [J]; must live until then, and may be null
   void add_point_force(const ParticleIndex& near, const Vector3& force, const Vector3& point,
                        double* work = nullptr);
 
