@@ -18,6 +18,7 @@
 #include "coupling/base/bed_line.h"
 #include "coupling/base/grain_check.h"
 #include "coupling/bodies/fix_plate_rigid.h"
+#include "coupling/base/fix_scm.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
 #include "coupling/contact/grain_bed_check.h"
@@ -76,12 +77,17 @@ struct GivenGravity {
   Vector3 vector;  // [m/s^2]
 };
 
-/// Of a rig only where it is written, makes a force of a mass, or a mass of a force.
+/// Of a rig only where it is written, makes a force of a mass, or a mass of a force. Of a height
+/// field only where it is written, or a card holds in it.
 std::vector<GivenGravity> gravities(const Scene& scene) {
   const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
   std::vector<GivenGravity> given;
   for (const auto* terrain : fixes_of<const FixTerrain>(modify))
     given.push_back({terrain->options().where("gravity"), terrain->terrain().parameters().gravity});
+  for (const auto* field : fixes_of<const FixScm>(modify))
+    if (field->card() || field->options().given("gravity"))
+      given.push_back(
+          {field->options().where("gravity"), {0.0, 0.0, -field->options().number("gravity")}});
   for (const auto& [name, value] : bed_line(scene.lammps))
     if (name == "gravity")
       given.push_back({"command bed, keyword 'gravity'", {0.0, 0.0, -std::stod(value)}});

@@ -1,13 +1,41 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/terrain/fix_terrain_scm.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "comm.h"
+#include "core/error.h"
+#include "core/gravity.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 
 namespace furrow::coupling {
+
+namespace {
+
+// Under a given sinkage sand without cohesion carries in proportion to gravity, so that k_phi
+// changes by at most this share: less than the standard error of any card of inputs/soils
+constexpr double largest_change = 0.02;
+
+/// @throws InputError for a card of tests in another gravity
+void refuse_other_gravity(const Options& options, const SoilCard& card) {
+  const double gravity = options.number("gravity");
+  if (std::abs(gravity / card.gravity - 1.0) <= largest_change) return;
+  throw InputError(
+      options.where("gravity"),
+      fmt::format("is {:.4g} m/s^2, and the soil card holds at {:.4g} m/s^2", gravity,
+                  card.gravity),
+      fmt::format("a difference of at most {:g} %, because k_phi of sand grows with gravity",
+                  100.0 * largest_change),
+      fmt::format("make a card with 'furrow-soil card GROUND --gravity {:.6g}', or write "
+                  "'gravity {:.6g}' if the run takes place there; give k_c to K in the line and no "
+                  "card to use them in any gravity",
+                  gravity, card.gravity));
+}
+
+}  // namespace
 
 const StyleRow terrain_scm_style =
     fix_style<FixTerrainScm>("terrain/scm", "scm", "terrain/fix_terrain_scm.md");
@@ -17,12 +45,17 @@ Schema FixTerrainScm::schema() {
   declare_height_field(schema);
   declare_relief(schema);
   schema.text("card", "soil card that gives the parameters which the line does not").optional();
+  schema
+      .number("gravity", "m/s^2", admissible_gravity(),
+              "of the place; the card must come from tests in the same gravity")
+      .by_default(standard_gravity);
   declare_soil(schema);
   return schema;
 }
 
 FixTerrainScm::FixTerrainScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixScm(lammps, narg, arg, schema()) {
+  if (card()) refuse_other_gravity(options(), *card());
   for (const std::string& doubt : doubts(soil()))
     warn(*lmp, fmt::format("{}: {}", options().subject(), doubt));
   if (comm->me == 0 && screen)

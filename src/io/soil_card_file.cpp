@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "core/check_number.h"
 #include "core/error.h"
+#include "core/gravity.h"
+#include "core/types.h"
 #include "io/yaml_tree.h"
 
 namespace furrow {
@@ -17,6 +20,15 @@ double value_of(const YamlTree& entry, const std::string& name, const Range& ran
   Schema schema("soil card, " + name);
   schema.number("value", "", range, name);
   return read_map(schema, entry, {"error", "unit"}).number("value");
+}
+
+/// A value without an error.
+double plain_value(const YamlTree& entry, const std::string& name, const std::string& unit,
+                   const Range& range) {
+  Schema schema("soil card");
+  schema.number(name, unit, range, name);
+  const std::vector<Entry> entries = {{name, {entry.text}, entry.origin}};
+  return schema.read(entries).number(name);
 }
 
 /// The upper end of a range of the tests, or what there is without it.
@@ -52,12 +64,13 @@ SoilCard read_soil_card(const std::string& path) {
   for (const char* name : {"c", "phi"})
     values[name] = value_of(shear.map(name, what_a_card_is), name, Range::non_negative());
   values["K"] = value_of(shear.map("K", what_a_card_is), "K", Range::positive());
-  if (const YamlTree* stiffness = card.find("stiffness")) {
-    Schema schema("soil card");
-    schema.number("stiffness", "Pa/m", Range::positive(), "elastic stiffness");
-    const std::vector<Entry> entry = {{"stiffness", {stiffness->text}, stiffness->origin}};
-    values["stiffness"] = schema.read(entry).number("stiffness");
-  }
+  if (const YamlTree* stiffness = card.find("stiffness"))
+    values["stiffness"] = plain_value(*stiffness, "stiffness", "Pa/m", Range::positive());
+  const YamlTree* const gravity = card.find("gravity");
+  need(gravity != nullptr, path, "has no 'gravity'", "the gravity of the tests, in m/s^2",
+       fmt::format("add the line 'gravity: {:g}' to a card of tests on the Earth",
+                   standard_gravity));
+  found.gravity = plain_value(*gravity, "gravity", "m/s^2", admissible_gravity());
   return found;
 }
 

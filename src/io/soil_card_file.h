@@ -11,6 +11,7 @@ namespace furrow {
 struct SoilCard {
   /// By the names k_c, k_phi, n, c, phi [degrees], K and stiffness; SI units.
   std::map<std::string, double> values;
+  double gravity = 0.0;  ///< [m/s^2] of the tests, where alone the values hold
   // where the plates were tested; without limits where the card has none
   double deepest = std::numeric_limits<double>::infinity();           ///< sinkage [m]
   double largest_pressure = std::numeric_limits<double>::infinity();  ///< [Pa]

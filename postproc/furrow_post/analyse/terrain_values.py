@@ -66,6 +66,7 @@ def terrains() -> dict[str, TerrainValues]:
     }
 
 
+CARD = ".yaml"  # ending of a soil card
 LOOSE_SAND = "Wong-Reece loose sand"
 
 
@@ -91,7 +92,7 @@ def terrain_of_card(path: Path) -> TerrainValues:
 
 def terrain(name: str) -> TerrainValues:
     """A row of terrains.csv, or a soil card by its file. @raises ResultsError for an unknown name"""
-    if name.endswith(".yaml"):
+    if name.endswith(CARD):
         return terrain_of_card(Path(name))
     known = terrains()
     if name not in known:

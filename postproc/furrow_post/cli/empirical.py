@@ -7,9 +7,10 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
 from ..analyse import cone_formulas, empirical
-from ..analyse.terrain_values import terrain
+from ..analyse.terrain_values import CARD, terrain
 from ..arguments import at_least, between, positive
 from ..errors import ResultsError
+from ..read.soil_card import read_card
 
 OPTIONS = {  # option -> unit and meaning
     "load": "N",
@@ -131,3 +132,5 @@ def run(arguments: argparse.Namespace) -> None:
         options = ", ".join(unread)
         raise ResultsError(f"empirical {arguments.method} does not read {options}; leave it out")
     print(method.answer(arguments).report())
+    if arguments.terrain and arguments.terrain.endswith(CARD):
+        print(f"  the card {read_card(arguments.terrain).condition()}")

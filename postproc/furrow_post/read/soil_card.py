@@ -104,12 +104,14 @@ class NoResult:
 
 @dataclass(frozen=True)
 class SoilCard:
-    """What a card holds. density [kg/m3]; stiffness: elastic, under a rigid plate [Pa/m]."""
+    """What a card holds. density [kg/m3]; stiffness: elastic, under a rigid plate [Pa/m]; gravity: of the tests,
+    in which alone the values hold [m/s2]."""
 
     title: str
     ground: str
     density: float
     stiffness: float
+    gravity: float
     pressure_sinkage: PressureSinkage | NoResult
     shear: Shear | NoResult
     cone: Cone | NoResult
@@ -130,6 +132,10 @@ class SoilCard:
                 )
         assert isinstance(plate, PressureSinkage) and isinstance(shear, Shear)
         return plate, shear
+
+    def condition(self) -> str:
+        """Where the values hold, for a person and for the files of other codes."""
+        return f"holds in a gravity of {self.gravity:g} m/s2 only"
 
     def doubts(self) -> list[str]:
         """What a vehicle code should know before it takes the values."""
@@ -183,7 +189,7 @@ class SoilCard:
         lines += [f"  {instrument}: no result, {why}" for instrument, why in self.failures().items()]
         for meaning, span, unit in self.ranges():
             lines.append(f"  {meaning:28} {span.low:.3g} to {span.high:.3g} {unit}")
-        return "\n".join([*lines, *(f"  note: {note}" for note in self.notes)])
+        return "\n".join([*lines, f"  {self.condition()}", *(f"  note: {note}" for note in self.notes)])
 
 
 def shown(fitted: Fitted) -> str:
@@ -232,6 +238,7 @@ def write_card(card: SoilCard, path: Path) -> None:
         "ground": card.ground,
         "density": card.density,
         "stiffness": card.stiffness,
+        "gravity": card.gravity,
         **{name: _as_yaml(getattr(card, name)) for name in SECTIONS},
         "notes": list(card.notes),
     }
@@ -262,9 +269,17 @@ def read_card(path: Path | str) -> SoilCard:
             str(content["ground"]),
             float(content["density"]),
             float(content["stiffness"]),
+            _gravity(path, content["gravity"]),
             **parts,
             notes=tuple(str(note) for note in content.get("notes", ())),
         )
+
+
+def _gravity(path: Path, given: object) -> float:
+    number = _finite(f"{path}: gravity", given)
+    if number <= 0:
+        raise ResultsError(f"{path}: gravity is {given}; allowed: a number > 0 [m/s2], 9.80665 on the Earth; {REMEDY}")
+    return number
 
 
 def _read_part(path: Path, kind: Any, section: str, content: dict[str, Any]) -> Any:

@@ -24,7 +24,7 @@ def write_chrono(card: SoilCard, path: Path) -> None:
     plate, shear = card.bekker_and_shear()
     content = {
         "Type": "SCM",
-        "Description": f"{card.title}; Damping is that of Chrono's samples, not of a test",
+        "Description": f"{card.title}; {card.condition()}; Damping is that of Chrono's samples, not of a test",
         "Patch dimensions": {"Length": 10, "Width": 2},
         "Grid spacing": 0.04,
         "Soil parameters": {
@@ -64,6 +64,7 @@ def write_altair(card: SoilCard, path: Path) -> None:
     }
     lines = [
         f"$ {' '.join(card.title.split())}",
+        f"$ {card.condition()}",
         "[MDI_HEADER]",
         "FILE_TYPE = 'rdf'",
         "FILE_VERSION = 5.00",
@@ -95,7 +96,7 @@ def write_altair(card: SoilCard, path: Path) -> None:
 def write_table(card: SoilCard, path: Path) -> None:
     """One row for each parameter, and a comment for each instrument without a result."""
     with open(path, "w", encoding="utf-8", newline="") as file:
-        file.write(f"# {' '.join(card.title.split())}\n")
+        file.write(f"# {' '.join(card.title.split())}\n# {card.condition()}\n")
         for instrument, why in card.failures().items():
             file.write(f"# {instrument}: no result, {why}\n")
         writer = csv.writer(file, lineterminator="\n")

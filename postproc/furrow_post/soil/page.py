@@ -76,4 +76,4 @@ def write_page(card: SoilCard, picture: Path, target: Path) -> None:
         *(paragraph(f"No result of the {name}: {why}") for name, why in card.failures().items()),
         *(paragraph(note) for note in card.notes),
     ]
-    target.write_text(document(card.title, f"Ground: {card.ground}", parts), encoding="utf-8")
+    target.write_text(document(card.title, f"Ground: {card.ground}; {card.condition()}", parts), encoding="utf-8")

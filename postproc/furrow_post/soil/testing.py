@@ -26,7 +26,7 @@ from .instruments import (
     ring_test,
 )
 from .page import Curves, draw_card, write_page
-from .units import PLAUSIBLE
+from .units import EARTH, PLAUSIBLE
 
 Part = TypeVar("Part")
 SINKAGE = 0.3  # of the diameter
@@ -79,6 +79,7 @@ def make_card(
         bench.path.name,
         material.density,
         material.punch_stiffness(0.5 * float(np.mean(sizes))),
+        bench.gravity,
         _result_of(lambda: fit_plates(plates)),
         shear,
         _result_of(lambda: cone_index(cone)),
@@ -87,7 +88,6 @@ def make_card(
             *_growth(rings),
             f"plates {cells} cells across, ring {across}, cone {effort.cone_cells}: errors of "
             "the cells are not in the standard errors",
-            f"gravity {bench.gravity:g} m/s2",
         ),
     )
     _write(card, Curves(plates, rings, cone), bench.folder, formats)
@@ -108,6 +108,7 @@ def make_grain_card(
         bench.ground.path.name,
         bench.bulk_density(effort.seeds),
         steepest(plates),
+        EARTH,
         _result_of(lambda: fit_plates(plates)),
         shear,
         cone_on_grains(bench.ground),

@@ -22,6 +22,7 @@ constexpr char card[] = R"(title: Soil card of my_sand
 ground: my_sand.yaml
 density: 1600.0
 stiffness: 1.8e8
+gravity: 9.80665
 pressure_sinkage:
   k_c: {value: -5628.0, error: 183.0, unit: N/m^(n+1)}
   k_phi: {value: 1950915.0, error: 700.0, unit: N/m^(n+2)}
@@ -65,16 +66,24 @@ TEST_F(SoilCardFile, GivesTheRangeOfThePlates) {
   EXPECT_EQ(found.deepest, 0.06);
   EXPECT_EQ(found.largest_pressure, 90408.6);
   EXPECT_TRUE(std::isinf(read_soil_card(written("  sinkage: [0.0016, 0.06]\n", "")).deepest));
-  EXPECT_THAT(refusal("[0.0016, 0.06]", "[0.0016, deep]"), HasSubstr("card.yaml, line 9"));
+  EXPECT_THAT(refusal("[0.0016, 0.06]", "[0.0016, deep]"), HasSubstr("card.yaml, line 10"));
+}
+
+TEST_F(SoilCardFile, GivesTheGravityOfTheTests) {
+  EXPECT_EQ(read_soil_card(written("9.80665", "1.62")).gravity, 1.62);
+  EXPECT_THAT(refusal("gravity: 9.80665\n", ""),
+              HasSubstr("card.yaml has no 'gravity'; allowed: the gravity of the tests, in m/s^2; "
+                        "add the line 'gravity: 9.80665'"));
+  EXPECT_THAT(refusal("gravity: 9.80665", "gravity: -1.62"), HasSubstr("card.yaml, line 5"));
 }
 
 TEST_F(SoilCardFile, RefusalsNameFileLineAndKey) {
   EXPECT_THAT(refusal("shear:", "sheer:"), HasSubstr("shear"));
   EXPECT_THAT(refusal("{value: 29.7, error: 0.6, unit: degree}", "29.7"), HasSubstr("phi"));
-  EXPECT_THAT(refusal("value: 1.23", "value: -1"), HasSubstr("card.yaml, line 8"));
+  EXPECT_THAT(refusal("value: 1.23", "value: -1"), HasSubstr("card.yaml, line 9"));
   EXPECT_THAT(
       refusal("  c: {value: 3695.0, error: 134.0, unit: Pa}", "  failed: the ring sank through"),
-      HasSubstr("card.yaml, line 12 has no values, because the test failed: the ring sank"));
+      HasSubstr("card.yaml, line 13 has no values, because the test failed: the ring sank"));
   EXPECT_THAT(refusal("stiffness: 1.8e8", "stiffness: soft"), HasSubstr("stiffness"));
 }
 

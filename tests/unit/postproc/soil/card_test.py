@@ -24,7 +24,7 @@ from furrow_post.read.soil_card import (
     read_card,
     write_card,
 )
-from furrow_post.soil.exports import write_altair, write_chrono, write_table
+from furrow_post.soil.exports import EXPORTS, write_altair, write_chrono, write_table
 from support.folder import FolderTest
 
 CARD = SoilCard(
@@ -32,6 +32,7 @@ CARD = SoilCard(
     "sand.yaml",
     1505.0,
     7.5e7,
+    9.80665,
     PressureSinkage(
         Fitted(-1234.5678901234, 321.0),
         Fitted(1.23456789e6, 2.5e4),
@@ -85,6 +86,15 @@ class SoilCardTest(FolderTest):
         self.assertEqual(soil["Mohr friction limit"], SHEAR.phi.value)
         self.assertEqual(soil["Janosi shear coefficient"], SHEAR.K.value)
         self.assertGreater(soil["Elastic stiffness"], soil["Bekker Kphi"])
+
+    def test_every_export_states_the_gravity_of_the_tests(self) -> None:
+        card, target = replace(CARD, gravity=1.62), self.folder / "export"
+        for _, write in EXPORTS.values():
+            write(card, target)
+            self.assertIn("holds in a gravity of 1.62 m/s2 only", target.read_text())
+        self.assertIn("holds in a gravity of 1.62 m/s2 only", card.report())
+        write_card(card, target)
+        self.assertEqual(read_card(target).gravity, 1.62)
 
     def test_a_negative_k_c_says_below_which_width_nothing_is_carried(self) -> None:
         """k_c/b + k_phi is zero there."""
@@ -159,6 +169,8 @@ class SoilCardTest(FolderTest):
             (("unit: degree", "unit: rad"), "shear.phi has the unit 'rad'; allowed: 'degree'"),
             (("value: 150.0", "value: .nan"), "shear.c is nan, a finite number is needed"),
             (("cone:", "kone:"), "has no 'cone'"),
+            (("gravity: 9.80665\n", ""), "has no 'gravity'"),
+            (("gravity: 9.80665", "gravity: -1.62"), "gravity is -1.62; allowed: a number > 0 [m/s2]"),
             (("title:", "- title:"), "is no YAML"),
         ):
             self.assertIn(change[0], text)
