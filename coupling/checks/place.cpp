@@ -28,13 +28,14 @@ namespace furrow::coupling {
 namespace {
 
 constexpr int shrink_wrapped = 2;         // of Domain::nonperiodic
-constexpr double large_overlap = 0.5;     // of the smaller of two boxes around bodies
+constexpr double large_overlap = 0.02;    // of the smaller of two boxes around bodies
 constexpr double inside = 0.5;            // winding number
 constexpr double level_tolerance = 1e-3;  // of the body's size, on a continuum or a plane
 // Of the largest diameter, on grains: a bed's level may be that of its middles, of its highest
 // grains or a mean, and a few grains may stick out.
 constexpr double grain_tolerance = 3.0;
-constexpr double near_base = 0.1;  // of the depth of a terrain
+constexpr double deep_start = 0.05;  // of the height of a body
+constexpr double near_base = 0.1;    // of the depth of a terrain
 
 bool changes_on_purpose(const LAMMPS_NS::LAMMPS& lammps) {
   const auto fixes = fixes_of<const LAMMPS_NS::Fix>(*lammps.modify);
@@ -294,6 +295,27 @@ Found grains_stay_in_the_box(const Scene& scene) {
       fmt::format("{:.0f} of {:.0f} grains have left the box in this run; if they were not meant "
                   "to, look for a time step that is too large or for a wall that is missing",
                   lost, scene.grains));
+}
+
+Found body_starts_above_the_field(const Scene& scene, FixContactScm& contact) {
+  const auto [lower, upper] = contact.body_fix().body().surface().bounds();
+  const double sinkage = contact.contact().step().sinkage;
+  if (scene.lammps.update->ntimestep > 1 || sinkage <= deep_start * (upper.z() - lower.z()))
+    return {};
+  return warning(
+      fmt::format("'{}' starts {:.3g} m inside terrain '{}': its rut there is that of the start, "
+                  "not of the load; let it start just above the ground",
+                  contact.body_fix().id, sinkage, contact.terrain_fix().id));
+}
+
+Found axle_stays_above_the_field(const Scene&, FixContactScm& contact) {
+  if (!dynamic_cast<const FixWheelHub*>(&contact.body_fix())) return {};
+  const auto [lower, upper] = contact.body_fix().body().surface().bounds();
+  if (contact.contact().step().sinkage <= 0.5 * (upper.z() - lower.z())) return {};
+  return warning(
+      fmt::format("'{}' has sunk into terrain '{}' to its axle, where the soil contact model does "
+                  "not hold; make the load smaller, or look at the strength of the ground",
+                  contact.body_fix().id, contact.terrain_fix().id));
 }
 
 Found bodies_are_apart(const Scene& scene, const FixBody& body) {

@@ -109,6 +109,8 @@ Found grains_have_a_floor(const Scene& scene);
 Found grains_stay_in_the_box(const Scene& scene);
 /// Two wheels that a copied line has put into one another. @return of the first such body
 Found bodies_are_apart(const Scene& scene, const FixBody& body);
+Found body_starts_above_the_field(const Scene& scene, FixContactScm& contact);
+Found axle_stays_above_the_field(const Scene& scene, FixContactScm& contact);
 /// A road below the base is a hard bottom; above it, it carries what the terrain should.
 Found plane_is_below_terrain(const Scene& scene, FixContactContinuum& contact);
 // In the run in which a body sets off; later there is a rut. A continuum and a plane know their
@@ -140,6 +142,8 @@ Found body_touches_something(const Scene& scene, FixBody& body);
 // Is continuum terrain large enough, and fine enough, for what presses on it?
 Found terrain_is_wide_enough(const Scene& scene, FixContactContinuum& contact);
 Found terrain_is_long_enough(const Scene& scene, FixContactContinuum& contact);
+/// Of ground that does not follow it.
+Found wheel_stays_off_the_end(const Scene& scene, FixContactContinuum& contact);
 /// Centimetres for metres.
 Found terrain_has_the_size_of_a_wheels(const Scene& scene, FixContactContinuum& contact);
 Found cells_show_the_body(const Scene& scene, FixContactContinuum& contact);

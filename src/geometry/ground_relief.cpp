@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <utility>
 
@@ -19,6 +20,8 @@ namespace {
 constexpr double reference_frequency = 0.1;  // n0 of ISO 8608 [cycles/m]
 constexpr int waves = 256;                   // of a random profile, in equal bands of log(n)
 constexpr double round_off = 1e-9;           // of a spacing
+constexpr int map_samples = 200;             // along the middle of a ground
+constexpr double steepest_mean = 1.0;        // slope, as height over length
 constexpr char best_road = 'A', worst_road = 'H';
 constexpr double best_density = 16e-6;  // G(n0) of the best road [m^3]
 
@@ -106,6 +109,30 @@ double GroundRelief::waves_at(double x) const {
 
 double GroundRelief::map_height(double x, double y) const {
   return parameters_.heightmap ? parameters_.heightmap->height(x, y) : 0.0;
+}
+
+void GroundRelief::check_map(const Vector2& lower, const Vector2& upper) const {
+  if (!parameters_.heightmap) return;
+  const Heightmap& map = *parameters_.heightmap;
+  const double length = upper.x() - lower.x(), y = 0.5 * (lower.y() + upper.y());
+  need(map.spacing.x() <= length, map.name,
+       fmt::format("has a height every {:.4g} m, and the ground is {:.4g} m long", map.spacing.x(),
+                   length),
+       "several heights along the ground", "give x, y and z in m, or a finer map");
+  double nearest = std::numeric_limits<double>::infinity(), lift = 0.0;
+  double before = map.height(lower.x(), y);
+  for (int n = 0; n <= map_samples; ++n) {
+    const double height = map.height(lower.x() + length * n / map_samples, y);
+    nearest = std::min(nearest, std::abs(height));
+    lift += std::abs(height - before);
+    before = height;
+  }
+  need(nearest <= length, map.name,
+       fmt::format("has heights of {:.6g} m, and the ground is {:.4g} m long", before, length),
+       "heights above the flat surface", "give the level of the site as z of 'heightmap_origin'");
+  need(lift <= steepest_mean * length, map.name,
+       fmt::format("climbs and falls {:.4g} m over the {:.4g} m of the ground", lift, length),
+       fmt::format("a mean slope up to {:g}", steepest_mean), "give x, y and z in m");
 }
 
 double GroundRelief::profile(double x) const {

@@ -60,6 +60,9 @@ class GroundRelief {
   double height(double x, double y) const { return profile(x) + map_height(x, y); }
   double profile(double x) const;               ///< of all shapes but the heightmap [m]
   double map_height(double x, double y) const;  ///< [m] @throws InputError outside of it
+  /// Of a ground from a lower to an upper corner [m]; without a heightmap nothing.
+  /// @throws InputError for a map that is coarser, higher or steeper than such a ground can be
+  void check_map(const Vector2& lower, const Vector2& upper) const;
   /// Of the heightmap's nodes, equal for equal maps; empty without one.
   std::string map_checksum() const;
   /// A run that continues must have the same heightmap. Keywords are compared by the fix.

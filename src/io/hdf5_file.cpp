@@ -42,7 +42,11 @@ std::string hdf5_cause() {
     return 0;
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &cause);
-  return cause;
+  // Of a failed write: "..., error message = 'No space left on device', buf = ...".
+  const std::string mark = "error message = '";
+  const std::size_t begin = cause.find(mark), end = cause.find('\'', begin + mark.size());
+  if (begin == std::string::npos || end == std::string::npos) return cause;
+  return cause.substr(begin + mark.size(), end - begin - mark.size());
 }
 
 [[noreturn]] void fail(const std::string& file, const std::string& action,

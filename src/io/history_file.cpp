@@ -150,8 +150,14 @@ void HistoryFile::replace_with(Change change) {
   replace_file(path_, [&](const std::string& part) {
     std::error_code failed;
     fs::copy_file(path_, part, fs::copy_options::overwrite_existing, failed);
-    if (failed)
-      throw Error(fmt::format("{}: cannot be copied to {} ({})", path_, part, failed.message()));
+    if (failed) {
+      // On a full disk the library reports an error of input and output.
+      std::error_code unknown;
+      const auto room = fs::space(fs::path(path_).parent_path(), unknown).available;
+      const bool full = !unknown && room < fs::file_size(path_, unknown);
+      throw Error(fmt::format("{}: cannot be copied to {} ({})", path_, part,
+                              full ? "No space left on device" : failed.message()));
+    }
     Hdf5File file(part, Hdf5File::Mode::edit);
     change(file);
     file.close();

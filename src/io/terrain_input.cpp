@@ -343,6 +343,8 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
   const double half_length = 0.5 * options.number("length"),
                half_width = 0.5 * options.number("width");
   const bool half_model = options.flag("symmetry");
+  ground.relief.check_map({x - half_length, half_model ? y : y - half_width},
+                          {x + half_length, y + half_width});
   ground.x = layout(options, x - half_length, x + half_length, x, "fine_length");
   ground.y = layout(options, half_model ? y : y - half_width, y + half_width, y, "fine_width");
   ground.z = vertical_layout(options);

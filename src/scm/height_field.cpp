@@ -66,6 +66,7 @@ HeightField::HeightField(const HeightFieldParameters& parameters, const std::str
   surface_.assign(size, parameters.level);
   reference_.assign(size, parameters.level);
   if (parameters.relief.flat()) return;
+  parameters.relief.check_map(lower_, lower_ + parameters.cell * Vector2(columns_, rows_));
   undisturbed_.resize(size);
   for (int column = 0; column < columns_; ++column) {
     const double x = lower_.x() + parameters.cell * (column + 0.5);

@@ -71,6 +71,31 @@ TEST(GroundRelief, PeriodogramOfARandomProfileHasTheSpectrumOfIso8608) {
     EXPECT_NEAR(measured[k] / expected[k], 1.0, 0.25) << octaves[k];
 }
 
+/// A map in millimetres, with the heights of its site, or with heights in centimetres
+TEST(GroundRelief, MapThatCannotBeOfTheGroundIsRefused) {
+  const auto said = [](double spacing, double level, double amplitude) {
+    auto map = std::make_shared<Heightmap>();
+    map->name = "map";
+    map->columns = map->rows = 100;
+    map->spacing = {spacing, spacing};
+    map->lower = -50.0 * map->spacing;
+    for (int n = 0; n < 10000; ++n) map->heights.push_back(level + (n % 2 ? amplitude : 0.0));
+    ReliefParameters parameters;
+    parameters.heightmap = map;
+    const GroundRelief relief(parameters, "ground");
+    try {
+      relief.check_map({-2.0, -1.0}, {2.0, 1.0});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(said(0.1, 0.0, 0.05), "");
+  EXPECT_NE(said(100.0, 0.0, 50.0).find("has a height every 100 m"), std::string::npos);
+  EXPECT_NE(said(0.1, 412.0, 0.05).find("has heights of 412 m"), std::string::npos);
+  EXPECT_NE(said(0.1, 0.0, 5.0).find("climbs and falls"), std::string::npos);
+}
+
 /// The table of ISO 8608, in 1e-6 m^3.
 TEST(GroundRelief, RoadClassesHaveTheMeanDensitiesOfIso8608) {
   const std::vector<std::pair<char, double>> table = {{'A', 16},    {'B', 64},    {'C', 256},
