@@ -27,6 +27,7 @@ constexpr std::array<Coordinate, 5> coordinates{Coordinate::x, Coordinate::y, Co
                                                 Coordinate::yaw, Coordinate::camber};
 constexpr std::size_t height = 2;     // in coordinates
 constexpr double largest_turn = 0.5;  // in a step [rad]
+constexpr double same_place = 0.1;    // of a radius, between the script and the first step
 constexpr double same_step = 1e-6;    // error of a multiple of the time step
 constexpr char checkpoint[] = "state";
 
@@ -117,9 +118,18 @@ std::array<double, 5> OneWheel::rates(double seconds, const Values& values) cons
   std::array<double, 5> rates{};
   for (std::size_t i = 0; i < rates.size(); ++i) {
     if (i == height && values.booleans[height_by_load]) continue;
-    const double target = values.reals[position_x + i] + seconds * values.reals[velocity_x + i];
+    const double radius = hub().nominal_radius();
+    const double begin = values.pose_given[i] ? values.reals[position_x + i] : pose_[i];
+    if (!moved_ && before_.files.empty() && i <= height &&
+        std::abs(begin - pose_[i]) > same_place * radius)
+      throw InputError(fmt::format("DoStep: {}", reals[position_x + i].name),
+                       fmt::format("is {} in the first step, and the script has the wheel at {}",
+                                   begin, pose_[i]),
+                       fmt::format("at most {:.3g} m away", same_place * radius),
+                       "give the place of the wheel in the script, or do not set this input");
+    const double target = begin + seconds * values.reals[velocity_x + i];
     const double travel = target - pose_[i];
-    const double limit = i <= height ? hub().nominal_radius() : largest_turn;
+    const double limit = i <= height ? radius : largest_turn;
     if (!(std::abs(travel) <= limit))
       throw InputError(
           fmt::format("DoStep: {}", reals[position_x + i].name),
@@ -163,6 +173,8 @@ double OneWheel::advance(double step, Values& values) {
 void OneWheel::read(Values& values) const {
   const WheelHub& wheel = hub();
   const Wrench wrench = wheel.ground_wrench();
+  for (std::size_t i = 0; i < pose_.size(); ++i)
+    if (!values.pose_given[i]) values.reals[position_x + i] = wheel.position(coordinates[i]);
   for (unsigned i = 0; i < 3; ++i) {
     values.reals[force_x + i] = wrench.force[i];
     values.reals[moment_x + i] = wrench.moment[i];

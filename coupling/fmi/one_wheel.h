@@ -18,6 +18,8 @@ namespace furrow::coupling::fmi {
 struct Values {
   std::array<double, real_count> reals{};
   std::array<bool, boolean_count> booleans = boolean_starts;
+  /// x, y, z, yaw and camber that the importer has set. The others follow from their rates.
+  std::array<bool, 5> pose_given{};
   std::vector<std::string> strings;
 };
 

@@ -91,10 +91,24 @@ void WheelFmu::log(fmi2Status status, const std::string& message) const {
                     text.c_str());
 }
 
+void WheelFmu::log_once(const std::string& warning) {
+  if (warned_.insert(warning).second) log(fmi2Warning, warning);
+}
+
 /// A script that is opened again for a state repeats its warnings.
 void WheelFmu::log_warnings() {
-  for (const std::string& text : wheel_->take_warnings())
-    if (warned_.insert(text).second) log(fmi2Warning, text);
+  for (const std::string& text : wheel_->take_warnings()) log_once(text);
+}
+
+void WheelFmu::warn_of_unused_inputs() {
+  const auto unused = [&](Real input, Boolean parameter, bool wanted) {
+    if (values_.reals[input] == 0.0 || values_.booleans[parameter] == wanted) return;
+    log_once(fmt::format("{} has no effect: it needs the parameter {} = {}", reals[input].name,
+                         booleans[parameter].name, wanted));
+  };
+  unused(load, height_by_load, true);
+  unused(spin_torque, spin_by_torque, true);
+  unused(spin_rate, spin_by_torque, false);
 }
 
 void WheelFmu::need(std::initializer_list<Phase> allowed) const {
@@ -135,6 +149,7 @@ fmi2Status WheelFmu::step(double time, double length) {
   if (!(std::abs(time - time_) <= same_time * std::max(1.0, std::abs(time_))))
     throw InputError("DoStep: currentCommunicationPoint", fmt::format("is {} s", time),
                      fmt::format("{} s, the end of the step before", time_));
+  warn_of_unused_inputs();
   const double done = wheel_->advance(length, values_);
   log_warnings();
   time_ = time + done;
@@ -183,6 +198,7 @@ void WheelFmu::set_real(fmi2ValueReference reference, double value) {
     throw InputError(fmt::format("SetReal: {}", reals[reference].name), "is an output", "inputs");
   need({Phase::instantiated, Phase::initializing, Phase::stepping});
   place = value;
+  if (reference < velocity_x) values_.pose_given[reference] = true;
 }
 
 void WheelFmu::need_closed(const std::string& parameter) const {
@@ -234,6 +250,7 @@ std::vector<std::uint8_t> pack(const WheelFmu::Snapshot& snapshot) {
                       {"time", snapshot.time},
                       {"reals", snapshot.values.reals},
                       {"booleans", snapshot.values.booleans},
+                      {"pose_given", snapshot.values.pose_given},
                       {"strings", snapshot.values.strings}};
   if (snapshot.wheel) {
     json["pose"] = snapshot.wheel->pose;
@@ -253,6 +270,7 @@ std::unique_ptr<WheelFmu::Snapshot> unpack(const fmi2Byte* bytes, std::size_t si
     snapshot->time = json.at("time");
     snapshot->values.reals = json.at("reals");
     snapshot->values.booleans = json.at("booleans");
+    snapshot->values.pose_given = json.at("pose_given");
     json.at("strings").get_to(snapshot->values.strings);
     if (json.contains("pose")) {
       OneWheel::State state;

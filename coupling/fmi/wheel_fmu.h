@@ -57,7 +57,9 @@ class WheelFmu {
   void open(const OneWheel::State* state);
   void need_closed(const std::string& parameter) const;
   Values start_values() const;
+  void log_once(const std::string& warning);
   void log_warnings();
+  void warn_of_unused_inputs();
 
   std::string name_, resources_;
   fmi2CallbackFunctions callbacks_;

@@ -124,7 +124,9 @@ nlohmann::ordered_json json_of(const ResistanceParts& parts) {
 }
 
 std::string audit_text(const Audit& audit) {
-  std::string text = "Audit\n";
+  std::string text =
+      "Audit (energies add up to zero: what the wheel receives is positive, what it keeps or loses "
+      "negative)\n";
   for (const EnergyTerm& term : audit.energies)
     text += fmt::format("  {:<38} {:>14.6g} J\n", term.name, term.value);
   text += fmt::format(

@@ -151,6 +151,16 @@ class Results(Case):
         found = [text for text in wheel.messages if "3.6 cells across 'wheel'" in text]
         self.assertEqual(len(found), 1, wheel.messages)
 
+    def test_inputs_that_are_not_set_follow_from_the_script_and_the_rates(self) -> None:
+        wheel = self.opened()
+        self.assertEqual(wheel.get("position_z"), 0.351)
+        wheel.set({"velocity_x": 0.5, "load": 800.0})
+        for k in range(10):
+            wheel.step(k * STEP, STEP)
+        self.assertAlmostEqual(wheel.get("position_x"), 0.5 * 10 * STEP, 12)
+        self.assertEqual(wheel.get("hub_z"), 0.351)
+        self.assertEqual(sum("load has no effect: it needs the parameter height_by_load" in text for text in wheel.messages), 1)
+
     def test_variables_have_units_and_references(self) -> None:
         units = {unit.attrib["name"] for unit in self.fmu.description.iter("Unit")}
         seen = set()
@@ -311,7 +321,8 @@ class Refusals(Case):
         self.refused("SetReal: force_x is an output; allowed: inputs", wheel, "set", {"force_x": 1.0})
         self.refused("communicationStepSize is 0.0015 s; allowed: multiples of .* time step of 0.001 s", wheel, "step", 0.0, 1.5e-3)
         self.refused("currentCommunicationPoint is 1 s; allowed: 0 s", wheel, "step", 1.0, STEP)
-        self.refused("position_z is 0 at the end .* wheel is at 0.351; .* give the place", wheel, "step", 0.0, STEP)
+        wheel.set({"position_z": 0.0})
+        self.refused("position_z is 0 in the first step, .* wheel at 0.351; .* give the place", wheel, "step", 0.0, STEP)
         wheel.set({"position_z": 0.351, "spin_torque": float("nan")})
         self.refused("spin_torque is not finite", wheel, "step", 0.0, STEP)
         unknown = (ctypes.c_uint * 1)(99)
