@@ -81,11 +81,13 @@ class Shear:
 
 @dataclass(frozen=True)
 class Cone:
-    """Cone index: mean pressure on the base of a cone."""
+    """Cone index: mean pressure on the base of a cone. Another size has another index."""
 
     index: Fitted  # [Pa] mean over `depth`
     gradient: Fitted  # [Pa/m] of the pressure over depth
     depth: Range  # [m]
+    size: float  # diameter of the base [m]
+    angle: float  # of the tip [degrees]
 
 
 SECTIONS: dict[str, tuple[type, str]] = {
@@ -178,7 +180,7 @@ class SoilCard:
                 ("shear displacement", shear.displacement, "m"),
             ]
         if isinstance(cone, Cone):
-            spans.append(("depth of the cone", cone.depth, "m"))
+            spans.append((f"depth of the cone of {1e3 * cone.size:.4g} mm and {cone.angle:g}°", cone.depth, "m"))
         return spans
 
     def report(self) -> str:
@@ -188,7 +190,7 @@ class SoilCard:
             lines.append(f"  {name:12} {text:>22} {UNITS[name]}")
         lines += [f"  {instrument}: no result, {why}" for instrument, why in self.failures().items()]
         for meaning, span, unit in self.ranges():
-            lines.append(f"  {meaning:28} {span.low:.3g} to {span.high:.3g} {unit}")
+            lines.append(f"  {meaning:38} {span.low:.3g} to {span.high:.3g} {unit}")
         return "\n".join([*lines, f"  {self.condition()}", *(f"  note: {note}" for note in self.notes)])
 
 

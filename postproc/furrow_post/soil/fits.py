@@ -78,10 +78,17 @@ class ShearCurve:
 
 @dataclass(frozen=True)
 class ConeCurve:
-    """Pressure on the base [Pa] over the depth of the base [m]."""
+    """Pressure on the base [Pa] over the depth of the base [m]; size of the base [m], angle of the tip [degrees]."""
 
     depth: Floats
     pressure: Floats
+    size: float
+    angle: float
+
+    def down_to(self, depth: float) -> "ConeCurve":
+        """Without what lies deeper [m]."""
+        use = self.depth <= depth
+        return ConeCurve(self.depth[use], self.pressure[use], self.size, self.angle)
 
 
 def fit_plates(curves: Sequence[PlateCurve]) -> PressureSinkage:
@@ -203,6 +210,8 @@ def cone_index(curve: ConeCurve) -> Cone:
         Fitted(index, float(errors[1])),
         Fitted(gradient, float(errors[0])),
         Range(float(depth.min()), float(depth.max())),
+        curve.size,
+        curve.angle,
     )
 
 

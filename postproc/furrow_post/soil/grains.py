@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Plates and shear ring on a bed of grains, packing by packing."""
+"""Plates, shear ring and cones on a bed of grains, packing by packing."""
 
 import math
 from collections.abc import Sequence
@@ -14,7 +14,9 @@ from ..read.script import script_variables
 from ..read.soil_card import NoResult
 from ..scene.process import Runs
 from .fits import PlateCurve, ShearCurve
-from .instruments import CONE_BASE, mean_radius, read_curve, ring_curve, run_instrument
+from .grain_cone import GrainCone
+from .instruments import CONE_ANGLE, cone_curve, mean_radius, read_curve, ring_curve, run_instrument
+from .units import EARTH
 
 FEWEST_GRAINS = 10.0  # across a plate: below, single grains make the curve
 SIZES = (10.0, 13.0)  # diameters of the plates, in grains
@@ -30,6 +32,8 @@ TURN = 2.0  # grains that the middle of the ring turns
 BED_WIDTH, BED_DEPTH = 28.0, 11.0  # least of a bed, in grains
 RING_BED_WIDTH = 2 * RING[0]  # in grains
 WIDTH_OF_PLATE, DEPTH_OF_PLATE = 2.1, 0.8  # least width and depth of a bed over the largest plate
+CONE_SPEED, CONE_FRICTION = 0.4, 0.3  # [m/s]; of steel and grains
+CONE_BED = (5.0, 3.5)  # width and depth of the bed of a cone over the diameter of its base
 LOADS = (0.06, 0.12, 0.24)  # of the ring, over what the smallest plate carries
 FAMILIES = ("sand", "snow_bonded")  # beds of the laboratory that have room for plates and ring
 SEEDS = (86028121, 49979687)  # of the packings
@@ -43,6 +47,7 @@ class GrainGround:
 
     path: Path
     diameter: float  # [m] mean of the grains
+    sticks: bool  # whether its grains stick
 
     @property
     def title(self) -> str:
@@ -51,14 +56,15 @@ class GrainGround:
 
 @dataclass(frozen=True)
 class Packings:
-    """How much a card of grains costs: packings by their seeds, and loads of the ring."""
+    """How much a card of grains costs: packings by their seeds, loads of the ring, and cones."""
 
     seeds: tuple[int, ...]
     loads: tuple[float, ...]
+    cones: tuple[float, ...]  # diameters of their bases, in grains
 
 
-FULL = Packings(SEEDS, LOADS)
-QUICK = Packings(SEEDS[:1], LOADS[::2])
+FULL = Packings(SEEDS, LOADS, (4.0, 6.0, 8.0))
+QUICK = Packings(SEEDS[:1], LOADS[::2], (4.0, 6.0))
 
 
 def laboratory_folder() -> Path:
@@ -86,7 +92,7 @@ def read_ground(path: Path) -> GrainGround:
         diameter = 0.0
     if not 1e-4 <= diameter <= 0.5:
         raise ResultsError(f"{path}: variable diameter is '{value}'; allowed: 0.0001 to 0.5 m, of the grains")
-    return GrainGround(path, diameter)
+    return GrainGround(path, diameter, named[-1] != "sand")
 
 
 def _refuse_continuum(path: Path) -> None:
@@ -156,12 +162,12 @@ class GrainBench:
             self.folder.mkdir(parents=True, exist_ok=True)
             surroundings["ring"] = (self.folder / "ring.stl").resolve()
             write_ring(self.folder / "ring.stl", grain)
-        plates = max(BED_WIDTH * grain, WIDTH_OF_PLATE * self.largest)
-        bed = {
-            "width": RING_BED_WIDTH * grain if script == "grain_ring" else plates,
-            "depth": max(BED_DEPTH * grain, DEPTH_OF_PLATE * self.largest),
-            "face_friction": FACE_FRICTION,
-        }
+        width, depth = max(BED_WIDTH * grain, WIDTH_OF_PLATE * self.largest), max(BED_DEPTH * grain, DEPTH_OF_PLATE * self.largest)
+        if script == "grain_ring":
+            width = RING_BED_WIDTH * grain
+        elif script == "grain_cone":
+            width, depth = (part * values["size"] for part in CONE_BED)
+        bed = {"width": width, "depth": depth, "face_friction": FACE_FRICTION}
         content = self.ground.path.read_text(encoding="utf-8")
         return run_instrument(
             script, self._folder(name, seed), surroundings, content, {"seed": seed, **bed, **values}, runs
@@ -191,24 +197,43 @@ class GrainBench:
         folder = self._run("grain_ring", f"ring_{1e-3 * pressure:.3g}kPa", seed, values, runs)
         return ring_curve(read_curve(folder), outer, inner, RING_SPEED, pressure)
 
+    def cones(self, effort: Packings, runs: Runs) -> list[GrainCone]:
+        """Cones of several sizes on every packing; none on grains that stick."""
+        every = [(seed, grains) for seed in effort.seeds for grains in effort.cones]
+        return [] if self.ground.sticks else [self._cone(grains, seed, runs) for seed, grains in every]
+
+    def _cone(self, grains: float, seed: int, runs: Runs) -> GrainCone:
+        """With a base of so many grains, until the base is as deep as it is wide."""
+        size = grains * self.ground.diameter
+        values = {
+            "size": size,
+            "angle": CONE_ANGLE,
+            "depth_of_base": size,
+            "speed": CONE_SPEED,
+            "face_friction": CONE_FRICTION,
+        }
+        folder = self._run("grain_cone", f"cone_{1e3 * size:.0f}mm", seed, values, runs)
+        curve = cone_curve(read_curve(folder), size).down_to(size)
+        return GrainCone(curve, grains, bulk_density(folder) * EARTH * size)
+
     def bulk_density(self, seeds: Sequence[int]) -> float:
         """Of the beds of the plates, mean [kg/m3]."""
-        found = []
-        for seed in seeds:
-            words = (self._folder(plate_name(self.largest), seed) / "facts.txt").read_text(encoding="utf-8").split()
-            found.append(float(words[words.index("bulk") + 1]))
-        return float(np.mean(found))
+        return float(np.mean([bulk_density(self._folder(plate_name(self.largest), seed)) for seed in seeds]))
+
+
+def bulk_density(folder: Path) -> float:
+    """Of the bed of a run [kg/m3]."""
+    words = (folder / "facts.txt").read_text(encoding="utf-8").split()
+    return float(words[words.index("bulk") + 1])
 
 
 def plate_name(size: float) -> str:
     return f"plate_{1e3 * size:.0f}mm"
 
 
-def cone_on_grains(ground: GrainGround) -> NoResult:
-    return NoResult(
-        f"the standard cone is {CONE_BASE / ground.diameter:.1f} grains wide, and needs {FEWEST_GRAINS:g}: grains of "
-        f"{1e3 * CONE_BASE / FEWEST_GRAINS:.0f} mm or finer"
-    )
+NO_CONE_ON_SNOW = NoResult(
+    "the cone on grains is wider than the standard one, and its index is known over size only where grains do not stick"
+)
 
 
 def grain_notes(bench: GrainBench, effort: Packings, sizes: Sequence[float]) -> tuple[str, ...]:

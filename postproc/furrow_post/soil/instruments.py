@@ -169,8 +169,13 @@ def cone_test(bench: Bench, depth: float, cells: int, runs: Runs) -> ConeCurve:
         "speed": bench.speed(CONE_PACE),
     }
     rows = read_curve(bench.run("cone", "cone", variables, runs))
-    height = 0.5 * CONE_BASE / math.tan(math.radians(0.5 * CONE_ANGLE))
-    return ConeCurve(rows[:, 1] - height, rows[:, 3])
+    return cone_curve(rows, CONE_BASE)
+
+
+def cone_curve(rows: Floats, size: float) -> ConeCurve:
+    """Of a base with a diameter [m], from the sinkage of the tip."""
+    height = 0.5 * size / math.tan(math.radians(0.5 * CONE_ANGLE))
+    return ConeCurve(rows[:, 1] - height, rows[:, 3], size, CONE_ANGLE)
 
 
 def read_curve(folder: Path) -> Floats:

@@ -18,17 +18,17 @@ FITTED = {"color": "0.25", "lw": 1.0, "ls": "--"}
 
 @dataclass(frozen=True)
 class Curves:
-    """What the instruments measured; cone: None where there was none."""
+    """What the instruments measured; cones: none, one, or one for each packing."""
 
     plates: Sequence[PlateCurve]
     rings: Sequence[ShearCurve]
-    cone: ConeCurve | None
+    cones: Sequence[ConeCurve]
 
 
 def draw_card(card: SoilCard, curves: Curves, target: Path) -> None:
     """A panel each of plates, ring and cone; dashed: the card."""
     use_style()
-    panels, cone = 3 if curves.cone else 2, curves.cone
+    panels = 3 if curves.cones else 2
     figure, axes = plt.subplots(1, panels, figsize=(3.5 * panels, 3.6), layout="constrained")
     for curve, colour in zip(curves.plates, RUN_COLOURS):
         z = np.linspace(0, curve.sinkage.max(), 100)
@@ -47,15 +47,17 @@ def draw_card(card: SoilCard, curves: Curves, target: Path) -> None:
             axes[1].plot(j, KILOPASCAL * card.shear.at(ring.displacement, ring.normal), **FITTED)
     axes[1].set(xlabel="shear displacement [mm]", ylabel="shear stress [kPa]", xlim=(0, None), ylim=(0, None))
     annotate_panel(axes[1], "b", "shear ring")
-    if cone:
-        axes[2].plot(KILOPASCAL * cone.pressure, MILLIMETRE * cone.depth, color=RUN_COLOURS[0], label="cone")
+    for cone, colour in zip(curves.cones, RUN_COLOURS):
+        label = f"base {MILLIMETRE * cone.size:.3g} mm"
+        axes[2].plot(KILOPASCAL * cone.pressure, MILLIMETRE * cone.depth, color=colour, label=label)
+    if curves.cones:
         if isinstance(card.cone, Cone):
             index = KILOPASCAL * card.cone.index.value
             axes[2].plot((index, index), (0, MILLIMETRE * card.cone.depth.high), label="cone index", **FITTED)
         axes[2].set(
             xlabel="pressure on the base [kPa]",
             ylabel="depth of the base [mm]",
-            ylim=(MILLIMETRE * min(cone.depth.max(), INDEX_DEPTH), 0),
+            ylim=(MILLIMETRE * min(curves.cones[0].depth.max(), INDEX_DEPTH), 0),
             xlim=(0, None),
         )
         annotate_panel(axes[2], "c", "cone")

@@ -51,7 +51,7 @@ CARD = SoilCard(
         Range(0.0, 0.04),
         0.02,
     ),
-    Cone(Fitted(7.1e4, 900.0), Fitted(8e5, 2e4), Range(0.0, 0.15)),
+    Cone(Fitted(7.1e4, 900.0), Fitted(8e5, 2e4), Range(0.0, 0.15), 0.02027, 30.0),
     ("cells: not in the errors",),
 )
 

@@ -7,12 +7,13 @@ import subprocess
 import unittest
 from unittest import mock
 
-from furrow_post.read.soil_card import read_card
+from furrow_post.read.soil_card import Cone, read_card
 from support.command import SOURCE, run_soil
 from support.folder import FolderTest
 
 TRUTH = {"k_c": -4e3, "k_phi": 5e5, "n": 0.6, "c": 400.0, "phi": 30.0, "K": 0.006}
 CONE = (2e4, 8e5)  # [Pa] at the surface, [Pa/m]
+GRAIN_CONE = 30.0  # index over weight density and size, of grains without size
 SPEED_STRESS = 500.0  # [Pa] at 1 m/s, by the root of the speed
 STAND_IN = """#!/usr/bin/python3
 import math, sys
@@ -53,6 +54,9 @@ for k in range(301):
     else:
         height = 0.5 * v["size"] / math.tan(math.radians(0.5 * v["angle"]))
         z = s * (v["depth_of_base"] + height)
+        if name == "grain_cone":  # whose base has 1 grain in so many; second order
+            rows.append((k, z, 0, packing * GRAIN_CONE * 1330 * 9.80665 * v["size"] * (1 + 4 * (0.01 / v["size"]) ** 2)))
+            continue
         rows.append((k, z, 0, max(0, CONE[0] + CONE[1] * (z - height))))
 with open(f"{results}/curve.txt", "w") as file:
     file.write("# LIGGGHTS\\n# columns\\n")
@@ -74,7 +78,7 @@ class CardCommandTest(FolderTest):
     def furrow(self, status: int, packing: float = 1.0) -> None:
         """packing: strength of the second packing of grains over the first"""
         program = self.folder / "bin" / "furrow"
-        text = STAND_IN.replace("TRUTH", repr(TRUTH)).replace("CONE", repr(CONE))
+        text = STAND_IN.replace("TRUTH", repr(TRUTH)).replace("GRAIN_CONE", str(GRAIN_CONE)).replace("CONE", repr(CONE))
         text = text.replace("SPEED_STRESS", str(SPEED_STRESS)).replace("LOG", str(self.folder / "log.txt")).replace("STATUS", str(status)).replace("PACKING", str(packing))
         program.write_text(text, encoding="utf-8")
         program.chmod(0o755)
@@ -136,7 +140,7 @@ class CardCommandTest(FolderTest):
         self.assertNotEqual(done.returncode, 0)
         self.assertFalse((self.folder / "card" / "card.yaml").exists())
 
-    def test_a_card_of_grains_has_the_parameters_and_no_cone(self) -> None:
+    def test_a_card_of_grains_has_the_parameters(self) -> None:
         done = self.soil("card", "sand_cmu", "-o", "card")
         self.assertEqual(done.returncode, 0, done.stderr)
         card = read_card(self.folder / "card" / "card.yaml")
@@ -145,9 +149,23 @@ class CardCommandTest(FolderTest):
         self.assertEqual(card.ground, "sand_cmu.lig")
         self.assertAlmostEqual(card.density, 1330)
         self.assertAlmostEqual(card.bekker_and_shear()[0].radii.low, 0.05)
-        self.assertIn("standard cone is 2.0 grains wide, and needs 10", card.failures()["cone"])
         self.assertIn("packings: 2", card.notes[1])
-        self.assertEqual(self.runs(), 4 * ["grain_plate"] + 6 * ["grain_ring"])
+        self.assertEqual(self.runs(), 4 * ["grain_plate"] + 6 * ["grain_ring"] + 6 * ["grain_cone"])
+        cone = card.cone
+        assert isinstance(cone, Cone)
+        weight = 1330 * 9.80665 * 0.08
+        self.assertAlmostEqual(cone.index.value / weight, GRAIN_CONE * (1 + 4 / 64), places=6)
+        self.assertGreater(cone.index.error, (cone.index.value - GRAIN_CONE * weight))  # grains of finite size
+        self.assertEqual((cone.size, cone.angle), (0.08, 30.0))
+        self.assertAlmostEqual(cone.depth.high, 0.08, delta=0.001)
+        self.assertIn("8 grains wide; the index of another size, the standard one included, was not computed", card.notes[-2])
+        self.assertIn("extrapolated to zero grain size 30 ± ", card.notes[-1])
+
+    def test_a_card_of_bonded_grains_has_no_cone(self) -> None:
+        self.soil("card", "snow_bonded", "--quick", "-o", "card")
+        self.assertEqual(self.runs(), 2 * ["grain_plate"] + 2 * ["grain_ring"])
+        card = read_card(self.folder / "card" / "card.yaml")
+        self.assertIn("only where grains do not stick", card.failures()["cone"])
 
     def test_the_scatter_of_packings_is_in_the_errors(self) -> None:
         self.soil("card", "sand_cmu", "-o", "equal")

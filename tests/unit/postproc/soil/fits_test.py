@@ -93,7 +93,7 @@ class ExactCurvesTest(unittest.TestCase):
 
     def test_cone_index_is_the_mean_over_15_cm(self) -> None:
         z = np.linspace(-0.04, 0.2, 241)
-        found = cone_index(ConeCurve(z, START + G * z))
+        found = cone_index(ConeCurve(z, START + G * z, 0.02, 30.0))
         self.assertAlmostEqual(found.index.value, START + G * 0.075, delta=1.0)
         self.assertAlmostEqual(found.gradient.value / G, 1, delta=1e-9)
         self.assertAlmostEqual(found.depth.high, 0.15, delta=1e-9)
@@ -110,7 +110,7 @@ class CoverageTest(unittest.TestCase):
         for _ in range(self.DRAWS):
             plate, ring = plates(random), shear(random)
             z = np.linspace(0, 0.15, 150)
-            cone = cone_index(ConeCurve(z, START + G * z + noise(random, z.size, 5e3, 0.8)))
+            cone = cone_index(ConeCurve(z, START + G * z + noise(random, z.size, 5e3, 0.8), 0.02, 30.0))
             for name, found, truth in (
                 ("k_c", plate.k_c, K_C),
                 ("k_phi", plate.k_phi, K_PHI),
@@ -172,7 +172,7 @@ class RefusalTest(unittest.TestCase):
         with self.assertRaisesRegex(ResultsError, "under 20000 Pa it sinks by 0.50 of it"):
             fit_shear([first, sinks])
         with self.assertRaisesRegex(ResultsError, "a cone whose base is below the surface"):
-            cone_index(ConeCurve(-z, z))
+            cone_index(ConeCurve(-z, z, 0.02, 30.0))
 
 
 class RingOnSnowTest(unittest.TestCase):

@@ -12,9 +12,10 @@ import yaml
 from scipy.optimize import brentq
 
 from furrow_post.analyse import empirical
+from furrow_post.analyse.grid_convergence import grid_convergence, noise_of, pooled_scatter
 from furrow_post.analyse.terrain_values import terrain
 from furrow_post.csv_table import read_rows
-from furrow_post.read.soil_card import NoResult, Shear, markdown, read_card
+from furrow_post.read.soil_card import Cone, NoResult, Shear, markdown, read_card
 from furrow_post.soil.grains import read_ground
 from furrow_post.soil.material import OF_GRAINS, content_with_bases, read_material
 from support.command import SOURCE
@@ -108,6 +109,34 @@ class LibraryTest(unittest.TestCase):
                 logarithms.append(math.log(found * area / float(row["force_N"])))
         self.assertEqual(len(logarithms), 2)
         self.assertLess(math.sqrt(float(np.mean(np.square(logarithms)))), misfit)
+
+    def test_the_cone_on_grains_agrees_with_the_cone_in_their_law(self) -> None:
+        """Both extrapolated to zero size of grains or cells, within twice the errors; the page and the card have them."""
+        page = (SOILS / "README.md").read_text(encoding="utf-8")
+        limits = []
+        for ground in ("grains", "law"):
+            rows = [row for row in read_rows(SOILS / "cone_on_sand.csv") if row["ground"] == ground]
+            groups: dict[str, list[float]] = {}
+            for row in rows:
+                groups.setdefault(row["across"], []).append(float(row["index_Pa"]) / float(row["weight_Pa"]))
+            scatter = pooled_scatter(groups.values())
+            values = [value for group in groups.values() for value in group]
+            errors = [
+                noise_of(value, float(row["error_Pa"]) / float(row["weight_Pa"]), scatter) for value, row in zip(values, rows)
+            ]
+            limits.append(grid_convergence([1 / float(row["across"]) for row in rows], values, errors))
+        grains, law = limits
+        self.assertLess(abs(grains.value - law.value), 2 * math.hypot(grains.error, law.error))
+        self.assertIn(f"| zero size | {grains.value:.1f} ± {grains.error:.1f} | {law.value:.1f} ± {law.error:.1f} |", page)
+        for size, value in zip(grains.sizes, grains.values):
+            self.assertRegex(page, rf"\| {1 / size:.0f} \| {value:.1f} \|")
+        for size, value in zip(law.sizes, law.values):
+            self.assertRegex(page, rf"\| {1 / size:.0f} \| [^|]*\| {value:.1f} \|")
+        cone = read_card(SOILS / "sand_cmu.yaml").cone
+        assert isinstance(cone, Cone)
+        weight = float(next(row["weight_Pa"] for row in read_rows(SOILS / "cone_on_sand.csv") if row["across"] == "8"))
+        self.assertAlmostEqual(cone.index.value / weight, grains.values[0], delta=0.01)
+        self.assertAlmostEqual(cone.index.error / weight, grains.size_error(1 / 8), delta=0.05)
 
     def test_bekker_wong_with_a_card_against_the_wheel(self) -> None:
         ground = terrain(str(SOILS / "dry_sand_smooth.yaml"))
