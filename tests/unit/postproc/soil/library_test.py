@@ -110,6 +110,37 @@ class LibraryTest(unittest.TestCase):
         self.assertEqual(len(logarithms), 2)
         self.assertLess(math.sqrt(float(np.mean(np.square(logarithms)))), misfit)
 
+    def test_the_width_of_the_ring_on_a_cohesive_sand(self) -> None:
+        """The cohesion of the fit is that of the law within its error. With the angle of the law, two speeds give
+        the width that shears."""
+        page = (SOILS / "README.md").read_text(encoding="utf-8")
+        law = yaml.safe_load(content_with_bases(MATERIALS / "dry_sand_smooth.yaml"))["law"]
+        tangent = math.tan(math.radians(float(law["beta"])))
+        sine, cohesion = 3 * tangent / (6 + tangent), 5000.0
+        outer, inner = 0.1, 0.06
+        rows = read_rows(SOILS / "ring_on_cohesive_sand.csv")
+        for cells in (2, 3):
+            slow, fast = ([float(value) for value in row.values()] for row in rows if row["cells"] == str(cells))
+
+            def share(sinking: float) -> float:
+                psi = math.atan(sinking)
+                return math.cos(psi) / (1 + sine * math.sin(psi))
+
+            excess = [shear - share(sinking) * sine * normal for _, _, normal, shear, sinking, *_ in (slow, fast)]
+            left = [[share(run[4]), math.sqrt(run[1] / slow[1])] for run in (slow, fast)]
+            widened = float(np.linalg.solve(left, excess)[0])
+
+            def widening(edge: float) -> float:
+                return ((outer + edge) ** 3 - (inner - edge) ** 3) / (outer**3 - inner**3)
+
+            cell = (outer - inner) / cells
+            width = brentq(lambda edge: widening(edge) - widened / cohesion, 0, inner / 2) / cell
+            found = widened / widening(0.5 * cell)
+            fit, error = slow[5:]
+            self.assertLess(abs(fit - cohesion), error)
+            self.assertIn(f"| {cells} | {fit:.0f} ± {error:.0f} | {round(found, -1):.0f} | {width:.2f} |", page)
+            self.assertIn(f"{found / cohesion - 1:.0%}".replace("%", " %"), page)
+
     def test_the_cone_on_grains_agrees_with_the_cone_in_their_law(self) -> None:
         """Both extrapolated to zero size of grains or cells, within twice the errors; the page and the card have them."""
         page = (SOILS / "README.md").read_text(encoding="utf-8")
