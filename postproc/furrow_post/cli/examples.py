@@ -5,7 +5,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "run": ("wheel_on_snow --quick", "tyre_on_plane --sweep slip=0:0.2:3 -o results/pull"),
     "resistance": ("results/a", "--csv results/a results/b", "--distance 0.5 1.2 results/a"),
     "export": ("results/a", "results/a results/b --channels hub_drop,force_x -o both.csv"),
-    "plot": ("results/a", "results/a -o forces.svg"),
+    "plot": ("results/a", "results/a --against x -o forces.svg"),
     "picture": ("results/a",),
     "terrain": ("results/a --format pdf",),
     "laboratory": ("results/laboratory/oedometer_sand_dry",),

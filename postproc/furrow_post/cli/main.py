@@ -49,7 +49,7 @@ SUBCOMMANDS = (
         "steady hub drop, resistance and torque with standard errors (furrow-resistance)",
     ),
     Subcommand("export", "histories as CSV with units in the head, all channels or some -> history.csv"),
-    Subcommand("plot", "forces, depths, torque and slip against time -> histories.png"),
+    Subcommand("plot", "forces, depths, torque and slip against time or place -> histories.png"),
     Subcommand(
         "picture",
         "the rut from four sides, grains coloured by displacement, continuum by density -> rut.png",

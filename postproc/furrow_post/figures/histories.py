@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Depths, forces, torque and slip against time."""
+"""Depths, forces, torque and slip against time or the place of the axle."""
 
 import textwrap
 from collections.abc import Sequence
@@ -54,14 +54,20 @@ PANELS = (
     Panel("slip", "%", 100.0, (("slip", "slip"),), "slip"),
 )
 OF_TYRES = ("tyre_deflection", "rut_depth")  # of a rigid wheel 0, and the hub drop
+LINE_STYLES = ("-", "--", ":")
+NAMED_BAND = 0.05  # of the axis: a narrower band has no name
 STAGE_COLOURS = {Stage.SETTLE: "0.93", Stage.ACCELERATE: "0.97", Stage.CRUISE: "1.0"}
 
 
-def draw_histories(results: Results, target: Path) -> None:
-    """Draws the histories of a run. @raises ResultsError where it is not one of a wheel on a rig"""
+def draw_histories(results: Results, target: Path, against: str = "time") -> None:
+    """Draws the histories of a run.
+
+    @param against  "time", or "x" for the place of the axle along the travel
+    @raises ResultsError where it is not one of a wheel on a rig
+    """
     use_style()
     summary = Summary(results.folder)
-    wanted = ["time", *(name for panel in PANELS for name, _ in panel.channels), "stage"]
+    wanted = ["time", against, *(name for panel in PANELS for name, _ in panel.channels), "stage"]
     missing = [name for name in wanted if name not in (*results.columns, *OF_TYRES)]
     if missing:
         raise ResultsError(
@@ -69,6 +75,7 @@ def draw_histories(results: Results, target: Path) -> None:
             "wheel on a rig"
         )
     time, stage = results.columns["time"], results.columns["stage"]
+    abscissa = results.columns[against]
     if len(time) == 0:
         raise ResultsError(f"{results.file}: the history has no rows yet")
     rigid = not np.any(results.columns.get("tyre_deflection", 0.0))
@@ -77,23 +84,24 @@ def draw_histories(results: Results, target: Path) -> None:
         len(PANELS), 1, figsize=(10, 12), sharex=True, layout="constrained"
     )
     for axes, panel in zip(all_axes, PANELS):
-        _shade_stages(axes, time, stage, named=axes is all_axes[0])
+        _shade_stages(axes, abscissa, stage, named=axes is all_axes[0])
         drawn = [(results.columns[c], legend) for c, legend in panel.channels if c not in absent]
         columns = [column for column, _ in drawn]
-        for column, legend in drawn:
-            axes.plot(time, panel.scale * column, lw=0.8, alpha=0.85, label=legend)
-        _mark_steady(axes, summary, panel)
+        for (column, legend), style in zip(drawn, LINE_STYLES):
+            axes.plot(abscissa, panel.scale * column, style, lw=1.0, alpha=0.85, label=legend)
+        if summary.window:
+            _mark_steady(axes, summary, panel, np.interp(summary.window, time, abscissa))
         axes.set_ylabel(f"{panel.title} [{panel.unit}]")
         _limit_to_cruise(axes, panel.scale, columns, stage)
         axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
         axes.margins(x=0)
-    all_axes[-1].set_xlabel("time [s]")
+    all_axes[-1].set_xlabel("time [s]" if against == "time" else "x of the axle [m]")
     line = "\n".join(textwrap.wrap(summary.line(), 100))
     figure.suptitle(f"{results.title}\n{line}" if line else results.title, fontsize=10)
     save(figure, target)
 
 
-def _shade_stages(axes: Axes, time: Floats, stage: Floats, named: bool) -> None:
+def _shade_stages(axes: Axes, abscissa: Floats, stage: Floats, named: bool) -> None:
     """Light bands for the rig's stages, with their names on top."""
     for number, colour in STAGE_COLOURS.items():
         rows = np.flatnonzero(stage == number)
@@ -101,10 +109,11 @@ def _shade_stages(axes: Axes, time: Floats, stage: Floats, named: bool) -> None:
             continue
         bands = np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1)  # one in each pass
         for band in bands:
-            axes.axvspan(time[band[0]], time[band[-1]], color=colour, lw=0, zorder=0)
-        if named:
+            axes.axvspan(abscissa[band[0]], abscissa[band[-1]], color=colour, lw=0, zorder=0)
+        begin, end = abscissa[bands[0][0]], abscissa[bands[0][-1]]
+        if named and end - begin > NAMED_BAND * np.ptp(abscissa):
             axes.text(
-                0.5 * (time[bands[0][0]] + time[bands[0][-1]]),
+                0.5 * (begin + end),
                 1.03,
                 number.name.lower(),
                 transform=axes.get_xaxis_transform(),
@@ -114,10 +123,10 @@ def _shade_stages(axes: Axes, time: Floats, stage: Floats, named: bool) -> None:
             )
 
 
-def _mark_steady(axes: Axes, summary: Summary, panel: Panel) -> None:
+def _mark_steady(axes: Axes, summary: Summary, panel: Panel, window: Floats) -> None:
     """The mean over the steady window with its standard error; dashed where it was not steady."""
-    value, window = summary.quantity(panel.quantity), summary.window
-    if value is None or window is None:
+    value = summary.quantity(panel.quantity)
+    if value is None:
         return
     mean, error = panel.scale * value.mean, panel.scale * value.standard_error
     axes.fill_between(window, mean - error, mean + error, color="C3", alpha=0.25, lw=0, zorder=3)

@@ -55,6 +55,13 @@ class SingleRunTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.expect_picture(self.folder / "histories.png", 20)
 
+    def test_plot_against_the_place_of_the_axle(self) -> None:
+        file = self.folder / "place.svg"
+        done = run_post("plot", self.folder, "--against", "x", "-o", file)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("x of the axle [m]", file.read_text())
+        self.assertNotIn("time [s]", file.read_text())
+
     def test_picture(self) -> None:
         done = run_post("picture", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
