@@ -209,6 +209,7 @@ class OutputTest(FolderTest):
 
     def test_rounding_is_shown_in_powers_of_ten(self) -> None:
         self.assertEqual(with_error(6.1e-13, 2e-13), "6.1e-13 ± 2e-13")
+        self.assertEqual(with_error(10.0, 1.1e-15), "10")
         self.assertEqual(with_error(0.00012, 0.00003), "0.00012 ± 0.00003")
 
     def test_failures_and_what_is_missing_are_told_apart(self) -> None:
