@@ -2,6 +2,7 @@
 """inputs/validation/predictions: slips, the conditions that are run, and their values."""
 
 import csv
+import hashlib
 import importlib.util
 import math
 import unittest
@@ -63,6 +64,12 @@ class ValuesTest(unittest.TestCase):
             found.setdefault(row["id"], set()).add(row["quantity"])
         for name, quantities in found.items():
             self.assertEqual(quantities, QUANTITIES[name.split("-")[0]], name)
+
+    def test_frozen_values_are_those_that_were_committed_first(self) -> None:
+        names = ("id", "quantity", "value", "standard_error")
+        lines = [",".join(row[name] for name in names) for row in read_rows(FOLDER / "predictions.csv")]
+        digest = hashlib.sha256("\n".join(lines).encode()).hexdigest()
+        self.assertEqual(digest[:16], "933e6fc99b72bf23")
 
 
 if __name__ == "__main__":
