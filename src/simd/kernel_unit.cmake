@@ -20,13 +20,15 @@ if(FURROW_SANITIZE)
 endif()
 set(furrow_kernel_unit_template ${CMAKE_CURRENT_LIST_DIR}/kernel_unit.cpp.in)
 
-# furrow_kernel_unit(<target> <header> <table> [FUSED]): adds to a target one source for each
+# furrow_kernel_unit(<target> <header> <table> [FUSED] [WITHOUT_MEMBERS]): adds to a target one source for each
 # instruction set, which defines <table>::baseline(), <table>::avx2() and <table>::avx512()
 # (src/simd/instruction_set.h) from the kernels of <header>. Where the set has it, gcc multiplies and
 # adds in one instruction, so that the last digit depends on how it groups operations; clang does so
 # within an expression only, and across expressions in kernels that are FUSED.
+# WITHOUT_MEMBERS: gcc's points-to analysis takes each Lanes as a whole. The cap law then compiles in half of
+# the time to the same arithmetic. Crushable foam would take seven times as long.
 function(furrow_kernel_unit target header table)
-  cmake_parse_arguments(PARSE_ARGV 3 ARG "FUSED" "" "")
+  cmake_parse_arguments(PARSE_ARGV 3 ARG "FUSED;WITHOUT_MEMBERS" "" "")
   set(baseline "")
   set(avx2 -march=x86-64-v3)
   set(avx512 -march=x86-64-v4 -mprefer-vector-width=512)
@@ -42,9 +44,10 @@ function(furrow_kernel_unit target header table)
     # gcc 12 warns of uninitialised variables in its own <experimental/simd> and avx512fintrin.h. It also
     # warns that vectors wider than the baseline's registers have another calling convention. No such
     # vector crosses a call: the functions that take or return one are always_inline.
-    # gcc's points-to analysis would take half of the compilation: it follows every member of every inlined
-    # Lanes. None is a pointer, and as a whole they give the same arithmetic.
-    set(of_gcc -Wno-maybe-uninitialized --param=max-fields-for-field-sensitive=0)
+    set(of_gcc -Wno-maybe-uninitialized)
+    if(ARG_WITHOUT_MEMBERS)
+      list(APPEND of_gcc --param=max-fields-for-field-sensitive=0)
+    endif()
     set_source_files_properties(${source} TARGET_DIRECTORY ${target}
       PROPERTIES COMPILE_OPTIONS "${furrow_kernel_optimisation};${${set}};-Wno-uninitialized;-Wno-psabi;$<$<CXX_COMPILER_ID:GNU>:${of_gcc}>")
   endforeach()
