@@ -28,7 +28,7 @@ def start(*words: object) -> "subprocess.CompletedProcess[str]":
 
 class DriversTest(unittest.TestCase):
     def test_there_are_all_studies(self) -> None:
-        self.assertEqual(len(STUDIES), 22)
+        self.assertEqual(len(STUDIES), 23)
 
     def test_help(self) -> None:
         for driver in TOOLS:
