@@ -9,6 +9,7 @@ import numpy as np
 
 from snow_record import STRAINS, TRIAXIAL_STRAIN, Row, Values
 
+from furrow_post.analyse.evaluations import last_piece
 from furrow_post.analyse.law_fit import NotComputed
 from furrow_post.analyse.point_curves import PointPaths
 from furrow_post.arrays import Floats
@@ -76,9 +77,9 @@ def _after_compaction(compaction: float, strain: float) -> str:
 def _last(columns: Columns) -> tuple[Floats, Floats, Floats]:
     """Of the last piece of a path: axial and lateral strain since its start, axial stress;
     compression positive."""
-    begins = int(np.flatnonzero(columns["segment"] < columns["segment"][-1])[-1])
-    axial, lateral = -columns["strain_zz"][begins:], -columns["strain_xx"][begins:]
-    return axial - axial[0], lateral - lateral[0], -columns["stress_zz"][begins:]
+    piece = last_piece(columns)
+    axial, lateral = -piece["strain_zz"], -piece["strain_xx"]
+    return axial - axial[0], lateral - lateral[0], -piece["stress_zz"]
 
 
 def _tension(compaction: float, _: float, __: Sequence[Row], ___: Run) -> Evaluation:
@@ -115,10 +116,10 @@ def _shear(compaction: float, normal: float, _: Sequence[Row], run: Run) -> Eval
     rows = f"{before}{{stress_zz: {-normal:.6g}}}, {{strain_xz: {SHEAR_STRAIN:g}}}"
 
     def value(columns: Columns, row: Row) -> float:
-        begins = int(np.flatnonzero(columns["segment"] < columns["segment"][-1])[-1])
+        piece = last_piece(columns)
         if row.quantity == "density":
-            return float(columns["density"][begins])
-        return float(np.max(np.abs(columns["stress_xz"][begins:])))
+            return float(piece["density"][0])
+        return float(np.max(np.abs(piece["stress_xz"])))
 
     return f"{{{head}, rows: [{rows}]}}", value
 

@@ -10,9 +10,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from furrow_post.analyse.empirical import snow_traction
-from furrow_post.analyse.evaluations import path_states, plate_curve, steady_columns
+from furrow_post.analyse.evaluations import last_piece_of, path_states, plate_curve, pressure_near, steady_columns
 from furrow_post.arrays import Floats
-from furrow_post.csv_table import read_columns, read_rows
+from furrow_post.csv_table import read_rows
 from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
 from furrow_post.read.results import Results
 from furrow_post.study.output import Output
@@ -37,13 +37,6 @@ Key = tuple[str, str, str]  # test, at, quantity
 Values = dict[Key, float]
 
 
-def last_piece(run: Run) -> dict[str, Floats]:
-    """Columns of point.csv from the end of the last piece but one."""
-    columns = read_columns(run.folder / "point.csv")
-    begins = int(np.flatnonzero(columns["segment"] < columns["segment"][-1])[-1])
-    return {name: column[begins:] for name, column in columns.items()}
-
-
 def oedometer(run: Run) -> Values:
     found: Values = {}
     for state, stress in zip(path_states(run.folder, STEPS, len(STRESSES)), STRESSES):
@@ -58,7 +51,7 @@ def hydrostatic(run: Run) -> Values:
 
 
 def triaxial(run: Run) -> Values:
-    piece = last_piece(run)
+    piece = last_piece_of(run.folder)
     deviator = float(piece["stress_xx"][-1] - piece["stress_zz"][-1])
     return {("triaxial", "600 Pa", "deviator at 0.2"): deviator}
 
@@ -68,11 +61,11 @@ def density_of(run: Run) -> str:
 
 
 def shear(run: Run) -> Values:
-    return {("shear", density_of(run), "strength"): float(np.abs(last_piece(run)["stress_xz"]).max())}
+    return {("shear", density_of(run), "strength"): float(np.abs(last_piece_of(run.folder)["stress_xz"]).max())}
 
 
 def free_sides(run: Run) -> Values:
-    piece = last_piece(run)
+    piece = last_piece_of(run.folder)
     axial = piece["strain_zz"][0] - piece["strain_zz"]
     lateral = piece["strain_xx"] - piece["strain_xx"][0]
     end = min(STRAIN, float(axial.max()))
@@ -83,14 +76,12 @@ def free_sides(run: Run) -> Values:
 
 
 def tension(run: Run) -> Values:
-    return {("tension", density_of(run), "strength"): float(last_piece(run)["stress_zz"].max())}
+    return {("tension", density_of(run), "strength"): float(last_piece_of(run.folder)["stress_zz"].max())}
 
 
 def plate(run: Run) -> Values:
     curve = plate_curve(run.folder)
-    sinkage, pressure = 1e3 * curve[:, 1], curve[:, 3]
-    near = {mm: abs(sinkage - mm) < NEAR for mm in SINKAGES}
-    return {("plate", f"{mm} mm", "pressure"): float(pressure[rows].mean()) for mm, rows in near.items()}
+    return {("plate", f"{mm} mm", "pressure"): pressure_near(curve, 1e-3 * mm, 1e-3 * NEAR) for mm in SINKAGES}
 
 
 def wheel(run: Run, test: str = "wheel") -> Values:

@@ -3,6 +3,7 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from statistics import mean, stdev
 from typing import Any
@@ -10,7 +11,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 
-from furrow_post.analyse.evaluations import steady_columns, whole_plate_curve
+from furrow_post.analyse.evaluations import last_piece_of, pressure_near, steady_columns, whole_plate_curve
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_columns, read_rows
 from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
@@ -104,10 +105,8 @@ def law_cases() -> Iterator[Case]:
         for packing, (_, density) in PACKINGS.items():
             files = {"material.yaml": material_text(law, density)}
             for name, path in paths(law, packing):
-                case = point_case(f"{name}/{law}", law, Path("material.yaml"), path)
-                yield Case(
-                    case.name, case.program, case.arguments, files={**case.files, **files}, stage="element"
-                )
+                case = point_case(f"{name}/{law}", law, Path("material.yaml"), path, stage="element")
+                yield replace(case, files={**case.files, **files})
 
 
 def laboratory_variables(packing: str, seed: int, **more: Any) -> dict[str, Any]:
@@ -161,16 +160,8 @@ def cases() -> list[Case]:
     return [*law_cases(), *grain_cases(), *body_cases()]
 
 
-def last_piece(run: Run) -> dict[str, Floats]:
-    """Columns of point.csv from the end of the last piece but one."""
-    columns = read_columns(run.folder / "point.csv")
-    earlier = np.flatnonzero(columns["segment"] < columns["segment"][-1])
-    begins = int(earlier[-1]) if earlier.size else 0
-    return {name: column[begins:] for name, column in columns.items()}
-
-
 def strength_of_law(run: Run, driven: str) -> dict[str, float]:
-    columns = last_piece(run)
+    columns = last_piece_of(run.folder)
     stresses = np.array([-columns[f"stress_{axis}"] for axis in ("xx", "yy", "zz")])
     largest, smallest = stresses.max(axis=0), stresses.min(axis=0)
     sine = (largest - smallest) / np.maximum(largest + smallest, 1e-30)
@@ -182,7 +173,7 @@ def strength_of_law(run: Run, driven: str) -> dict[str, float]:
 
 
 def shear_of_law(run: Run) -> dict[str, float]:
-    columns = last_piece(run)
+    columns = last_piece_of(run.folder)
     ratio = np.abs(columns["stress_xz"] / columns["stress_zz"])
     sliding = np.abs(columns["strain_xz"])
     late = sliding > LATE * sliding[-1]
@@ -211,12 +202,12 @@ def law_values(run: Run) -> dict[str, float]:
 
 def grain_values(run: Run) -> dict[str, float]:
     test = LaboratoryTest(run.folder)
-    found = values_of(test)
     if run.name.startswith("oedometer"):
         _, stress, density = cell_curve(test.curve())
         loading = slice(0, int(np.argmax(stress[:, 2])) + 1)
         axial = np.maximum.accumulate(stress[loading, 2])
         return compression(axial, stress[loading, :2].mean(axis=1), density[loading])
+    found = values_of(test)
     if run.name.startswith("shear"):
         normal = found["normal_stress"]
         return {
@@ -236,15 +227,11 @@ def element_key(run: Run, quantity: str) -> Key:
     return " ".join(words[:-1]), f"{words[-1]}, {level}", quantity
 
 
-def pressure_at(curve: Floats) -> dict[str, float]:
-    """Mean pressure around the sinkages of SINKAGES [Pa]."""
-    return {f"{1e3 * z:.0f} mm": float(curve[abs(curve[:, 1] - z) < NEAR, 3].mean()) for z in SINKAGES}
-
-
 def plate_values(run: Run) -> Iterator[tuple[Key, float]]:
     size = float(run.name.partition("/")[0].partition("_")[2])
-    for sinkage, pressure in pressure_at(whole_plate_curve(run.folder)).items():
-        yield ("plate", f"{1e3 * size:.0f} mm at {sinkage}", "pressure"), pressure
+    curve = whole_plate_curve(run.folder)
+    for sinkage in SINKAGES:
+        yield ("plate", f"{1e3 * size:.0f} mm at {1e3 * sinkage:.0f} mm", "pressure"), pressure_near(curve, sinkage, NEAR)
 
 
 def wheel_values(run: Run) -> Iterator[tuple[Key, float]]:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import Floats
-from ..csv_table import read_matrix, read_numbers
+from ..csv_table import read_columns, read_matrix, read_numbers
 from ..errors import ResultsError, content_of
 from ..study.launch import SCREEN
 
@@ -26,6 +26,23 @@ def path_states(folder: Path, steps: int, count: int = 1) -> list[dict[str, floa
     if len(points) <= steps * count:
         raise ResultsError(f"{file}: has {len(points)} rows, not all steps; repeat the run")
     return [points[steps * part] for part in range(1, count + 1)]
+
+
+def last_piece(columns: Mapping[str, Floats]) -> dict[str, Floats]:
+    """Of a path of furrow-point the last piece of the columns, with the state in which it begins."""
+    segment = columns["segment"]
+    begins = max(int(np.searchsorted(segment, segment[-1])) - 1, 0)
+    return {name: column[begins:] for name, column in columns.items()}
+
+
+def last_piece_of(folder: Path) -> dict[str, Floats]:
+    """Of the path in a folder."""
+    return last_piece(read_columns(folder / "point.csv"))
+
+
+def pressure_near(curve: Floats, sinkage: float, near: float) -> float:
+    """Mean pressure [Pa] of a plate_curve around a sinkage [m]."""
+    return float(curve[abs(curve[:, 1] - sinkage) < near, 3].mean())
 
 
 def tyre_states(folder: Path, least: int = 0) -> list[dict[str, float]]:
