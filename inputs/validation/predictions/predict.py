@@ -30,6 +30,11 @@ MODEL_ERROR = {
     ("T11", "hub_drop"): 0.030,  # [m] snow_wheel, read as hub drop
     ("T11", "rut_depth"): 0.011,  # [m] snow_wheel, read as rut depth
     ("T11", "resistance_coefficient"): 0.017,
+    # --fine, on the twelve tests outside its fit: snow_wheel. The fit was made in these cells, so the error
+    # of the cells is part of it.
+    ("T11-fine", "hub_drop"): 0.039,
+    ("T11-fine", "rut_depth"): 0.010,
+    ("T11-fine", "resistance_coefficient"): 0.023,
     ("CMU-smooth", "fx_over_fz"): 0.082,  # cmu_sand, slip angle 0
     ("CMU-smooth", "fy_over_fz"): 0.082,  # none known; as fx_over_fz
     ("CMU-smooth", "sinkage"): 0.0027,  # [m]
@@ -37,9 +42,6 @@ MODEL_ERROR = {
     ("CMU-grouser", "fy_over_fz"): 0.119,
     ("CMU-grouser", "sinkage"): 0.0058,  # [m]
 }
-# The same of --fine on the twelve tests outside its fit: snow_wheel. The fit was made in these cells, so
-# the error of the cells is part of it.
-FINE_ERROR = {"hub_drop": 0.039, "rut_depth": 0.010, "resistance_coefficient": 0.023}
 DEFLECTION_ERROR, WIDTH_ERROR = 0.07, 0.06  # relative; tyre_brick, Table 6 at four pressures
 SLIP_ERROR = 0.10  # assumed: no slope test was known
 # Standard deviation from one pour of grains to the next, of one run: cmu_sand
@@ -235,7 +237,7 @@ def in_wheel_axes(row: dict[str, str], angle: float) -> Values:
     }
 
 
-def combined(parts: list[Values], model: str, fine: bool) -> Values:
+def combined(parts: list[Values], model: str) -> Values:
     """First run's values, or the mean of the pours, with the standard error of the whole."""
     result = {}
     for name, (value, time_error) in parts[0].items():
@@ -246,7 +248,7 @@ def combined(parts: list[Values], model: str, fine: bool) -> Values:
             numerical = scatter / math.sqrt(len(others))
         else:
             numerical = abs(others[0] - others[-1])
-        error = FINE_ERROR[name] if fine else MODEL_ERROR.get((model, name), SLIP_ERROR)
+        error = MODEL_ERROR.get((model, name), SLIP_ERROR)
         result[name] = (value, math.sqrt(time_error**2 + numerical**2 + error**2))
     return result
 
@@ -279,7 +281,7 @@ def predict(row: dict[str, str], build: Path, results: Path, pours: int, fine: b
             drop, error = value_of(found, "hub_drop")
             forces = in_wheel_axes(found, number(row["slip_angle_deg"]))
             parts.append({**forces, "sinkage": (drop + sinkage_of_mass_level(row), error)})
-    return combined(parts, group, fine)
+    return combined(parts, f"{group}-fine" if fine else group)
 
 
 def deflection(row: dict[str, str], build: Path) -> Values:
