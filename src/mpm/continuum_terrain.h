@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Deformable terrain as a continuum: explicit material point method, updated Lagrangian with
-/// affine transfers (APIC) and a remap every few steps, for any material of the library and any
-/// surface that presses on it. terrain_step.h explains the method.
+/// Deformable terrain as a continuum, of any material of the library, under any surface that
+/// presses on it. The material point method moves it by explicit steps: particles carry the
+/// material and its stress, a grid their motion. terrain_step.h explains the method.
 
 #include <optional>
 #include <string>
