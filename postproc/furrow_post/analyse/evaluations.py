@@ -36,8 +36,12 @@ def last_piece(columns: Mapping[str, Floats]) -> dict[str, Floats]:
 
 
 def last_piece_of(folder: Path) -> dict[str, Floats]:
-    """Of the path in a folder."""
-    return last_piece(read_columns(folder / "point.csv"))
+    """Of the path in a folder. @raises ResultsError where there is no path"""
+    file = folder / "point.csv"
+    columns = read_columns(file)
+    if "segment" not in columns:
+        raise ResultsError(f"{file}: has no rows with a column 'segment'; {AGAIN}")
+    return last_piece(columns)
 
 
 def pressure_near(curve: Floats, sinkage: float, near: float) -> float:
