@@ -169,6 +169,7 @@ void FixWheelRig::change_targets(const std::vector<Entry>& targets) {
   const Options changed = schema().read(entries);
   rig_.retarget(changed);
   change_options(changed);
+  last_change_ = FixCoupledSystem::of(*lmp).time();
 }
 
 void FixWheelRig::setup(int vflag) { post_force(vflag); }

@@ -28,6 +28,7 @@ class FixWheelRig : public FixRig, public MotionController {
   const WheelRig& rig() const override { return rig_; }
   WheelRig& rig_of_chassis() { return rig_; }
   FixWheelHub& wheel_fix() const override { return wheel_fix_; }
+  std::optional<double> last_change() const override { return last_change_; }
 
  private:
   void checkpoint(Checkpoint& state) override { rig_.checkpoint(state); }
@@ -40,7 +41,8 @@ class FixWheelRig : public FixRig, public MotionController {
   FixWheelHub& wheel_fix_;
   const Courses table_;
   WheelRig rig_;
-  bool warned_ = false;  // of short ramps
+  std::optional<double> last_change_;  // of targets [s]
+  bool warned_ = false;                // of short ramps
 };
 
 }  // namespace furrow::coupling

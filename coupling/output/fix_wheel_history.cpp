@@ -143,6 +143,12 @@ RunClosing FixWheelHistory::closing() {
   if (!settling && !system.touched(wheel))
     end.warnings.push_back(
         "Nothing touched the wheel: check its start, ground_level and the contacts of the scene.");
+  const std::optional<double> change = rig_fix_.last_change();
+  if (change && rig_fix_.rig().stage(*change) == RigStage::cruise)
+    end.warnings.push_back(
+        fmt::format("The targets of the rig changed during the cruise, the last time at {:.6g} s: "
+                    "averages over a window that begins earlier mix them.",
+                    *change));
   return end;
 }
 

@@ -172,7 +172,12 @@ py::object summary_of(const Session& session, const std::optional<std::string>& 
   if (!folders.contains(wanted.c_str()))
     throw furrow::Error("summary: give the id of one wheel/history of the script");
   const py::object path = py::module_::import("pathlib").attr("Path")(folders[wanted.c_str()]);
-  const py::object text = (path / py::str("summary.json")).attr("read_text")();
+  const py::object file = path / py::str("summary.json");
+  if (!py::cast<bool>(file.attr("is_file")()))
+    throw furrow::Error(
+        "summary: the run has not ended, and has no averages yet; call run() or end() before, or "
+        "read rig.measure()");
+  const py::object text = file.attr("read_text")();
   return py::module_::import("json").attr("loads")(text);
 }
 

@@ -169,6 +169,16 @@ class Targets(Case):
                     rig.set(**wrong)
                 self.assertEqual(rig.targets, {"load_force": 100.0, "speed": 0.5, "slip": 0.1, "drawbar_load": 0.0})
 
+    def test_summary_warns_of_targets_that_changed_in_the_cruise(self) -> None:
+        with opened(results="mixed") as run:
+            run.step(300)
+            with self.assertRaisesRegex(furrow.Error, "summary: the run has not ended"):
+                run.summary()
+            run.rigs["rig"].set(slip=0.3)
+            run.run()
+            warnings = run.summary()["warnings"]
+        self.assertEqual(sum("targets of the rig changed during the cruise" in text for text in warnings), 1, warnings)
+
     def test_several_passes_keep_their_targets(self) -> None:
         text = SCENE.read_text(encoding="utf-8").replace(" follow wheel", "")
         text = text.replace("mode slip", "passes 2 pass_length 0.02 return_time 0.06 mode slip")
