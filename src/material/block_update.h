@@ -70,7 +70,7 @@ struct Group {
 
   /// Missing points are copies of the group's first.
   FURROW_INLINE Lanes load(const double* array) const {
-    if (lanes == lane_count) return Lanes(array + first, stdx::element_aligned);
+    if (lanes == lane_count) return Lanes::load(array + first);
     return Lanes([&](auto lane) {
       return array[first + static_cast<std::size_t>(int(lane) < lanes ? int(lane) : 0)];
     });
@@ -80,11 +80,11 @@ struct Group {
       for (int lane = 0; lane < lanes; ++lane)
         array[first + static_cast<std::size_t>(lane)] = value[lane];
     } else {
-      value.copy_to(array + first, stdx::element_aligned);
+      value.store(array + first);
     }
   }
   FURROW_INLINE std::size_t count(const Mask& mask) const {
-    if (lanes == lane_count) return static_cast<std::size_t>(stdx::popcount(mask));
+    if (lanes == lane_count) return static_cast<std::size_t>(furrow::count(mask));
     std::size_t sum = 0;
     for (int lane = 0; lane < lanes; ++lane) sum += mask[lane] ? 1 : 0;
     return sum;
@@ -158,7 +158,7 @@ struct Group {
         report.points[0] -= number;
       }
       alignas(64) double evaluations[lane_count];
-      points.iterations.copy_to(evaluations, stdx::vector_aligned);
+      points.iterations.store(evaluations);
       for (int lane = 0; lane < lanes; ++lane) {
         const std::size_t iterations = static_cast<std::size_t>(evaluations[lane]);
         report.iterations += iterations;
@@ -238,14 +238,12 @@ class GatheredUpdate {
     const int g = mixed_++;
     first_[g] = group.first;
     motions_[g] = motion;
-    for (int k = 0; k < inputs; ++k)
-      prediction.numbers[k].copy_to(&in_[k][g * lane_count], stdx::vector_aligned);
-    for (int k = 0; k < outputs; ++k)
-      end.numbers[k].copy_to(&out_[k][g * lane_count], stdx::vector_aligned);
+    for (int k = 0; k < inputs; ++k) prediction.numbers[k].store(&in_[k][g * lane_count]);
+    for (int k = 0; k < outputs; ++k) end.numbers[k].store(&out_[k][g * lane_count]);
     alignas(64) double flags[lane_count];
     for (int surface = 0; surface < surfaces; ++surface) {
       if (!any(prediction.violated[surface])) continue;
-      select(prediction.violated[surface], 1.0, 0.0).copy_to(flags, stdx::vector_aligned);
+      select(prediction.violated[surface], 1.0, 0.0).store(flags);
       for (int lane = 0; lane < group.lanes; ++lane) {
         members_[surface][count_[surface]] = g * lane_count + lane;
         count_[surface] += flags[lane] > 0.0 ? 1 : 0;
@@ -260,10 +258,8 @@ class GatheredUpdate {
       const Group group(block_, first_[g]);
       StepPoints points = group.load_points<Kernel::internal_variables>();
       Lanes numbers[inputs], ends[outputs];
-      for (int k = 0; k < inputs; ++k)
-        numbers[k] = Lanes(&in_[k][g * lane_count], stdx::vector_aligned);
-      for (int k = 0; k < outputs; ++k)
-        ends[k] = Lanes(&out_[k][g * lane_count], stdx::vector_aligned);
+      for (int k = 0; k < inputs; ++k) numbers[k] = Lanes::load(&in_[k][g * lane_count]);
+      for (int k = 0; k < outputs; ++k) ends[k] = Lanes::load(&out_[k][g * lane_count]);
       if (!finish(group, motions_[g], numbers, ends, points)) return false;
     }
     mixed_ = 0;
@@ -282,7 +278,7 @@ class GatheredUpdate {
             Lanes([&](auto lane) { return in_[k][list[int(lane) < lanes ? int(lane) : 0]]; });
       const typename Kernel::Numbers end = kernel_.correct(surface, numbers);
       for (int k = 0; k < outputs; ++k) {
-        end.numbers[k].copy_to(lane_numbers, stdx::vector_aligned);
+        end.numbers[k].store(lane_numbers);
         for (int lane = 0; lane < lanes; ++lane) out_[k][list[lane]] = lane_numbers[lane];
       }
     }

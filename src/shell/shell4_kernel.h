@@ -96,8 +96,8 @@ struct Deformation {
 
   FURROW_INLINE Deformation(const Quadrilateral& quad, const Frame& frame, const Shell4Kind& kind,
                             const Shell4Places& places, std::size_t first, const double* turn) {
-    const Turn axes = {load(places.axes[0] + first), load(places.axes[1] + first),
-                       load(places.axes[2] + first), load(places.axes[3] + first)};
+    const Turn axes = {Lanes::load(places.axes[0] + first), Lanes::load(places.axes[1] + first),
+                       Lanes::load(places.axes[2] + first), Lanes::load(places.axes[3] + first)};
     Turn back;  // from space to the element's axes
     for (int n = 0; n < 4; ++n) {
       const int* index = places.node[n] + first;

@@ -28,12 +28,10 @@ std::vector<InstructionSet> available_instruction_sets() {
                   __builtin_cpu_supports("f16c") && __builtin_cpu_supports("lzcnt") &&
                   __builtin_cpu_supports("movbe");
   if (v3) sets.push_back(InstructionSet::avx2);
-#ifdef FURROW_AVX512_KERNELS
   const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                   __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
                   __builtin_cpu_supports("avx512cd");
   if (v4) sets.push_back(InstructionSet::avx512);
-#endif
 #endif
   return sets;
 }

@@ -23,9 +23,7 @@ InstructionSet chosen_instruction_set();
 template <class Kernels>
 const Kernels& kernels_for(InstructionSet set) {
 #ifdef FURROW_X86_KERNELS  // avx2() and avx512() exist only in builds that define so
-#ifdef FURROW_AVX512_KERNELS
   if (set == InstructionSet::avx512) return Kernels::avx512();
-#endif
   if (set == InstructionSet::avx2) return Kernels::avx2();
 #else
   static_cast<void>(set);

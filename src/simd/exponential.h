@@ -15,7 +15,6 @@ struct ReducedExponent {
   Lanes power;  ///< 2^n
 };
 FURROW_INLINE ReducedExponent reduced_exponent(const Lanes& a) {
-  using Integers = stdx::rebind_simd_t<std::uint64_t, Lanes>;
   // 1.5 * 2^52: adding it rounds to the nearest integer, held in the last bits
   constexpr double shift = 6755399441055744.0;
   const Lanes bounded = max(min(a, 709.7), -708.3);
@@ -23,13 +22,9 @@ FURROW_INLINE ReducedExponent reduced_exponent(const Lanes& a) {
   const Lanes n = shifted - Lanes(shift);
   const Lanes r =
       (bounded - n * Lanes(0.693147180369123816490)) - n * Lanes(1.90821492927058770002e-10);
-  Integers bits;
-  static_assert(sizeof(Integers) == sizeof(Lanes));
-  __builtin_memcpy(static_cast<void*>(&bits), &shifted, sizeof bits);
-  bits = (bits << 52) + Integers(std::uint64_t{0x3FF0000000000000});
-  ReducedExponent reduced{r, 0.0};
-  __builtin_memcpy(static_cast<void*>(&reduced.power), &bits, sizeof bits);
-  return reduced;
+  const Integers bits =
+      (reinterpret_cast<Integers>(shifted.numbers()) << 52) + std::uint64_t{0x3FF0000000000000};
+  return {r, Lanes(reinterpret_cast<Register>(bits))};
 }
 
 constexpr double inverse_factorials[15] = {1.0,
@@ -86,20 +81,15 @@ FURROW_INLINE Lanes exponential_minus_one(const Lanes& a) {
 FURROW_INLINE Lanes logarithm(const Lanes& a) {
   if (!all(a >= Lanes(2.3e-308) && a <= Lanes(1.7e308)))
     return per_lane(a, [](double x) { return __builtin_log(x); });
-  // without a sign, because shifts of negative lanes differ between compilers
-  using Integers = stdx::rebind_simd_t<std::uint64_t, Lanes>;
   constexpr std::uint64_t half_root = 0x3FE6A09E667F3BCD;  // sqrt(1/2)
   constexpr std::uint64_t bias = 1024;                     // keeps exponents positive
-  Integers bits;
-  __builtin_memcpy(static_cast<void*>(&bits), &a, sizeof bits);
+  const Integers bits = reinterpret_cast<Integers>(a.numbers());
   // the exponent that remains above sqrt(1/2), as the last bits of 2^52 + 2^51
-  const Integers exponent = (bits - Integers(half_root - (bias << 52))) >> 52;
-  const Integers mantissa = bits - (exponent << 52) + Integers(bias << 52);
-  const Integers shifted = exponent + Integers(std::uint64_t{0x4338000000000000} - bias);
-  Lanes m, n;
-  __builtin_memcpy(static_cast<void*>(&m), &mantissa, sizeof m);
-  __builtin_memcpy(static_cast<void*>(&n), &shifted, sizeof n);
-  n -= Lanes(6755399441055744.0);
+  const Integers exponent = (bits - (half_root - (bias << 52))) >> 52;
+  const Integers mantissa = bits - (exponent << 52) + (bias << 52);
+  const Integers shifted = exponent + (std::uint64_t{0x4338000000000000} - bias);
+  const Lanes m(reinterpret_cast<Register>(mantissa));
+  const Lanes n = Lanes(reinterpret_cast<Register>(shifted)) - Lanes(6755399441055744.0);
   const Lanes s = (m - Lanes(1.0)) / (m + Lanes(1.0)), square = s * s;
   Lanes sum = 1.0 / 23.0;
   for (int k = 21; k >= 3; k -= 2) sum = sum * square + Lanes(1.0 / k);

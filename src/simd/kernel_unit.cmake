@@ -6,11 +6,6 @@
 # checks make a kernel of inlined vector operations many times as large.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT FURROW_NATIVE AND NOT FURROW_SANITIZE)
   set(FURROW_INSTRUCTION_SETS baseline avx2 avx512)
-  # libstdc++'s simd takes one lane's choice for all lanes when clang compiles it for AVX-512
-  # (_S_blend_avx512 in experimental/bits/simd_x86.h).
-  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    list(REMOVE_ITEM FURROW_INSTRUCTION_SETS avx512)
-  endif()
 else()
   set(FURROW_INSTRUCTION_SETS baseline)
 endif()
@@ -20,15 +15,13 @@ if(FURROW_SANITIZE)
 endif()
 set(furrow_kernel_unit_template ${CMAKE_CURRENT_LIST_DIR}/kernel_unit.cpp.in)
 
-# furrow_kernel_unit(<target> <header> <table> [FUSED] [WITHOUT_MEMBERS]): adds to a target one source for each
+# furrow_kernel_unit(<target> <header> <table> [FUSED]): adds to a target one source for each
 # instruction set, which defines <table>::baseline(), <table>::avx2() and <table>::avx512()
 # (src/simd/instruction_set.h) from the kernels of <header>. Where the set has it, gcc multiplies and
 # adds in one instruction, so that the last digit depends on how it groups operations; clang does so
 # within an expression only, and across expressions in kernels that are FUSED.
-# WITHOUT_MEMBERS: gcc's points-to analysis takes each Lanes as a whole. The cap law then compiles in half of
-# the time to the same arithmetic. Crushable foam would take seven times as long.
 function(furrow_kernel_unit target header table)
-  cmake_parse_arguments(PARSE_ARGV 3 ARG "FUSED;WITHOUT_MEMBERS" "" "")
+  cmake_parse_arguments(PARSE_ARGV 3 ARG "FUSED" "" "")
   set(baseline "")
   set(avx2 -march=x86-64-v3)
   set(avx512 -march=x86-64-v4 -mprefer-vector-width=512)
@@ -41,14 +34,10 @@ function(furrow_kernel_unit target header table)
     set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels/${name}_${set}.cpp)
     configure_file(${furrow_kernel_unit_template} ${source} @ONLY)
     target_sources(${target} PRIVATE ${source})
-    # gcc 12 warns of uninitialised variables in its own <experimental/simd> and avx512fintrin.h. It also
-    # warns that vectors wider than the baseline's registers have another calling convention. No such
-    # vector crosses a call: the functions that take or return one are always_inline.
-    set(of_gcc -Wno-maybe-uninitialized)
-    if(ARG_WITHOUT_MEMBERS)
-      list(APPEND of_gcc --param=max-fields-for-field-sensitive=0)
-    endif()
+    # gcc 12 warns of uninitialised variables in its own avx512fintrin.h. It also warns that vectors wider
+    # than the baseline's registers have another calling convention. No such vector crosses a call: the
+    # functions that take or return one are always_inline.
     set_source_files_properties(${source} TARGET_DIRECTORY ${target}
-      PROPERTIES COMPILE_OPTIONS "${furrow_kernel_optimisation};${${set}};-Wno-uninitialized;-Wno-psabi;$<$<CXX_COMPILER_ID:GNU>:${of_gcc}>")
+      PROPERTIES COMPILE_OPTIONS "${furrow_kernel_optimisation};${${set}};-Wno-uninitialized;-Wno-psabi;$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
   endforeach()
 endfunction()

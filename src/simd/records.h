@@ -48,13 +48,11 @@ FURROW_INLINE Record load_triple(const double* numbers) {
 }
 
 #if defined(__AVX512F__)
-using Native = double __attribute__((vector_size(64)));
 #define FURROW_EVEN_PAIRS 0, 8, 2, 10, 4, 12, 6, 14
 #define FURROW_ODD_PAIRS 1, 9, 3, 11, 5, 13, 7, 15
 #define FURROW_LOW_HALVES 0, 1, 8, 9, 4, 5, 12, 13
 #define FURROW_HIGH_HALVES 2, 3, 10, 11, 6, 7, 14, 15
 #elif defined(__AVX2__)
-using Native = double __attribute__((vector_size(32)));
 #define FURROW_EVEN_PAIRS 0, 4, 2, 6
 #define FURROW_ODD_PAIRS 1, 5, 3, 7
 #define FURROW_LOW_HALVES 0, 1, 4, 5
@@ -63,11 +61,11 @@ using Native = double __attribute__((vector_size(32)));
 
 #ifdef FURROW_EVEN_PAIRS
 /// Transposes 4 x 4 numbers in each half of the registers.
-FURROW_INLINE void transpose(Native (&rows)[4]) {
-  const Native even01 = __builtin_shufflevector(rows[0], rows[1], FURROW_EVEN_PAIRS),
-               odd01 = __builtin_shufflevector(rows[0], rows[1], FURROW_ODD_PAIRS),
-               even23 = __builtin_shufflevector(rows[2], rows[3], FURROW_EVEN_PAIRS),
-               odd23 = __builtin_shufflevector(rows[2], rows[3], FURROW_ODD_PAIRS);
+FURROW_INLINE void transpose(Register (&rows)[4]) {
+  const Register even01 = __builtin_shufflevector(rows[0], rows[1], FURROW_EVEN_PAIRS),
+                 odd01 = __builtin_shufflevector(rows[0], rows[1], FURROW_ODD_PAIRS),
+                 even23 = __builtin_shufflevector(rows[2], rows[3], FURROW_EVEN_PAIRS),
+                 odd23 = __builtin_shufflevector(rows[2], rows[3], FURROW_ODD_PAIRS);
   rows[0] = __builtin_shufflevector(even01, even23, FURROW_LOW_HALVES);
   rows[1] = __builtin_shufflevector(odd01, odd23, FURROW_LOW_HALVES);
   rows[2] = __builtin_shufflevector(even01, even23, FURROW_HIGH_HALVES);
@@ -81,7 +79,7 @@ FURROW_INLINE void transpose(Native (&rows)[4]) {
 /// @param record of a lane
 template <class RecordOf>
 FURROW_INLINE void to_lanes(RecordOf record, Lanes (&numbers)[4]) {
-  Native rows[4];
+  Register rows[4];
 #ifdef __AVX512F__
   for (int k = 0; k < 4; ++k)
     rows[k] = __builtin_shufflevector(record(k), record(k + 4), 0, 1, 2, 3, 4, 5, 6, 7);
@@ -89,12 +87,12 @@ FURROW_INLINE void to_lanes(RecordOf record, Lanes (&numbers)[4]) {
   for (int k = 0; k < 4; ++k) rows[k] = record(k);
 #endif
   transpose(rows);
-  for (int k = 0; k < 4; ++k) numbers[k] = static_cast<Lanes>(rows[k]);
+  for (int k = 0; k < 4; ++k) numbers[k] = Lanes(rows[k]);
 }
 
 FURROW_INLINE void to_records(const Lanes (&numbers)[4], Record (&records)[lane_count]) {
-  Native rows[4];
-  for (int k = 0; k < 4; ++k) rows[k] = static_cast<Native>(numbers[k]);
+  Register rows[4];
+  for (int k = 0; k < 4; ++k) rows[k] = numbers[k].numbers();
   transpose(rows);
   for (int k = 0; k < 4; ++k) {
 #ifdef __AVX512F__

@@ -26,17 +26,17 @@ FURROW_INLINE Lanes decreasing_root(Function&& f, Lanes x, Lanes low, Lanes high
   Lanes last = high - low;
   for (int i = 0; i < max_root_iterations && any(active); ++i) {
     const ValueAndSlope at = f(x);
-    stdx::where(active, iterations) += 1.0;
+    where(active, iterations) += 1.0;
     const Mask left = at.value > Lanes(0.0);
-    stdx::where(active && left, low) = x;
-    stdx::where(active && !left, high) = x;
+    where(active && left, low) = x;
+    where(active && !left, high) = x;
     Lanes step = -at.value / at.slope;
     const Lanes newton = x + step;
     const Mask trusted = at.slope < Lanes(0.0) && finite(at.slope) && newton >= low &&
                          newton <= high && abs(step) <= Lanes(0.5) * abs(last);
     step = select(trusted, step, Lanes(0.5) * (low + high) - x);
-    stdx::where(active, x) = x + step;
-    stdx::where(active, last) = step;
+    where(active, x) = x + step;
+    where(active, last) = step;
     active =
         active && !(abs(step) <= tolerance || high - low <= tolerance || at.value == Lanes(0.0));
   }

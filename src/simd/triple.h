@@ -30,7 +30,6 @@ FURROW_INLINE Triple cross(const Triple& a, const Triple& b) {
 FURROW_INLINE Lanes gather(const double* values, const int* index, int stride, int offset) {
   return Lanes([&](auto lane) { return values[stride * index[lane] + offset]; });
 }
-FURROW_INLINE Lanes load(const double* values) { return Lanes(values, stdx::element_aligned); }
 
 }  // namespace FURROW_ISA
 }  // namespace furrow

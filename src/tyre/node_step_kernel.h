@@ -92,8 +92,8 @@ FURROW_INLINE void step_group(const NodeStepNodes& nodes, std::size_t first, con
                contact = weight * group.triple(nodes.contact);
   const Triple arm = x - spread(rim.centre), spin = spread(rim.spin);
   const Triple damping_force =
-      -(rate * load(nodes.mass + first)) * (v - spread(rim.velocity) - cross(spin, arm));
-  const Triple damping_moment = -(rate * load(nodes.inertia + first)) * (w - spin);
+      -(rate * Lanes::load(nodes.mass + first)) * (v - spread(rim.velocity) - cross(spin, arm));
+  const Triple damping_moment = -(rate * Lanes::load(nodes.inertia + first)) * (w - spin);
   add(sums.force, force);
   add(sums.moment, moment + cross(arm, force));
   add(sums.damping_force, damping_force);
@@ -102,9 +102,9 @@ FURROW_INLINE void step_group(const NodeStepNodes& nodes, std::size_t first, con
   const Triple kick = Lanes(dt) * (force + contact + damping_force),
                spin_kick = Lanes(dt) * (moment + damping_moment);
   const auto moved = [&](const Triple& from, const double* const(&mobility)[3], const Triple& by) {
-    return Triple{from.x + load(mobility[0] + first) * by.x,
-                  from.y + load(mobility[1] + first) * by.y,
-                  from.z + load(mobility[2] + first) * by.z};
+    return Triple{from.x + Lanes::load(mobility[0] + first) * by.x,
+                  from.y + Lanes::load(mobility[1] + first) * by.y,
+                  from.z + Lanes::load(mobility[2] + first) * by.z};
   };
   const Triple v_next = moved(v, nodes.mobility, kick),
                w_next = moved(w, nodes.spin_mobility, spin_kick);
@@ -131,17 +131,17 @@ inline NodeStepSums node_step(const NodeStepNodes& nodes, const NodeStepRim& rim
 
   NodeStepSums result;
   const auto reduce = [](const Triple& t, double(&out)[3]) {
-    out[0] = stdx::reduce(t.x);
-    out[1] = stdx::reduce(t.y);
-    out[2] = stdx::reduce(t.z);
+    out[0] = sum(t.x);
+    out[1] = sum(t.y);
+    out[2] = sum(t.z);
   };
   reduce(sums.force, result.force);
   reduce(sums.moment, result.moment);
   reduce(sums.damping_force, result.damping_force);
   reduce(sums.damping_moment, result.damping_moment);
-  result.contact_power = stdx::reduce(sums.contact_power);
-  result.damping_power = stdx::reduce(sums.damping_power);
-  const double place = stdx::reduce(sums.place);
+  result.contact_power = sum(sums.contact_power);
+  result.damping_power = sum(sums.damping_power);
+  const double place = sum(sums.place);
   result.finite = place - place == 0.0;
   return result;
 }

@@ -21,15 +21,10 @@ struct SplineRow {
     for (Lanes& p : part) p = 0.0;
   }
   FURROW_INLINE explicit SplineRow(const double* numbers) {
-    const Lanes place([](auto lane) { return static_cast<double>(lane); });
     for (int k = 0; k < spline_blocks; ++k) {
-      part[k] = 0.0;
       const int left = spline_order - k * lane_count;
       const double* from = numbers + k * lane_count;
-      if (left >= lane_count)
-        part[k].copy_from(from, stdx::element_aligned);
-      else
-        stdx::where(place < Lanes(left), part[k]).copy_from(from, stdx::element_aligned);
+      part[k] = left >= lane_count ? Lanes::load(from) : Lanes::load_some(from, left);
     }
   }
   FURROW_INLINE void add(double factor, const SplineRow& other) {
@@ -38,7 +33,7 @@ struct SplineRow {
   FURROW_INLINE double dot(const SplineRow& other) const {
     Lanes products = part[0] * other.part[0];
     for (int k = 1; k < spline_blocks; ++k) products += part[k] * other.part[k];
-    return stdx::reduce(products);
+    return sum(products);
   }
 };
 
@@ -66,7 +61,7 @@ struct SplineBasis {
       }
       row[derivative] = sum;
       for (int k = 0; k < spline_blocks; ++k)
-        sum.part[k].copy_to(number[derivative] + k * lane_count, stdx::element_aligned);
+        sum.part[k].store(number[derivative] + k * lane_count);
     }
   }
 };

@@ -33,8 +33,7 @@ inline namespace FURROW_ISA {
     Lanes slope[3];
     interpolate_slopes(corner + row, stride, weights, p, slope);
 #pragma GCC unroll 3
-    for (int d = 0; d < 3; ++d)
-      (slope[d] * Lanes(dt)).copy_to(gradient[3 * row + d] + to, stdx::element_aligned);
+    for (int d = 0; d < 3; ++d) (slope[d] * Lanes(dt)).store(gradient[3 * row + d] + to);
   }
 }
 

@@ -99,7 +99,7 @@ struct Strides {
                                                       const Strides& stride, const Weights& weights,
                                                       std::size_t p, Lanes* slope) {
   const auto lanes = [p](const double* values) __attribute__((always_inline)) {
-    return Lanes(values + p, stdx::element_aligned);
+    return Lanes::load(values + p);
   };
   Lanes w[stencil], g[stencil];
 #pragma GCC unroll 3

@@ -80,15 +80,14 @@ struct CohesiveCamClayKernel {
       const Lanes ray = a / max(distance, 1e-290);
       const Lanes on_ellipse = select(near, D * ray, min(D, a));
       const Lanes leg = sqrt(max(square(a) - square(on_ellipse), 0.0));
-      stdx::where(yielding, p) = centre * now + sign * on_ellipse;
-      stdx::where(yielding && r_trial > Lanes(0.0), scale) =
+      where(yielding, p) = centre * now + sign * on_ellipse;
+      where(yielding && r_trial > Lanes(0.0), scale) =
           min(select(near, r * ray, leg) / r_trial, 1.0);
-      stdx::where(yielding, compaction) = sign * solution;
-      stdx::where(yielding, p0) = now;
+      where(yielding, compaction) = sign * solution;
+      where(yielding, p0) = now;
       const Lanes loosening =
           select(p < Lanes(0.0), double(Branch::tension), double(Branch::shear));
-      stdx::where(yielding, points.branch) =
-          select(sign > Lanes(0.0), double(Branch::cap), loosening);
+      where(yielding, points.branch) = select(sign > Lanes(0.0), double(Branch::cap), loosening);
     }
     end_hardening_step(strain, elastic, s_trial,
                        {s_trial * scale, p, compaction, centre * p0, yielding}, hardening, points);

@@ -64,7 +64,7 @@ struct CohesiveCapKernel {
     Lanes p = p_trial, q = q_trial, compaction = 0.0;
     if (any(yielding)) {
       q = select(yielding, min(q_trial, limit_old), q_trial);
-      stdx::where(yielding, points.branch) = double(Branch::shear);
+      where(yielding, points.branch) = double(Branch::shear);
     }
     if (any(flowing)) {
       const Lanes sign = select(opening, -1.0, 1.0);
@@ -109,14 +109,13 @@ struct CohesiveCapKernel {
       const Lanes ray = select(near, pc / max(distance, 1e-290), 1.0);
       const Lanes on_cap = min(pressure * ray, pc);
       const Lanes leg = Lanes(parameters.aspect) * sqrt(max(square(pc) - square(on_cap), 0.0));
-      stdx::where(flowing, p) = select(opening, -tension * d, on_cap);
+      where(flowing, p) = select(opening, -tension * d, on_cap);
       const Lanes cone = max(d + p * tan_beta, 0.0);
       const Lanes top = select(opening, Lanes(parameters.aspect) * pc,
                                select(near, radial * ray, min(radial, leg)));
-      stdx::where(flowing, q) = min(min(top, cone), q_trial);
-      stdx::where(flowing, compaction) = sign * solution;
-      stdx::where(flowing, points.branch) =
-          select(opening, double(Branch::tension), double(Branch::cap));
+      where(flowing, q) = min(min(top, cone), q_trial);
+      where(flowing, compaction) = sign * solution;
+      where(flowing, points.branch) = select(opening, double(Branch::tension), double(Branch::cap));
     }
     const Lanes scale = select(yielding, q / max(q_trial, 1e-290), 1.0);
     ReturnedPoint end{s_trial * scale, p, compaction, 0.0, yielding};

@@ -76,10 +76,10 @@ struct CrushableFoamKernel {
       const Lanes ray = sign * max(sign * (c + (pressure - c) * a / distance), 0.0);
       const Lanes leg = Lanes(parameters.M) * sqrt(max(a * a - square(pressure - c), 0.0));
       const Lanes t = select(near, measure * a / distance, min(leg, t_trial));
-      stdx::where(yielding, p) = select(near, ray, pressure);
-      stdx::where(yielding && t_trial > Lanes(0.0), scale) = t / t_trial;
-      stdx::where(yielding, compaction) = sign * solution;
-      stdx::where(yielding, points.branch) =
+      where(yielding, p) = select(near, ray, pressure);
+      where(yielding && t_trial > Lanes(0.0), scale) = t / t_trial;
+      where(yielding, compaction) = sign * solution;
+      where(yielding, points.branch) =
           select(sign > Lanes(0.0), double(Branch::cap), double(Branch::tension));
     }
     end_hardening_step(strain, elastic, s_trial, {s_trial * scale, p, compaction, 0.0, yielding},

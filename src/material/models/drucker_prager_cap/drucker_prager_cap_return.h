@@ -59,11 +59,11 @@ inline void return_to_shear(const DruckerPragerCapParameters& parameters, const 
   pressure = min(pressure, now.pa);  // it is below, but for rounding
   strength = shear_strength(parameters, now, pressure, 0.0, 0.0, nullptr).value;
   const Mask apex = strength <= Lanes(1e-12) * now.Q;
-  stdx::where(active, end.compaction) = -solution;
-  stdx::where(active, end.p) = pressure;
-  stdx::where(active, end.t) = min(max(strength, 0.0), trial.t);
-  stdx::where(active, end.pa) = now.pa;
-  stdx::where(active, end.branch) =
+  where(active, end.compaction) = -solution;
+  where(active, end.p) = pressure;
+  where(active, end.t) = min(max(strength, 0.0), trial.t);
+  where(active, end.pa) = now.pa;
+  where(active, end.branch) =
       select(apex, double(Branch::tension),
              select(transition, double(Branch::transition), double(Branch::shear)));
 }
@@ -83,12 +83,12 @@ inline void return_to_cutoff(const DruckerPragerCapParameters& parameters, const
                  shear_strength(parameters, now, pressure, 0.0, 0.0, nullptr).value),
           0.0);
   const Lanes measure = min(trial.t, strength);
-  stdx::where(active, end.iterations) += 1.0;
-  stdx::where(active, end.compaction) = de;
-  stdx::where(active, end.p) = pressure;
-  stdx::where(active, end.t) = measure;
-  stdx::where(active, end.pa) = now.pa;
-  stdx::where(active, end.branch) = double(Branch::tension);
+  where(active, end.iterations) += 1.0;
+  where(active, end.compaction) = de;
+  where(active, end.p) = pressure;
+  where(active, end.t) = measure;
+  where(active, end.pa) = now.pa;
+  where(active, end.branch) = double(Branch::tension);
 }
 
 /// The end of the step: the trial where it is elastic, else its return to the surface it violates.

@@ -28,11 +28,11 @@ FURROW_INLINE Lanes min_tangent(const Lanes& t, const Lanes& top, const Lanes& k
 FURROW_INLINE void finish_cap(const DruckerPragerCapParameters& parameters, const Mask& active,
                               const CapTrial& trial, const CapSurfaces& now, const Lanes& cosine,
                               const Lanes& sine, const Lanes& de, CapReturn& end) {
-  stdx::where(active, end.compaction) = de;
-  stdx::where(active, end.p) = now.pa + Lanes(parameters.R) * now.Q * cosine;
-  stdx::where(active, end.t) = min(Lanes(parameters.A) * now.Q * sine, trial.t);
-  stdx::where(active, end.pa) = now.pa;
-  stdx::where(active, end.branch) = double(Branch::cap);
+  where(active, end.compaction) = de;
+  where(active, end.p) = now.pa + Lanes(parameters.R) * now.Q * cosine;
+  where(active, end.t) = min(Lanes(parameters.A) * now.Q * sine, trial.t);
+  where(active, end.pa) = now.pa;
+  where(active, end.branch) = double(Branch::cap);
 }
 
 /// Both equations together, by Newton's method in (De, u), for linear elasticity: there g = A Q
@@ -57,7 +57,7 @@ FURROW_INLINE Mask solve_cap_together(const DruckerPragerCapParameters& paramete
     sine = u * cosine;
     const Lanes f = trial.p - bulk * de - now.pa - R * now.Q * cosine;
     const Lanes g = A * now.Q * sine + b * de * u - trial.t;
-    stdx::where(active && !solved, end.iterations) += 1.0;
+    where(active && !solved, end.iterations) += 1.0;
     const Mask converged = abs(f) <= tolerance && abs(g) <= Lanes(1e-13) * trial.t;
     solved = solved || (converged && de >= Lanes(0.0) && u >= Lanes(0.0));
     if (i == max_iterations || all(solved || !active)) break;
@@ -107,9 +107,9 @@ inline void solve_cap_nested(const DruckerPragerCapParameters& parameters, const
           top * (cosine * cosine * cosine * (Lanes(1.0) + multiplier) + sine * k * sine);
       angle = {cosine, sine, length, multiplier, slope};
       if (!any(open)) break;
-      stdx::where(open, end.iterations) += 1.0;
-      stdx::where(open && value > Lanes(0.0), high) = u;
-      stdx::where(open && !(value > Lanes(0.0)), low) = u;
+      where(open, end.iterations) += 1.0;
+      where(open && value > Lanes(0.0), high) = u;
+      where(open && !(value > Lanes(0.0)), low) = u;
       const Lanes newton = u - value / slope;
       const Mask inside = newton >= low && newton <= high;
       const Lanes halfway =

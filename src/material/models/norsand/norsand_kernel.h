@@ -101,10 +101,10 @@ struct NorSandKernel {
         const Lanes P_low = pressure(lowest);
         opens = low && !(P_low > Lanes(0.0));
         on_cone = low && !opens && P_low <= x_low * image_old && lowest < Lanes(largest);
-        stdx::where(on_cone || opens, D) = lowest;
-        stdx::where(on_cone || opens, x) = x_low;
-        stdx::where(on_cone, P) = P_low;
-        stdx::where(opens, P) = 0.0;
+        where(on_cone || opens, D) = lowest;
+        where(on_cone || opens, x) = x_low;
+        where(on_cone, P) = P_low;
+        where(opens, P) = 0.0;
       }
       const Mask beyond = yielding && !opens && (x_tr > tip || lowest >= Lanes(largest));
       if (any(beyond)) {
@@ -119,9 +119,9 @@ struct NorSandKernel {
         const Lanes softened =
             Lanes(2.0) * start / (b + sqrt(max(b * b + Lanes(4.0) * r * start, 0.0)));
         const Lanes P_tip = select(h >= Lanes(0.0), hardened, softened);
-        stdx::where(at_tip, P) = select(x_tr > tip, max(min(P_tip, P_tr), 0.0), P_tr);
-        stdx::where(at_tip, D) = largest;
-        stdx::where(at_tip, x) = tip;
+        where(at_tip, P) = select(x_tr > tip, max(min(P_tip, P_tr), 0.0), P_tr);
+        where(at_tip, D) = largest;
+        where(at_tip, x) = tip;
       }
       const Mask smooth = yielding && !on_cone && !opens && !at_tip;
       if (any(smooth)) {
@@ -147,15 +147,15 @@ struct NorSandKernel {
         const Lanes start = max(lowest, no_flow);
         const Lanes root = decreasing_root(residual, max(D_tr, start), start, largest,
                                            Lanes(1e-9 * largest), smooth, points.iterations);
-        stdx::where(smooth, D) = root;
-        stdx::where(smooth, x) = ratio(root);
-        stdx::where(smooth, P) = max(pressure(root), 0.0);
+        where(smooth, D) = root;
+        where(smooth, x) = ratio(root);
+        where(smooth, P) = max(pressure(root), 0.0);
       }
-      stdx::where(yielding, t) = min(max(stress_ratio(D), 0.0) * P, t_tr);
-      stdx::where(yielding, image) = P / x;
+      where(yielding, t) = min(max(stress_ratio(D), 0.0) * P, t_tr);
+      where(yielding, image) = P / x;
       if (any(on_cone)) {
         const Lanes flow = max(t_tr - t, 0.0) * over_k, share = P / (x_low * image_old);
-        stdx::where(on_cone, image) =
+        where(on_cone, image) =
             max(image_old / (Lanes(1.0) + H * flow * max(Lanes(1.0) - share, 0.0)), P / x_low);
       }
     }
