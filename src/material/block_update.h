@@ -39,7 +39,7 @@ struct Step {
 /// Laws of rate form: the strain is the logarithm of the step's stretch, the stress is rotated
 /// afterwards.
 template <class Kernel, int n>
-auto step_points(const Kernel& kernel, const Tensor& h, Points<n>& points)
+FURROW_INLINE auto step_points(const Kernel& kernel, const Tensor& h, Points<n>& points)
     -> decltype(kernel.step(Symmetric{}, points), Step{}) {
   Motion motion;
   find_motion(h, motion);
@@ -49,7 +49,7 @@ auto step_points(const Kernel& kernel, const Tensor& h, Points<n>& points)
 }
 /// Hyperelastic laws: they carry their deformation with them.
 template <class Kernel, int n>
-auto step_points(const Kernel& kernel, const Tensor& h, Points<n>& points)
+FURROW_INLINE auto step_points(const Kernel& kernel, const Tensor& h, Points<n>& points)
     -> decltype(kernel.hyperelastic_step(h, points), Step{}) {
   kernel.hyperelastic_step(h, points);
   const Lanes volume = volume_change(h);
@@ -77,8 +77,10 @@ struct Group {
   }
   FURROW_INLINE void store(double* array, const Lanes& value) const {
     if (lanes < lane_count) {
+      alignas(64) double numbers[lane_count];  // value[lane] would keep the value in memory always
+      value.store(numbers);
       for (int lane = 0; lane < lanes; ++lane)
-        array[first + static_cast<std::size_t>(lane)] = value[lane];
+        array[first + static_cast<std::size_t>(lane)] = numbers[lane];
     } else {
       value.store(array + first);
     }
@@ -92,6 +94,7 @@ struct Group {
 
   FURROW_INLINE Tensor load_gradient() const {
     Tensor h;
+#pragma GCC unroll 9
     for (std::size_t k = 0; k < 9; ++k) h.m[k] = load(block.gradient[k]);
     return h;
   }
@@ -168,10 +171,13 @@ struct Group {
     report.below_data += count(points.below_data);
     report.beyond_data += count(points.beyond_data);
     report.beyond_ice += count(ratio < Lanes(density / ice_density));
-    if (block.branch)
+    if (block.branch) {
+      alignas(64) double branches[lane_count];
+      points.branch.store(branches);
       for (int lane = 0; lane < lanes; ++lane)
         block.branch[first + static_cast<std::size_t>(lane)] =
-            static_cast<std::uint8_t>(static_cast<double>(points.branch[lane]));
+            static_cast<std::uint8_t>(branches[lane]);
+    }
     return true;
   }
 };

@@ -25,6 +25,7 @@ inline namespace FURROW_ISA {
 /// det(I + H)
 FURROW_INLINE Lanes volume_change(const Tensor& h) {
   Lanes f[9];
+#pragma GCC unroll 9
   for (int k = 0; k < 9; ++k) f[k] = k % 4 == 0 ? h.m[k] + Lanes(1.0) : h.m[k];
   return f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) +
          f[2] * (f[3] * f[7] - f[4] * f[6]);
@@ -74,6 +75,31 @@ FURROW_INLINE void find_small_stretch(const Symmetric& x, Symmetric& log_u, Symm
       (commuting_product(x2, root_rest.plus_identity(3.0 / 8)) - x * Lanes(0.5)).plus_identity(1.0);
 }
 
+/// ln U and U^-1 by the eigenvalues of C.
+struct LargeStretch {
+  Symmetric x, log_u, inverse_u;
+
+  /// Replaces the lanes of the mask. @return where the stretch exists
+  [[gnu::noinline, gnu::cold]] Mask find(Mask large) {
+    Mask admissible(true);
+    for (int lane = 0; lane < lane_count; ++lane) {
+      if (!large[lane]) continue;
+      const double entries[6] = {x.xx[lane], x.yy[lane], x.zz[lane],
+                                 x.xy[lane], x.yz[lane], x.xz[lane]};
+      double log[6] = {}, inv[6] = {};
+      if (!large_stretch(entries, log, inv)) admissible[lane] = false;
+      Lanes* strain[6] = {&log_u.xx, &log_u.yy, &log_u.zz, &log_u.xy, &log_u.yz, &log_u.xz};
+      Lanes* u[6] = {&inverse_u.xx, &inverse_u.yy, &inverse_u.zz,
+                     &inverse_u.xy, &inverse_u.yz, &inverse_u.xz};
+      for (int k = 0; k < 6; ++k) {
+        (*strain[k])[lane] = log[k];
+        (*u[k])[lane] = inv[k];
+      }
+    }
+    return admissible;
+  }
+};
+
 FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
   const Lanes* m = h.m;
   const auto column = [&](int i, int j) __attribute__((always_inline)) {
@@ -92,24 +118,15 @@ FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
 
   const Mask large = !(size <= Lanes(0.01));  // also not a number
   if (any(large)) {
-    for (int lane = 0; lane < lane_count; ++lane) {
-      if (!large[lane]) continue;
-      const double entries[6] = {x.xx[lane], x.yy[lane], x.zz[lane],
-                                 x.xy[lane], x.yz[lane], x.xz[lane]};
-      double log_u[6] = {}, inv[6] = {};
-      if (!large_stretch(entries, log_u, inv)) motion.admissible[lane] = false;
-      Lanes* strain[6] = {&motion.strain.xx, &motion.strain.yy, &motion.strain.zz,
-                          &motion.strain.xy, &motion.strain.yz, &motion.strain.xz};
-      Lanes* u[6] = {&inverse_u.xx, &inverse_u.yy, &inverse_u.zz,
-                     &inverse_u.xy, &inverse_u.yz, &inverse_u.xz};
-      for (int k = 0; k < 6; ++k) {
-        (*strain[k])[lane] = log_u[k];
-        (*u[k])[lane] = inv[k];
-      }
-    }
+    LargeStretch stretch{x, motion.strain, inverse_u};
+    motion.admissible = stretch.find(large);
+    motion.strain = stretch.log_u;
+    inverse_u = stretch.inverse_u;
   }
   Lanes f[9], *r = motion.rotation.m;
+#pragma GCC unroll 9
   for (int k = 0; k < 9; ++k) f[k] = k % 4 == 0 ? m[k] + Lanes(1.0) : m[k];
+#pragma GCC unroll 3
   for (int i = 0; i < 9; i += 3) {
     r[i] = f[i] * inverse_u.xx + f[i + 1] * inverse_u.xy + f[i + 2] * inverse_u.xz;
     r[i + 1] = f[i] * inverse_u.xy + f[i + 1] * inverse_u.yy + f[i + 2] * inverse_u.yz;

@@ -61,6 +61,7 @@ struct Tensor {
 FURROW_INLINE Symmetric rotated(const Symmetric& a, const Tensor& r) {
   const Lanes* m = r.m;
   Lanes b[9];  // r a
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
     b[3 * i] = m[3 * i] * a.xx + m[3 * i + 1] * a.xy + m[3 * i + 2] * a.xz;
     b[3 * i + 1] = m[3 * i] * a.xy + m[3 * i + 1] * a.yy + m[3 * i + 2] * a.yz;
