@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "simd/dispatch.h"
 
+#ifdef FURROW_X86_KERNELS
+#include <cpuid.h>
+#endif
+
 #include <cstdlib>
 #include <string>
 
@@ -23,10 +27,13 @@ std::vector<InstructionSet> available_instruction_sets() {
   std::vector<InstructionSet> sets{InstructionSet::baseline};
 #ifdef FURROW_X86_KERNELS
   __builtin_cpu_init();
+  // clang 14 has no __builtin_cpu_supports of F16C, MOVBE and LZCNT
+  unsigned eax = 0, ebx = 0, basic = 0, extended = 0, edx = 0;
+  __get_cpuid(1, &eax, &ebx, &basic, &edx);
+  __get_cpuid(0x80000001, &eax, &ebx, &extended, &edx);
   const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                   __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
-                  __builtin_cpu_supports("f16c") && __builtin_cpu_supports("lzcnt") &&
-                  __builtin_cpu_supports("movbe");
+                  (basic & bit_F16C) && (basic & bit_MOVBE) && (extended & bit_LZCNT);
   if (v3) sets.push_back(InstructionSet::avx2);
   const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                   __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
