@@ -43,9 +43,18 @@ std::string numbers(Vector3 vector, double least) {
   return fmt::format("{:.6g} {:.6g} {:.6g}", vector.x(), vector.y(), vector.z());
 }
 
-/// @returns the rotation from the axes of the file, with 'axis' along `target`
+/// @returns the rotation from the axes of the file, with 'axis' along the unit vector `target`
 Matrix3 attitude_of(const Options& options, const Vector3& target) {
-  return Quaternion::FromTwoVectors(direction_from(options, "axis"), target).toRotationMatrix();
+  const Vector3 axis = direction_from(options, "axis");
+  // From half angles. Eigen's FromTwoVectors would compile a singular value decomposition for this.
+  Quaternion rotation;
+  rotation.w() = 1.0 + axis.dot(target);
+  rotation.vec() = axis.cross(target);
+  if (rotation.norm() < 1e-8) {  // opposite: half a turn
+    rotation.w() = 0.0;
+    rotation.vec() = axis.unitOrthogonal();
+  }
+  return rotation.normalized().toRotationMatrix();
 }
 
 /// A mesh that is probably in millimetres or inches.
