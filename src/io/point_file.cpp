@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/point_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -149,8 +150,32 @@ std::vector<double> column_of(const CsvTable& table, const YamlTree& name) {
   return in_path(name, [&] { return table.numbers(name.text); });
 }
 
+/// What the sample of a curve has of its own: "sample: {law.e0: 0.58}".
+void read_sample(const YamlTree& map, PointFit& fit, const MaterialOptions& values,
+                 FitCurve& curve) {
+  if (!map.find("sample")) return;
+  const YamlTree& sample = map.map("sample", "{section.key: a value that this curve has}");
+  in_path(sample, [&] {
+    for (const Entry& entry : entries_of(sample)) {
+      const auto fitted = [&](const FitParameter& p) { return p.name() == entry.key; };
+      const std::string where = fmt::format("sample, '{}'", entry.key);
+      if (std::any_of(fit.parameters.begin(), fit.parameters.end(), fitted))
+        throw InputError(where, "is a parameter of the fit", "what is not fitted",
+                         "remove it from 'parameters' or from 'sample'");
+      if (entry.values.size() != 1)
+        throw InputError(where, fmt::format("has {} values", entry.values.size()), "one number");
+      curve.sample.emplace_back(
+          MaterialNumber("sample,", entry.key, fit.material.model, values, fit.sections),
+          entry.values.front());
+    }
+    MaterialSections sections = fit.sections;
+    for (const auto& [number, value] : curve.sample) number.put(sections, value);
+    make_material(fit.material.model, sections);
+  });
+}
+
 FitCurve read_curve(const std::string& file, const YamlTree& map, const Material& material) {
-  const Options options = read_map(curve_schema(), map, {"path", "drive", "compare"});
+  const Options options = read_map(curve_schema(), map, {"sample", "path", "drive", "compare"});
   const CsvTable table =
       in_path(map, [&] { return CsvTable::read(beside(file, options.text("data"))); });
   FitCurve curve;
@@ -257,6 +282,7 @@ PointFit read_point_fit(const std::string& path) {
   for (const YamlTree& map :
        file.list("curves", "a list of curves with data, path, drive, compare").items) {
     fit.curves.push_back(read_curve(path, map, *material));
+    read_sample(map, fit, values, fit.curves.back());
     for (const double value : fit.curves.back().measured) data += std::isnan(value) ? 0 : 1;
   }
   if (data < fit.parameters.size())
@@ -275,6 +301,17 @@ MaterialSections sections_with(const PointFit& fit, const std::vector<std::strin
   return sections;
 }
 
+std::vector<double> curves_of(const PointFit& fit, const MaterialSections& sections) {
+  std::vector<double> points;
+  for (const FitCurve& curve : fit.curves) {
+    MaterialSections of_sample = sections;
+    for (const auto& [number, value] : curve.sample) number.put(of_sample, value);
+    const auto material = make_material(fit.material.model, of_sample);
+    for (const double value : curve_of(*material, curve)) points.push_back(value);
+  }
+  return points;
+}
+
 std::string path_tables() {
   std::string text;
   for (const PathType& type : path_types())
@@ -283,7 +320,7 @@ std::string path_tables() {
       "path table: any control of each component, row by row\n{}  rows: a list of\n{}\n",
       table_path_schema().table(), table_row_schema().table());
   text += fmt::format(
-      "fit: parameters, a list of\n{}\nfit: curves, a list of path, drive, compare and\n{}",
+      "fit: parameters, a list of\n{}\nfit: curves, a list of sample, path, drive, compare and\n{}",
       parameter_schema().table(), curve_schema().table());
   return text;
 }

@@ -22,7 +22,7 @@ struct PointRun {
 struct PointFit {
   std::string title;
   MaterialFile material;
-  MaterialSections sections;  ///< of the material, with the keys of all parameters
+  MaterialSections sections;  ///< of the material, with the keys of all parameters and samples
   std::vector<FitParameter> parameters;
   std::vector<FitCurve> curves;
 };
@@ -34,6 +34,9 @@ PointFit read_point_fit(const std::string& path);
 
 /// The material with these values of the parameters. @throws InputError for another number of them
 MaterialSections sections_with(const PointFit& fit, const std::vector<std::string>& values);
+
+/// All curves of a material, point by point. @throws StateError when a path cannot be followed
+std::vector<double> curves_of(const PointFit& fit, const MaterialSections& sections);
 
 /// The keys of all path types, and of a fit, for `furrow-point paths`.
 std::string path_tables();

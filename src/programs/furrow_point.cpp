@@ -71,11 +71,7 @@ std::string answer(const furrow::PointFit& fit, const std::string& line) {
   if (file) values.erase(values.begin());
   const furrow::MaterialSections sections = furrow::sections_with(fit, values);
   if (file) return furrow::fitted_material(fit, sections);
-  const auto material = furrow::make_material(fit.material.model, sections);
-  std::vector<double> points;
-  for (const furrow::FitCurve& curve : fit.curves)
-    for (const double value : furrow::curve_of(*material, curve)) points.push_back(value);
-  return fmt::format("{:.17g}", fmt::join(points, " "));
+  return fmt::format("{:.17g}", fmt::join(furrow::curves_of(fit, sections), " "));
 }
 
 /// A line of output for each line of the input, until it ends.

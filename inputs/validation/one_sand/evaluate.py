@@ -18,6 +18,7 @@ from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters
 from furrow_post.laboratory.evaluation import values_of
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve
 from furrow_post.read.results import Results
+from furrow_post.read.terrain import Terrain
 from furrow_post.study.case import FOLDER, Case, Value
 from furrow_post.study.furrow_cases import laboratory_case, point_case, script_case
 from furrow_post.study.output import Output
@@ -32,26 +33,34 @@ GRAIN_DENSITY = 2650.0  # [kg/m3] of the ground sand_dry
 # Name -> friction of the grains while they are packed, density [kg/m3] without load: mean of the packings
 PACKINGS = {"dense": (0.02, 1674.0), "medium": (0.3, 1516.0), "loose": (1.0, 1426.0)}
 SEEDS = (86028121, 67867967)
-PRESSURES = (20e3, 100e3)  # [Pa] of triaxial compression
+PRESSURES = (2e3, 5e3, 20e3, 100e3)  # [Pa] of triaxial compression
 PRESSURE = 20e3  # [Pa] of the other tests
 STRAINS = {"triaxial": 0.25, "extension": 0.2, "plane_strain": 0.2}
-RATES = {"triaxial": 0.7, "extension": 0.5, "plane_strain": 0.5}  # [1/s] of the grains
+RATES = {"triaxial": 0.7, "extension": 0.5, "plane_strain": 0.5}  # [1/s] of the grains from PRESSURE on
 SOFTENS = 0.0385  # lateral strain just before dense NorSand falls too steeply for a constant axial stress
+LEVELS = (0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.14, 0.18, 0.22)  # axial strains of triaxial compression that laws are fitted to
+STRESSES = (2e3, 5e3, 10e3, 20e3, 50e3, 100e3, 200e3)  # [Pa] axial stresses of the oedometer, for the same
+AROUND = 0.15  # of a level, whose mean is taken
 LATE = 0.85  # of the strain, from which on the end is averaged
 PRESSED = -0.003  # strain across a plane, about that of consolidation
+SETTLED = -0.002  # strain in which preloaded loose sand gives way and is denser
 SLIDING = 0.6  # shear strain of the law
 AXIAL = (10e3, 100e3)  # [Pa] of the oedometer at which it is compared
 STEPS = 400
 PLATES = (0.06, 0.08, 0.10)  # [m]
 BED = (0.30, 0.12)  # [m] width, depth
-CELLS = {"plate": (0.01, 0.015), "wheel": (0.04, 0.05)}  # [m] fine, coarse
+CELLS = {"plate": (0.01, 0.015), "collapse": (0.01, 0.015), "wheel": (0.03, 0.04)}  # [m] fine, coarse
 SINKAGES = (0.01, 0.02)  # [m]
+COLUMNS = {1: 0.42, 2: 0.60}  # height over radius of a column -> length of the layer [m]
+COLUMN_RADIUS, LAYER, MAP_STEP = 0.08, 0.03, 0.005  # [m]
+THIN = 0.005  # [m], half a grain: the deposit ends where it is thinner
+RING = 0.01  # [m] width of the rings of its profile
 NEAR = 1e-3  # [m] of sinkage around it that is averaged
 WINDOW = 0.5  # [m] of travel
 WHEEL: dict[str, tuple[dict[str, float], str]] = {  # -> variables, place in the results of the cross-check
     "slip 0": ({}, "base"),
     "slip 0.15": ({"slip": 0.15}, "slip=0.15"),
-    "slip 0.3": ({"slip": 0.3}, "slip=0.3"),
+    "slip 0.3": ({"slip": 0.3, "stiffness": 1}, "slip=0.3"),  # NorSand is soft where it has opened
     "half load": ({"load": 1560}, "load=1560"),
     "1.5 times the load": ({"load": 4680}, "load=4680"),
     "twice the speed": ({"speed": 2}, "speed=2"),
@@ -64,6 +73,8 @@ GOALS = {  # quantity -> allowed difference, and how it is measured
     "K0": (0.05, "absolute"),
     "axial strain": (0.15, "relative"),
     "pressure": (0.20, "relative"),
+    "run-out over height": (0.20, "relative"),
+    "height over radius": (0.20, "relative"),
     "hub drop": (0.03, "relative"),
     "resistance coefficient": (0.01, "absolute"),
 }
@@ -95,9 +106,10 @@ def paths(law: str, packing: str) -> Iterator[tuple[str, str]]:
     level = f"{{stress_xx: {-PRESSURE:g}, strain_yy: {PRESSED}, stress_zz: {-PRESSURE:g}}}"
     rows = f"[{level}, {{strain_zz: {-STRAINS['plane_strain']}}}]"
     yield f"plane_strain_{packing}_{PRESSURE:.0f}", f"{{type: table, steps: {STEPS}, rows: {rows}}}"
-    rows = f"[{{stress_zz: {-PRESSURE:g}}}, {{strain_xz: {SLIDING}}}]"
+    rows = f"[{{strain_zz: {SETTLED}}}, {{stress_zz: {-PRESSURE:g}}}, {{strain_xz: {SLIDING}}}]"
     yield f"shear_{packing}_{PRESSURE:.0f}", f"{{type: table, motion: shear, steps: {STEPS}, rows: {rows}}}"
-    yield f"oedometer_{packing}", f"{{type: confined, stress: [1e4, 1e5, 3e5], steps: {STEPS}}}"
+    rows = f"[{{strain_zz: {SETTLED}}}, {{stress_zz: -1e4}}, {{stress_zz: -1e5}}, {{stress_zz: -3e5}}]"
+    yield f"oedometer_{packing}", f"{{type: table, steps: {STEPS}, rows: {rows}}}"
 
 
 def law_cases() -> Iterator[Case]:
@@ -119,8 +131,9 @@ def grain_cases() -> Iterator[Case]:
         for seed in SEEDS:
             for test, strain in STRAINS.items():
                 for pressure in PRESSURES if test == "triaxial" else (PRESSURE,):
+                    slow = min(1.0, math.sqrt(pressure / PRESSURE))  # the same inertial number
                     variables = laboratory_variables(
-                        packing, seed, confinement=pressure, rate=RATES[test], strain=strain
+                        packing, seed, confinement=pressure, rate=round(RATES[test] * slow, 3), strain=strain
                     )
                     name = f"{test}_{packing}_{pressure:.0f}/grains_{seed}"
                     yield laboratory_case(name, test, root, variables, stage="element")
@@ -135,10 +148,24 @@ def grain_cases() -> Iterator[Case]:
             bed: dict[str, Value] = {"ground": "sand_dry", "seed": seed, "size": size, "speed": 0.1}
             bed |= {"width": width, "depth": depth}
             yield laboratory_case(f"plate_{size}/grains_{seed}", "plate", root, bed, stage="plate")
+    for aspect in COLUMNS:
+        for seed in SEEDS:
+            pile: dict[str, Value] = {"ground": "sand_dry", "seed": seed, "aspect": aspect}
+            yield laboratory_case(f"collapse_{aspect}/grains_{seed}", "collapse", root, pile, stage="collapse")
+
+
+def heightmap(length: float, height: float) -> str:
+    """A cylinder on level ground, as ESRI ASCII grid."""
+    count = round(length / MAP_STEP) + 1
+    places = (np.arange(count) - (count - 1) / 2) * MAP_STEP
+    corner = f"xllcenter {places[0]:g}\nyllcenter {places[0]:g}\n"
+    heights = np.where(np.hypot(*np.meshgrid(places, places)) < COLUMN_RADIUS, height, 0.0)
+    rows = "\n".join(" ".join(f"{value:g}" for value in row) for row in heights)
+    return f"ncols {count}\nnrows {count}\n{corner}cellsize {MAP_STEP}\n{rows}\n"
 
 
 def body_cases() -> Iterator[Case]:
-    """Plate and wheel on the laws, of medium density."""
+    """Plate, column and wheel on the laws, of medium density."""
     density = PACKINGS["medium"][1]
     for law in LAWS:
         files = {"material.yaml": material_text(law, density)}
@@ -149,6 +176,15 @@ def body_cases() -> Iterator[Case]:
                 plate |= {"width": BED[0], "depth": BED[1]}
                 name = f"plate_{size}/{law}_{cell}"
                 yield script_case(name, HERE / "plate.lig", plate, files=files, stage="plate")
+        for aspect, length in COLUMNS.items():
+            for cell in CELLS["collapse"]:
+                height = aspect * COLUMN_RADIUS
+                column: dict[str, Value] = {"material": given["material"], "column": f"{FOLDER}/column.txt"}
+                column |= {"cell": cell, "length": length, "depth": LAYER, "height": height}
+                column |= {"time": round(8 * math.sqrt(height / 9.81), 2)}
+                texts = {**files, "column.txt": heightmap(length, height)}
+                name = f"collapse_{aspect}/{law}_{cell}"
+                yield script_case(name, HERE / "collapse.lig", column, files=texts, stage="collapse")
         for number, (variables, _) in enumerate(WHEEL.values()):
             for cell in CELLS["wheel"]:
                 wheel: dict[str, Value] = {**given, "cell": cell, **variables}
@@ -194,7 +230,8 @@ def law_values(run: Run) -> dict[str, float]:
     test = run.name.partition("/")[0]
     if test.startswith("oedometer"):
         columns = read_columns(run.folder / "point.csv")
-        return compression(-columns["stress_zz"], -columns["stress_xx"], columns["density"])
+        axial = np.maximum.accumulate(-columns["stress_zz"])
+        return compression(axial, -columns["stress_xx"], columns["density"])
     if test.startswith("shear"):
         return shear_of_law(run)
     return strength_of_law(run, "strain_xx" if test.startswith("extension") else "strain_zz")
@@ -218,6 +255,45 @@ def grain_values(run: Run) -> dict[str, float]:
     return dict(zip(("sin phi at peak", "sin phi at end"), sines))
 
 
+def triaxial_curve(run: Run) -> tuple[Floats, Floats]:
+    """(levels) q/p and void ratio of grains at LEVELS."""
+    strain, stress, density = cell_curve(LaboratoryTest(run.folder).curve())
+    axial, q = strain[:, 2] - strain[0, 2], stress[:, 2] - stress[:, :2].mean(axis=1)
+    ratio = q / stress.mean(axis=1)
+    near = [abs(axial - level) < AROUND * level for level in LEVELS]
+    voids = GRAIN_DENSITY / density - 1
+    return np.array([ratio[rows].mean() for rows in near]), np.array([voids[rows].mean() for rows in near])
+
+
+def oedometer_curve(run: Run) -> tuple[Floats, Floats]:
+    """(stresses) p [Pa] and void ratio of grains at STRESSES."""
+    _, stress, density = cell_curve(LaboratoryTest(run.folder).curve())
+    loading = slice(0, int(np.argmax(stress[:, 2])) + 1)
+    axial = np.maximum.accumulate(stress[loading, 2])
+    p = np.interp(STRESSES, axial, stress[loading].mean(axis=1))
+    return p, np.interp(STRESSES, axial, GRAIN_DENSITY / density[loading] - 1)
+
+
+def curves_of_grains(runs: Runs, test: str) -> list[dict[str, str]]:
+    """What laws are fitted to: means over the packings. Columns: strain or stress of the axis, then q/p
+    or p, and the void ratio, of each packing and lateral stress."""
+    axis, first, curve = {
+        "triaxial": (("axial_strain", LEVELS), "stress_ratio", triaxial_curve),
+        "oedometer": (("axial_stress_Pa", STRESSES), "p_Pa", oedometer_curve),
+    }[test]
+    found: dict[str, list[tuple[Floats, Floats]]] = {}
+    for run in runs.done("element"):
+        name, _, column = run.name.partition("/")
+        if name.startswith(test) and column.startswith("grains"):
+            found.setdefault(name.removeprefix(f"{test}_"), []).append(curve(run))
+    rows = [{axis[0]: f"{level:g}"} for level in axis[1]]
+    for name, packings in found.items():
+        for quantity, values in zip((first, "void_ratio"), np.mean(packings, axis=0)):
+            for row, value in zip(rows, values):
+                row[f"{quantity}_{name}"] = f"{value:.4g}"
+    return rows
+
+
 def element_key(run: Run, quantity: str) -> Key:
     """Of "triaxial_dense_20000/norsand" and "sin phi at peak", or "oedometer_dense/norsand" and
     "K0, 10 kPa"."""
@@ -232,6 +308,34 @@ def plate_values(run: Run) -> Iterator[tuple[Key, float]]:
     curve = whole_plate_curve(run.folder)
     for sinkage in SINKAGES:
         yield ("plate", f"{1e3 * size:.0f} mm at {1e3 * sinkage:.0f} mm", "pressure"), pressure_near(curve, sinkage, NEAR)
+
+
+def deposit_of_law(run: Run) -> dict[str, float]:
+    """Of a column: distance from its edge to where the deposit is thin, and height of its middle."""
+    terrain = Terrain.read(run.folder)
+    aspect = int(run.name.partition("/")[0].partition("_")[2])
+    edges = np.arange(0.0, COLUMNS[aspect] / 2, RING)
+    radius = np.hypot(terrain.x[:, 0], terrain.x[:, 1])
+    volume = np.histogram(radius, edges, weights=terrain.volume)[0]
+    thickness = volume / (np.pi * np.diff(edges**2)) - LAYER
+    last = int(np.flatnonzero(thickness > THIN)[-1])
+    beyond = (thickness[last] - THIN) / (thickness[last] - thickness[last + 1])
+    runout = RING * (last + 0.5 + beyond) - COLUMN_RADIUS
+    middle = volume[:2].sum() / (np.pi * edges[2] ** 2) - LAYER
+    return {"run-out over height": runout / (aspect * COLUMN_RADIUS), "height over radius": middle / COLUMN_RADIUS}
+
+
+def collapse_values(run: Run) -> Iterator[tuple[Key, float]]:
+    name, _, column = run.name.partition("/")
+    at = f"height {name.partition('_')[2]} radii"
+    if column.startswith("grains"):
+        found = values_of(LaboratoryTest(run.folder))
+        height = found["height_over_r0"]
+        values = {"run-out over height": found["runout"] / found["aspect"], "height over radius": height}
+    else:
+        values = deposit_of_law(run)
+    for quantity, value in values.items():
+        yield ("collapse", at, quantity), value
 
 
 def wheel_values(run: Run) -> Iterator[tuple[Key, float]]:
@@ -334,9 +438,10 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
             continue
         for name, value in grain_values(run).items():
             packings.setdefault(element_key(run, name), []).append(value)
-    for run in runs.done("plate", "wheel"):
+    values_of_stage = {"plate": plate_values, "collapse": collapse_values, "wheel": wheel_values}
+    for run in runs.done(*values_of_stage):
         column, _, cell = run.name.partition("/")[2].partition("_")
-        for key, value in plate_values(run) if run.case.stage == "plate" else wheel_values(run):
+        for key, value in values_of_stage[run.case.stage](run):
             if column == "grains":
                 packings.setdefault(key, []).append(value)
             else:
@@ -345,5 +450,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     grains |= {key: (value, error) for key, value, error in wheel_of_grains()}
     rows = matrix(laws, coarse, grains)
     output.table("results.csv", rows)
+    for test in ("triaxial", "oedometer"):
+        output.table(f"{test}.csv", curves_of_grains(runs, test))
     draw(rows, output.path("matrix.png"))
     return []

@@ -5,8 +5,9 @@ determine each of them.
 Residuals: r = (model - measured)/deviation, or ln(model/measured)/deviation for relative data.
 Positive parameters are fitted in their logarithm, others in value/scale: z.
 Uncertainties come from the Jacobian J of the residuals by z at the solution: covariance =
-s² (JᵀJ)⁻¹. If the deviation of the data is unknown, s² = sum r²/(data - parameters), else s = 1.
-The covariance is linear: it is valid near the solution, for small errors.
+s² (JᵀJ)⁻¹. If the deviation of the data is unknown, s² = sum r²/(data - parameters).
+With known deviations s is that ratio too (Birge's) where it is above 1: the law misses the data by
+more than their deviations. The covariance is linear: it is valid near the solution, for small errors.
 """
 
 import math
@@ -132,6 +133,7 @@ class LawFit:
     rms_start: float
     rms: float  # of the residuals
     scatter: float  # s
+    known: bool  # the deviations of all curves
     correlation: Floats  # of the determined part
     singular_values: Floats  # of J, largest first
     directions: Floats  # column k: direction of singular value k in z
@@ -260,7 +262,8 @@ def _judge(residuals: _Residuals, z: Floats, at_end: Floats, slope: Floats) -> d
     names = [parameter.name for parameter in residuals.parameters]
     spare = len(at_end) - len(z)
     known = all(curve.deviation > 0 for curve in residuals.curves)
-    scatter = 1.0 if known or spare == 0 else math.sqrt(float(at_end @ at_end) / spare)
+    birge = math.sqrt(float(at_end @ at_end) / spare) if spare > 0 else 1.0
+    scatter = max(1.0, birge) if known else birge
 
     covariance = np.zeros((len(z), len(z)))
     left_open: dict[int, str] = {}  # parameter -> why it is not determined
@@ -305,6 +308,7 @@ def _judge(residuals: _Residuals, z: Floats, at_end: Floats, slope: Floats) -> d
     return {
         "parameters": tuple(fitted(i) for i in range(len(z))),
         "scatter": scatter,
+        "known": known,
         "correlation": correlation,
         "singular_values": singular,
         "directions": directions.T,

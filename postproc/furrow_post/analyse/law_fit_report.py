@@ -33,7 +33,9 @@ def report(point: PointCurves, fit: LawFit) -> str:
     lines += ["", f"  {'parameter':<24} {'start':>12} {'fitted':>12} {'deviation':>12}"]
     lines += map(_row, fit.parameters)
     scatter = ""
-    if fit.scatter != 1.0:
+    if fit.known and fit.scatter > 1.0:
+        scatter = f", times {fit.scatter:.3g}: so far the law misses the data, over their deviations"
+    elif fit.scatter != 1.0:
         scatter = f"; scatter of the data from the residuals, {fit.scatter:.3g}"
     singular = ", ".join(f"{value:.3g}" for value in fit.singular_values)
     lines += [

@@ -18,6 +18,7 @@ from .style import annotate_panel, panel_letters, save, use_style
 
 PATH, SURFACE, FIRST, MEASURED = "#c2410c", "#a9c3dd", "#7d97b3", "0.1"
 LINE_WIDTH = 1.6
+PANELS_IN_A_ROW = 5  # of a fit
 
 LABELS = {
     "axial_strain": "axial strain $\\varepsilon_1$ (logarithmic)",
@@ -203,14 +204,18 @@ def draw_fit(folder: Path) -> Path:
         ]
         parameters = {name: _attributes(group) for name, group in file["parameters"].items()}
     panels = len(curves) + 1
-    size = (3.6 * panels + 0.6, 3.6)
-    figure, axes = plt.subplots(1, panels, figsize=size, layout="constrained", squeeze=False)
-    letters = panel_letters()
-    for panel, curve in zip(axes[0], curves):
+    columns = min(panels, PANELS_IN_A_ROW)
+    rows = -(-panels // columns)
+    size = (3.6 * columns + 0.6, 3.6 * rows)
+    figure, grid = plt.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False)
+    axes, letters = list(grid.flat), panel_letters()
+    for panel, curve in zip(axes, curves):
         _draw_fitted_curve(panel, curve)
         annotate_panel(panel, next(letters), curve["name"])
-    _draw_parameters(axes[0][-1], parameters)
-    annotate_panel(axes[0][-1], next(letters), "parameters")
+    _draw_parameters(axes[panels - 1], parameters)
+    annotate_panel(axes[panels - 1], next(letters), "parameters")
+    for unused in axes[panels:]:
+        unused.set_axis_off()
     figure.suptitle(heading, x=0.01, ha="left", fontsize=11, fontweight="bold")
     target = folder / "fit.png"
     save(figure, target)

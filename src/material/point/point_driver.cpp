@@ -316,6 +316,10 @@ std::vector<PointChannel> point_channels(const Material& material) {
       [](const PointRecord& r) { return invariants(stress_of(r.state)).p; });
   add("q", "Pa", "Mises stress",
       [](const PointRecord& r) { return invariants(stress_of(r.state)).q; });
+  add("stress_ratio", "", "q/p; 0 without pressure", [](const PointRecord& r) {
+    const Invariants stress = invariants(stress_of(r.state));
+    return stress.p > 0.0 ? stress.q / stress.p : 0.0;
+  });
   add("density", "kg/m3", "rho0/J",
       [&material](const PointRecord& r) { return material.current_density(r.state); });
   add("branch", "", "0 elastic, 1 shear, 2 transition, 3 cap, 4 tension: of the step",

@@ -56,10 +56,11 @@ std::string names_of(const MaterialOptions& options) {
 
 }  // namespace
 
-FitParameter::FitParameter(const MaterialModel& model, const MaterialOptions& options,
-                           MaterialSections& sections, const FitParameterInput& input)
-    : name_(input.name) {
-  const std::string where = fmt::format("parameter '{}'", name_);
+MaterialNumber::MaterialNumber(const std::string& what, const std::string& name,
+                               const MaterialModel& model, const MaterialOptions& options,
+                               MaterialSections& sections)
+    : name_(name) {
+  const std::string where = fmt::format("{} '{}'", what, name_);
   const Place place = place_of(name_, where);
   const Key* key = key_of(model, options, place);
   if (!key || (key->kind != Key::Kind::number && key->kind != Key::Kind::numbers))
@@ -76,20 +77,8 @@ FitParameter::FitParameter(const MaterialModel& model, const MaterialOptions& op
   section_ = place.section;
   key_ = place.key;
   unit_ = key->unit;
-
-  start_ = input.start.value_or(values[place_]);
-  lower_ = std::max(input.lower, key->range.lower);
-  upper_ = std::min(input.upper, key->range.upper);
-  if (!(lower_ < upper_))
-    throw InputError(where, fmt::format("has the bounds {} and {}", lower_, upper_),
-                     "lower < upper, within " + key->range.text());
-  if (!key->range.contains(start_) || start_ < lower_ || start_ > upper_)
-    throw InputError(
-        where, fmt::format("starts at {}", start_),
-        fmt::format("a start in [{}, {}], within {}", lower_, upper_, key->range.text()));
-  if (start_ == 0.0 && !(std::isfinite(lower_) && std::isfinite(upper_)))
-    throw InputError(where, "starts at 0 without bounds, so its size is not known",
-                     "a start other than 0, or lower and upper");
+  range_ = key->range;
+  value_ = values[place_];
 
   std::vector<Entry>& entries = sections[section_];
   Entry entry{key_, {}};
@@ -102,9 +91,27 @@ FitParameter::FitParameter(const MaterialModel& model, const MaterialOptions& op
     *found = entry;
 }
 
-void FitParameter::put(MaterialSections& sections, const std::string& value) const {
+void MaterialNumber::put(MaterialSections& sections, const std::string& value) const {
   for (Entry& entry : sections.at(section_))
     if (entry.key == key_) entry.values.at(place_) = value;
+}
+
+FitParameter::FitParameter(const MaterialModel& model, const MaterialOptions& options,
+                           MaterialSections& sections, const FitParameterInput& input)
+    : MaterialNumber("parameter", input.name, model, options, sections) {
+  const std::string where = fmt::format("parameter '{}'", name());
+  start_ = input.start.value_or(value());
+  lower_ = std::max(input.lower, range().lower);
+  upper_ = std::min(input.upper, range().upper);
+  if (!(lower_ < upper_))
+    throw InputError(where, fmt::format("has the bounds {} and {}", lower_, upper_),
+                     "lower < upper, within " + range().text());
+  if (!range().contains(start_) || start_ < lower_ || start_ > upper_)
+    throw InputError(where, fmt::format("starts at {}", start_),
+                     fmt::format("a start in [{}, {}], within {}", lower_, upper_, range().text()));
+  if (start_ == 0.0 && !(std::isfinite(lower_) && std::isfinite(upper_)))
+    throw InputError(where, "starts at 0 without bounds, so its size is not known",
+                     "a start other than 0, or lower and upper");
 }
 
 std::vector<double> curve_of(const Material& material, const FitCurve& curve) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "material/point/point_path.h"
@@ -24,34 +25,52 @@ struct FitParameterInput {
 };
 
 /// A number of a material that may change.
-class FitParameter {
+class MaterialNumber {
  public:
+  /// @param what      what errors call it: "parameter"
   /// @param options   the material's values
-  /// @param sections  the same as text; the parameter's key is written into them, so that put()
-  /// finds it
-  /// @throws InputError for an unknown key, a list without place, bounds or a start outside the
-  /// key's range, a start at 0 whose size is not known
-  FitParameter(const MaterialModel& model, const MaterialOptions& options,
-               MaterialSections& sections, const FitParameterInput& input);
+  /// @param sections  the same as text; the number's key is written into them, so that put() finds
+  /// it
+  /// @throws InputError for an unknown key, or a list without place
+  MaterialNumber(const std::string& what, const std::string& name, const MaterialModel& model,
+                 const MaterialOptions& options, MaterialSections& sections);
 
   /// Writes a value, as text, into the sections.
   void put(MaterialSections& sections, const std::string& value) const;
 
   const std::string& name() const { return name_; }
   const std::string& unit() const { return unit_; }
+  const Range& range() const { return range_; }
+  double value() const { return value_; }  ///< of the material
+
+ private:
+  std::string name_, section_, key_, unit_;
+  std::size_t place_ = 0;  ///< in the key's values
+  Range range_;
+  double value_ = 0.0;
+};
+
+/// A number that a fit adjusts.
+class FitParameter : public MaterialNumber {
+ public:
+  /// @throws InputError as MaterialNumber; for bounds or a start outside the key's range, and for a
+  /// start at 0 whose size is not known
+  FitParameter(const MaterialModel& model, const MaterialOptions& options,
+               MaterialSections& sections, const FitParameterInput& input);
+
   double start() const { return start_; }
   double lower() const { return lower_; }  ///< -infinity without bound
   double upper() const { return upper_; }
 
  private:
-  std::string name_, section_, key_, unit_;
-  std::size_t place_ = 0;  ///< in the key's values
   double start_ = 0.0, lower_ = 0.0, upper_ = 0.0;
 };
 
 /// A measured curve: the last segments of its path end at the measured points.
 struct FitCurve {
   std::string name;
+  /// what the sample has of its own, and the value as text: "law.e0" and "0.58"
+  std::vector<std::pair<MaterialNumber, std::string>> sample;
   PointPath path;
   std::string driven_by, driven_unit;  ///< the path's targets
   std::vector<double> driven;

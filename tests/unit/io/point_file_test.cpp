@@ -181,5 +181,28 @@ TEST_F(PointFileTest, ParametersThatCannotBeFittedAreRefusedWithTheirLine) {
   EXPECT_EQ(refusal("law.beta"), "no error");
 }
 
+TEST_F(PointFileTest, SampleChangesItsCurveAlone) {
+  const auto fit = [&](const std::string& sample) {
+    const std::string curve =
+        "data: data.csv, path: {type: confined}, drive: {stress: sigma_Pa}, compare: {density: "
+        "rho}";
+    return "material: ground.yaml\nparameters: [{name: elasticity.nu}]\ncurves:\n  - {" + curve +
+           "}\n  - {sample: {" + sample + "}, " + curve + "}\n";
+  };
+  const PointFit read = read_point_fit(file("fit.yaml", fit("law.density: 2000")));
+  const std::vector<double> densities = curves_of(read, sections_with(read, {"0.25"}));
+  ASSERT_EQ(densities.size(), 4u);
+  EXPECT_DOUBLE_EQ(densities[2] / densities[0], 2.0);
+  EXPECT_DOUBLE_EQ(densities[3] / densities[1], 2.0);
+
+  EXPECT_THAT(fit_refusal(fit("law.beta: 20")),
+              HasSubstr("sample, 'law.beta' is no number of this material; allowed: "));
+  EXPECT_THAT(fit_refusal(fit("elasticity.nu: 0.1")),
+              HasSubstr("sample, 'elasticity.nu' is a parameter of the fit"));
+  EXPECT_THAT(fit_refusal(fit("law.density: [1, 2]")),
+              HasSubstr("sample, 'law.density' has 2 values; allowed: one number"));
+  EXPECT_THAT(fit_refusal(fit("law.density: -1")), HasSubstr("fit.yaml, line 5: "));
+}
+
 }  // namespace
 }  // namespace furrow::point_file_test

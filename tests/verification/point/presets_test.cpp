@@ -5,12 +5,14 @@
 #include <cmath>
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "io/csv_file.h"
 #include "io/material_file.h"
 #include "material/models/crushable_foam/crushable_foam.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
+#include "material/models/norsand/norsand.h"
 #include "material/point/point_driver.h"
 
 namespace furrow::presets_test {
@@ -106,12 +108,6 @@ TEST(Presets, DrySandFollowsTheOedometerOfItsGrains) {
   }
 }
 
-/// The sand of a packing in inputs/laboratory/records/sand_dry.csv.
-std::unique_ptr<Material> norsand_of(double pour_friction) {
-  const std::string density = pour_friction < 0.1 ? "dense" : pour_friction > 0.5 ? "loose" : "dry";
-  return file_of("norsand_" + density).make();
-}
-
 /// Triaxial compression from isotropic stress: q/p at axial strains, a multiple of 0.005 each.
 std::vector<double> stress_ratios(const Material& sand, double confinement,
                                   const std::vector<double>& strains) {
@@ -138,52 +134,41 @@ std::vector<double> stress_ratios(const Material& sand, double confinement,
   return ratios;
 }
 
-/// Peak and end of triaxial compression in three densities are within a tenth of those of the
-/// grains; the oedometer of the medium density within 15 % of the compression and 0.05 of K0.
+/// Peak and end of triaxial compression in three densities and at four pressures are within a tenth
+/// of those of the grains; the oedometer of the medium density within 15 % of the compression and
+/// 0.05 of K0.
 TEST(Presets, NorSandFollowsTheTestsOnItsGrains) {
-  const CsvTable table = CsvTable::read(inputs + "/laboratory/records/sand_dry.csv");
-  // An oedometer has no confinement, and the packing before the test has level 0.
-  const std::vector<double> friction = table.numbers("pour_friction"),
-                            confinement = table.numbers("confinement_Pa"),
-                            level = table.numbers("level"), ratio = table.numbers("ratio"),
-                            voids = table.numbers("void_ratio");
-  int packings = 0;
-  for (std::size_t row = 0; row < level.size(); ++row) {
-    if (confinement[row] == 0 || level[row] != 0) continue;
-    std::vector<double> strains, grains;
-    for (std::size_t k = row + 1; k < level.size() && level[k] > 0; ++k) {
-      strains.push_back(level[k]);
-      grains.push_back(ratio[k]);
+  const std::string folder = inputs + "/validation/one_sand/";
+  const CsvTable triaxial = CsvTable::read(folder + "triaxial.csv");
+  const std::vector<double> strains = triaxial.numbers("axial_strain");
+  const auto largest = [](const std::vector<double>& v) {
+    return *std::max_element(v.begin(), v.end());
+  };
+  for (const std::string packing : {"dense", "medium", "loose"})
+    for (const int confinement : {2000, 5000, 20000, 100000}) {
+      const auto sand = file_of("norsand_" + (packing == "medium" ? "dry" : packing)).make();
+      const std::vector<double> law = stress_ratios(*sand, confinement, strains);
+      const std::vector<double> grains =
+          triaxial.numbers(fmt::format("stress_ratio_{}_{}", packing, confinement));
+      EXPECT_NEAR(largest(law) / largest(grains), 1.0, 0.1) << packing << " " << confinement;
+      EXPECT_NEAR(law.back() / grains.back(), 1.0, 0.1) << packing << " " << confinement;
     }
-    const auto sand = norsand_of(friction[row]);
-    const std::vector<double> law = stress_ratios(*sand, confinement[row], strains);
-    const auto largest = [](const std::vector<double>& v) {
-      return *std::max_element(v.begin(), v.end());
-    };
-    EXPECT_NEAR(largest(law) / largest(grains), 1.0, 0.1)
-        << friction[row] << " " << confinement[row];
-    EXPECT_NEAR(law.back() / grains.back(), 1.0, 0.1) << friction[row] << " " << confinement[row];
-    ++packings;
-  }
-  EXPECT_EQ(packings, 6);
 
-  const auto sand = norsand_of(0.3);
-  double loose = 0;
-  std::vector<double> stresses;
-  for (std::size_t row = 0; row < level.size(); ++row) {
-    if (confinement[row] != 0 || friction[row] != 0.3) continue;
-    if (level[row] == 0) {
-      loose = voids[row];
-      continue;
-    }
-    stresses.push_back(level[row]);
-    if (level[row] < 5e3) continue;
-    const VectorX state = oedometer(*sand, stresses).records.back().state;
+  const CsvTable confined = CsvTable::read(folder + "oedometer.csv");
+  const std::vector<double> stresses = confined.numbers("axial_stress_Pa"),
+                            p = confined.numbers("p_Pa_medium"),
+                            voids = confined.numbers("void_ratio_medium");
+  const auto sand = file_of("norsand_dry").make();
+  const PointHistory history = oedometer(*sand, stresses);
+  const double start = history.records.front().state[NorSand::void_ratio];
+  for (std::size_t i = 1; i < stresses.size(); ++i) {  // contacts of the grains form below 5 kPa
+    const VectorX& state = history.records[200 * (i + 1)].state;
     const double compaction = std::log(sand->current_density(state) / sand->density());
-    EXPECT_NEAR(compaction / std::log((1 + loose) / (1 + voids[row])), 1.0, 0.15) << level[row];
-    EXPECT_NEAR(state[0] / state[2], ratio[row], 0.05) << level[row];
+    EXPECT_NEAR(compaction / std::log((1 + start) / (1 + voids[i])), 1.0, 0.15) << stresses[i];
+    const double K0 = (3 * p[i] / stresses[i] - 1) / 2;
+    if (stresses[i] > 1e5) continue;
+    EXPECT_NEAR(state[0] / state[2], K0, 0.05) << stresses[i];
   }
-  EXPECT_EQ(stresses.size(), 7u);
 }
 
 /// The curve that the clusters of the ground snow_bonded_field were calibrated on is this law's.

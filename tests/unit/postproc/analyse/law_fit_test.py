@@ -156,6 +156,17 @@ class FormulaTest(unittest.TestCase):
         expected = spread / math.sqrt(self.X @ self.X)
         self.assertAlmostEqual(fit.parameters[0].deviation / expected, 1.0, delta=1e-6)
 
+    def test_data_missed_by_more_than_their_deviation_widen_the_error(self) -> None:
+        off = np.array([0.01, -0.02, 0.01, 0.03, -0.01, 0.0])
+        slope = Parameter("slope", "", 1.0, -math.inf, math.inf)
+        unknown = self.fit(slope, 1 + 2 * self.X + off)
+        missed = self.fit(slope, 1 + 2 * self.X + off, deviation=0.01)
+        self.assertAlmostEqual(missed.parameters[0].deviation, unknown.parameters[0].deviation, delta=1e-9)
+        self.assertGreater(missed.scatter, 1.5)
+        met = self.fit(slope, 1 + 2 * self.X + off, deviation=0.1)
+        self.assertEqual(met.scatter, 1.0)
+        self.assertAlmostEqual(met.parameters[0].deviation, 0.1 / math.sqrt(self.X @ self.X), delta=1e-6)
+
     def test_uncertainties_are_those_of_repeated_measurements(self) -> None:
         """Over 120 repetitions the errors have the standard deviation that the fit states."""
         noise, repetitions = 5e-4, 120

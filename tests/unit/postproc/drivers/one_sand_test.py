@@ -4,6 +4,7 @@
 import math
 import unittest
 from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 
@@ -37,6 +38,27 @@ class MatrixTest(unittest.TestCase):
         found = study.compression(axial, 0.4 * axial, np.array([1500.0, 1515.0, 1560.0]))
         self.assertAlmostEqual(found["axial strain, 100 kPa"], math.log(1.04))
         self.assertAlmostEqual(found["K0, 10 kPa"], 0.4)
+
+    def test_heightmap_is_a_cylinder_in_the_middle(self) -> None:
+        lines = study.heightmap(0.42, 0.08).splitlines()
+        heights = np.array([[float(cell) for cell in line.split()] for line in lines[5:]])
+        self.assertEqual(heights.shape, (85, 85))
+        self.assertEqual(lines[2], "xllcenter -0.21")
+        np.testing.assert_array_equal(heights, heights[::-1, ::-1])
+        # a circle of 16 steps, counted in squares
+        self.assertAlmostEqual(heights.sum() / 0.08 / (math.pi * 16**2), 1.0, delta=0.02)
+
+    def test_deposit_ends_where_it_is_thin(self) -> None:
+        """A cone of 0.08 m height and 0.16 m radius on the layer: 5 mm thick at 0.15 m."""
+        step = 0.002
+        places = np.arange(-0.2, 0.2, step) + step / 2
+        x, y = (part.ravel() for part in np.meshgrid(places, places))
+        thickness = study.LAYER + np.maximum(0.08 - np.hypot(x, y) / 2, 0.0)
+        terrain = SimpleNamespace(x=np.column_stack([x, y, thickness]), volume=thickness * step**2)
+        with mock.patch.object(study.Terrain, "read", return_value=terrain):
+            found = study.deposit_of_law(SimpleNamespace(name="collapse_1/norsand_0.01", folder=None))
+        self.assertAlmostEqual(found["run-out over height"], (0.15 - 0.08) / 0.08, delta=0.03)
+        self.assertAlmostEqual(found["height over radius"], (0.08 - 0.02 / 3) / 0.08, delta=0.01)
 
 
 if __name__ == "__main__":
