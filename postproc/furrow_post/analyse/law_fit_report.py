@@ -34,7 +34,7 @@ def report(point: PointCurves, fit: LawFit) -> str:
     lines += map(_row, fit.parameters)
     scatter = ""
     if fit.known and fit.scatter > 1.0:
-        scatter = f", times {fit.scatter:.3g}: so far the law misses the data, over their deviations"
+        scatter = f", times {fit.scatter:.3g}, the factor by which the law misses the data"
     elif fit.scatter != 1.0:
         scatter = f"; scatter of the data from the residuals, {fit.scatter:.3g}"
     singular = ", ".join(f"{value:.3g}" for value in fit.singular_values)
