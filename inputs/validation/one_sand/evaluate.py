@@ -15,6 +15,7 @@ from furrow_post.analyse.evaluations import last_piece_of, pressure_near, steady
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_columns, read_rows
 from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
+from furrow_post.laboratory.deposit import outer_radius
 from furrow_post.laboratory.evaluation import values_of
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve
 from furrow_post.read.results import Results
@@ -318,9 +319,7 @@ def deposit_of_law(run: Run) -> dict[str, float]:
     radius = np.hypot(terrain.x[:, 0], terrain.x[:, 1])
     volume = np.histogram(radius, edges, weights=terrain.volume)[0]
     thickness = volume / (np.pi * np.diff(edges**2)) - LAYER
-    last = int(np.flatnonzero(thickness > THIN)[-1])
-    beyond = (thickness[last] - THIN) / (thickness[last] - thickness[last + 1])
-    runout = RING * (last + 0.5 + beyond) - COLUMN_RADIUS
+    runout = outer_radius(thickness, edges, THIN) - COLUMN_RADIUS
     middle = volume[:2].sum() / (np.pi * edges[2] ** 2) - LAYER
     return {"run-out over height": runout / (aspect * COLUMN_RADIUS), "height over radius": middle / COLUMN_RADIUS}
 

@@ -23,7 +23,7 @@ def collapse(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     edges = np.arange(0.0, distance.max() + 2 * diameter, diameter)
     height = thickness_profile(deposit, distance, edges, np.pi * np.diff(edges**2), fraction)
     final, wide, narrow = (
-        _outer_radius(height, edges, share * diameter, diameter) for share in (0.5, 0.25, 1.0)
+        outer_radius(height, edges, share * diameter) for share in (0.5, 0.25, 1.0)
     )
     near = deposit[distance < 2 * diameter]
     top = float(np.percentile(near[:, 2] + near[:, 3], 95))
@@ -87,11 +87,11 @@ def thickness_profile(
     return height
 
 
-def _outer_radius(height: Floats, edges: Floats, level: float, diameter: float) -> float:
-    """Where a profile of heights falls below a level for the last time [m]."""
+def outer_radius(height: Floats, edges: Floats, level: float) -> float:
+    """Where a profile of heights (m) in rings of one width falls below a level for the last time [m]."""
     centre = 0.5 * (edges[1:] + edges[:-1])
     last = int(np.flatnonzero(height > level)[-1])
     if last + 1 == len(height):
         return float(edges[-1])
     share = (height[last] - level) / (height[last] - height[last + 1])
-    return float(centre[last] + diameter * share)
+    return float(centre[last] + (centre[last + 1] - centre[last]) * share)
