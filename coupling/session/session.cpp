@@ -119,6 +119,7 @@ Session::~Session() {
 // ---- from outside
 
 long Session::step(long count) {
+  liggghts();  // must be there
   left_ = count;
   done_ = 0;
   interrupted_now_ = false;
@@ -154,7 +155,7 @@ void Session::close() {
 }
 
 std::shared_ptr<LAMMPS_NS::LAMMPS> Session::liggghts() const {
-  if (!liggghts_) throw Error("the simulation is closed");
+  if (!liggghts_) throw Error("the simulation is closed; open it again with furrow.Simulation");
   return liggghts_;
 }
 

@@ -40,7 +40,7 @@ class Session : private Driver {
   Session& operator=(const Session&) = delete;
 
   /// Runs steps, and the commands between runs. @return how many: fewer at the end of the script,
-  /// or when interrupted
+  /// or when interrupted @throws Error after close()
   long step(long count);
   long run() { return step(std::numeric_limits<long>::max()); }
   bool ended() const { return script_.ended(); }

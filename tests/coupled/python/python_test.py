@@ -234,8 +234,14 @@ class Arrays(Case):
         with opened(results="driven") as again:  # the folder of a closed simulation is free
             again.step(1)
         self.assertTrue(np.isfinite(kept).all())  # as long as an array lives, its memory does
-        with self.assertRaisesRegex(furrow.Error, "the simulation is closed"):
-            wheel.position
+        for use in (lambda: wheel.position, run.step, run.run, lambda: run.time, lambda: run.step_number,
+                    lambda: run.bodies, lambda: run.grains, lambda: run.folders, run.summary, lambda: run.outputs("soil"),
+                    lambda: run.variable("slip"), lambda: run.write_checkpoint("late")):
+            with self.assertRaisesRegex(furrow.Error, "the simulation is closed; open it again"):
+                use()
+        self.assertTrue(run.ended)
+        run.end()
+        run.close()
 
     def test_hub_is_that_of_the_history(self) -> None:
         with opened(results="driven") as run:
