@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Zones in the ground under a wheel at the end of a run: principal stresses, and flow.
+"""Zones in the ground under a wheel: principal stresses as mean of the last instants, and flow at the end of a run.
 
 x is counted from the axle, positive ahead; depth from the undisturbed surface.
 """
@@ -30,15 +30,6 @@ GREATEST = 20  # particles of a layer, of both halves, whose mean place is that 
 UNDER = (0.08, 0.03)  # [m] along and across, from the axle: under the contact
 BESIDE = (0.10, 0.20)  # [m] across, beyond the tyre's edge
 MOVING = 0.02  # of the wheel's speed: ground that counts as moving
-COARSE = "tyre_cap_38mm"  # the runs of the tyre that end at several instants
-SCATTERED = (
-    "compression_kPa",
-    "compression_ahead_mm",
-    "shear_kPa",
-    "shear_ahead_mm",
-    "largest_under_kPa",
-    "largest_beside_kPa",
-)  # of stress.csv
 MIDDLE = 0.05  # [m] to both sides of the middle plane where flow is looked at
 
 Row = dict[str, object]
@@ -127,17 +118,16 @@ def flow(folder: Path, speed: float) -> Row:
     return row
 
 
-def instants(rows: Sequence[Row]) -> list[Row]:
-    """By depth, the mean and standard deviation of each quantity over runs that end at different
-    instants. rows: of stress.csv, of runs that are equal otherwise."""
+def mean_of(instants: Sequence[Sequence[Row]]) -> list[Row]:
+    """Tables by depth at several instants -> one by depth: the mean of each quantity and, as NAME_error, the standard
+    error of that mean."""
     found: list[Row] = []
-    for depth in dict.fromkeys(row["depth_mm"] for row in rows):
-        mine = [row for row in rows if row["depth_mm"] == depth]
-        row: Row = {"run": mine[0]["run"], "depth_mm": depth, "instants": len(mine)}
-        for name in SCATTERED if len(mine) > 1 else ():
-            values = np.array([float(str(one[name])) for one in mine])
-            row[name] = round(float(values.mean()), 1)
-            row[f"{name}_deviation"] = round(float(values.std(ddof=1)), 1)
+    for layers in zip(*instants):
+        row: Row = {"depth_mm": layers[0]["depth_mm"], "instants": len(layers)}
+        for name in [name for name in layers[0] if name != "depth_mm"]:
+            values = np.array([float(str(layer[name])) for layer in layers])
+            row[name] = round(float(values.mean()), 2)
+            row[f"{name}_error"] = round(float(values.std(ddof=1) / np.sqrt(len(layers))), 2)
         found.append(row)
     return found
 
@@ -147,12 +137,12 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     for run in runs.done("tyre", "tyre_38mm", "wheel", "wheel_5cm"):
         row: Row = {"run": run.name, "what": run.what, "user_s": run.seconds}
         if run.case.stage.startswith("tyre"):
-            stress += [{**row, **layer} for layer in stresses(run.folder)]
+            instants = [stresses(folder) for folder in sorted(run.folder.glob("instant_*"))]
+            stress += [{**row, **layer} for layer in mean_of(instants)]
         else:
             zones.append({**row, **flow(run.folder, run.number("speed"))})
     for run in runs.done("tyre"):
-        draw_stress(run.folder, run.what, output.path(f"{run.name}.png"), dpi=80)
+        draw_stress(run.folder / "instant_1", run.what, output.path(f"{run.name}.png"), dpi=80)
     output.table("stress.csv", stress)
-    output.table("instants.csv", instants([row for row in stress if str(row["run"]).startswith(COARSE)]))
     output.table("flow.csv", zones)
     return []

@@ -59,18 +59,15 @@ class ZonesTest(FolderTest):
 
 
 class InstantsTest(unittest.TestCase):
-    def test_deviation_is_that_of_one_instant(self) -> None:
-        rows = [
-            {"run": f"run_{n}", "depth_mm": depth, **dict.fromkeys(zones.SCATTERED, depth + n)}
-            for n in (0, 1, 2)
-            for depth in (47, 84)
+    def test_mean_has_the_standard_error_of_its_instants(self) -> None:
+        instants: list[list[zones.Row]] = [
+            [{"depth_mm": depth, "shear_ahead_mm": depth + n} for depth in (47, 84)] for n in (0, 1, 2, 3)
         ]
-        first, second = zones.instants(rows)
+        first, second = zones.mean_of(instants)
         self.assertEqual((first["depth_mm"], second["depth_mm"]), (47, 84))
-        self.assertEqual((first["shear_ahead_mm"], second["shear_ahead_mm"]), (48.0, 85.0))
-        self.assertEqual(first["shear_ahead_mm_deviation"], 1.0)
-        (single,) = zones.instants(rows[:1])
-        self.assertNotIn("shear_ahead_mm_deviation", single)
+        self.assertEqual((first["shear_ahead_mm"], second["shear_ahead_mm"]), (48.5, 85.5))
+        # deviation of 0, 1, 2, 3: the square root of 5/3; of the mean of four: half of it
+        self.assertEqual(first["shear_ahead_mm_error"], 0.65)
 
 
 if __name__ == "__main__":
