@@ -120,14 +120,15 @@ def flow(folder: Path, speed: float) -> Row:
 
 def mean_of(instants: Sequence[Sequence[Row]]) -> list[Row]:
     """Tables by depth at several instants -> one by depth: the mean of each quantity and, as NAME_error, the standard
-    error of that mean."""
+    error of that mean; none of the angles."""
     found: list[Row] = []
     for layers in zip(*instants):
         row: Row = {"depth_mm": layers[0]["depth_mm"], "instants": len(layers)}
         for name in [name for name in layers[0] if name != "depth_mm"]:
             values = np.array([float(str(layer[name])) for layer in layers])
             row[name] = round(float(values.mean()), 2)
-            row[f"{name}_error"] = round(float(values.std(ddof=1) / np.sqrt(len(layers))), 2)
+            if not name.startswith("away"):
+                row[f"{name}_error"] = round(float(values.std(ddof=1) / np.sqrt(len(layers))), 2)
         found.append(row)
     return found
 
