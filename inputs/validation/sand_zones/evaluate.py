@@ -30,6 +30,7 @@ GREATEST = 20  # particles of a layer, of both halves, whose mean place is that 
 UNDER = (0.08, 0.03)  # [m] along and across, from the axle: under the contact
 BESIDE = (0.10, 0.20)  # [m] across, beyond the tyre's edge
 MOVING = 0.02  # of the wheel's speed: ground that counts as moving
+DRAWN = "brick_cap"  # the run of the figure
 MIDDLE = 0.05  # [m] to both sides of the middle plane where flow is looked at
 
 Row = dict[str, object]
@@ -142,8 +143,8 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
             stress += [{**row, **layer} for layer in mean_of(instants)]
         else:
             zones.append({**row, **flow(run.folder, run.number("speed"))})
-    for run in runs.done("tyre"):
-        draw_stress(run.folder / "instant_1", run.what, output.path(f"{run.name}.png"), dpi=80)
+        if run.name == DRAWN:
+            draw_stress(run.folder / "instant_1", run.what, output.path(f"{run.name}.png"), dpi=80)
     output.table("stress.csv", stress)
     output.table("flow.csv", zones)
     return []
