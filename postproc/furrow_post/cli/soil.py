@@ -77,7 +77,7 @@ def parser() -> argparse.ArgumentParser:
         help="diameters of the plates [m], by default 0.1 0.15 0.2, or 10 and 13 grains",
     )
     card.add_argument("--quick", action="store_true", help="coarse cells or one packing, and two loads: a first look")
-    card.add_argument("--gravity", type=positive, default=EARTH, help="[m/s2]")
+    card.add_argument("--gravity", type=positive, default=EARTH, help="of the tests [m/s2]")
     card.add_argument("--export", nargs="+", choices=EXPORTS, default=list(EXPORTS), help="formats")
     card.set_defaults(run=run_card)
     export = commands.add_parser("export", help="writes a card for vehicle codes, next to the card")
@@ -109,14 +109,12 @@ def _continuum_card(given: argparse.Namespace, ground: Path, folder: Path) -> So
 
 
 def _grain_card(given: argparse.Namespace, path: Path, folder: Path) -> SoilCard:
-    if given.gravity != EARTH:
-        raise ResultsError(f"--gravity: the beds of grains settle under {EARTH:g} m/s2; leave it out for {path.name}")
     ground = grains.read_ground(path)
     sizes = given.sizes or [part * ground.diameter for part in grains.SIZES]
     grains.require_sizes(sizes, ground)
     folder.mkdir(parents=True, exist_ok=True)
     with Runs() as runs:
-        bench = grains.GrainBench(ground, folder, max(sizes))
+        bench = grains.GrainBench(ground, folder, max(sizes), given.gravity)
         return make_grain_card(bench, sizes, grains.QUICK if given.quick else grains.FULL, given.export, runs)
 
 

@@ -25,7 +25,10 @@ RING = (18.0, 10.0)  # outer and inner diameter of the ring, in grains
 GROUSER = 1.0  # height of the grousers, in grains
 BARS, PARTS = 16, 4  # grousers around the ring; one part in so many of the way around is grouser
 HEIGHT = 5.0  # of the ring, in grains
+# On the Earth; in another gravity times and speeds keep the inertial number of the grains, so that rigid grains
+# without cohesion have one curve of pressure over gravity
 PRESS_TIME = 0.12  # [s] in which the ring is pressed before it turns
+ACCELERATE_TIME = 0.02  # [s] of every instrument
 PLATE_SPEED, RING_SPEED = 0.2, 0.12  # [m/s] of the middle of the ring
 PRESS_SPEED = 0.2  # [m/s] of the ring without load
 TURN = 2.0  # grains that the middle of the ring turns
@@ -154,6 +157,12 @@ class GrainBench:
     ground: GrainGround
     folder: Path
     largest: float  # [m] plate
+    gravity: float = EARTH  # [m/s2]
+
+    @property
+    def pace(self) -> float:
+        """Of speeds, over those on the Earth."""
+        return math.sqrt(self.gravity / EARTH)
 
     def _run(self, script: str, name: str, seed: int, values: dict[str, float], runs: Runs) -> Path:
         grain = self.ground.diameter
@@ -167,7 +176,8 @@ class GrainBench:
             width = RING_BED_WIDTH * grain
         elif script == "grain_cone":
             width, depth = (part * values["size"] for part in CONE_BED)
-        bed = {"width": width, "depth": depth, "face_friction": FACE_FRICTION}
+        bed = {"width": width, "depth": depth, "face_friction": FACE_FRICTION, "gravity": self.gravity}
+        bed["accelerate_time"] = ACCELERATE_TIME / self.pace
         content = self.ground.path.read_text(encoding="utf-8")
         return run_instrument(
             script, self._folder(name, seed), surroundings, content, {"seed": seed, **bed, **values}, runs
@@ -178,7 +188,7 @@ class GrainBench:
 
     def plate(self, size: float, seed: int, runs: Runs) -> PlateCurve:
         """A round plate of a diameter [m]."""
-        values = {"size": size, "sinkage": SINKAGE * size, "speed": PLATE_SPEED}
+        values = {"size": size, "sinkage": SINKAGE * size, "speed": PLATE_SPEED * self.pace}
         folder = self._run("grain_plate", plate_name(size), seed, values, runs)
         rows = read_curve(folder)
         return PlateCurve(0.5 * size, rows[:, 1], rows[:, 3])
@@ -186,16 +196,16 @@ class GrainBench:
     def ring(self, pressure: float, seed: int, runs: Runs) -> ShearCurve:
         """The ring under a mean pressure [Pa]."""
         outer, inner = (0.5 * part * self.ground.diameter for part in RING)
-        middle = mean_radius(outer, inner)
+        middle, speed = mean_radius(outer, inner), RING_SPEED * self.pace
         values = {
             "load": pressure * math.pi * (outer**2 - inner**2),
-            "press_speed": PRESS_SPEED,
-            "press_time": PRESS_TIME,
-            "spin": RING_SPEED / middle,
+            "press_speed": PRESS_SPEED * self.pace,
+            "press_time": PRESS_TIME / self.pace,
+            "spin": speed / middle,
             "angle": TURN * self.ground.diameter / middle,
         }
         folder = self._run("grain_ring", f"ring_{1e-3 * pressure:.3g}kPa", seed, values, runs)
-        return ring_curve(read_curve(folder), outer, inner, RING_SPEED, pressure)
+        return ring_curve(read_curve(folder), outer, inner, speed, pressure)
 
     def cones(self, effort: Packings, runs: Runs) -> list[GrainCone]:
         """Cones of several sizes on every packing; none on grains that stick."""
@@ -209,12 +219,12 @@ class GrainBench:
             "size": size,
             "angle": CONE_ANGLE,
             "depth_of_base": size,
-            "speed": CONE_SPEED,
+            "speed": CONE_SPEED * self.pace,
             "face_friction": CONE_FRICTION,
         }
         folder = self._run("grain_cone", f"cone_{1e3 * size:.0f}mm", seed, values, runs)
         curve = cone_curve(read_curve(folder), size).down_to(size)
-        return GrainCone(curve, grains, bulk_density(folder) * EARTH * size)
+        return GrainCone(curve, grains, bulk_density(folder) * self.gravity * size)
 
     def bulk_density(self, seeds: Sequence[int]) -> float:
         """Of the beds of the plates, mean [kg/m3]."""

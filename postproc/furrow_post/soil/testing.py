@@ -27,7 +27,7 @@ from .instruments import (
     ring_test,
 )
 from .page import Curves, draw_card, write_page
-from .units import EARTH, PLAUSIBLE
+from .units import PLAUSIBLE
 
 Part = TypeVar("Part")
 SINKAGE = 0.3  # of the diameter
@@ -116,7 +116,7 @@ def make_grain_card(
         bench.ground.path.name,
         bench.bulk_density(effort.seeds),
         steepest(plates),
-        EARTH,
+        bench.gravity,
         _result_of(lambda: fit_plates(plates)),
         shear,
         cone,
