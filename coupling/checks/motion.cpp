@@ -37,6 +37,9 @@ constexpr double straight = 1.0;  // [degrees] of gravity from straight down
 const Range usual_gravity = Range::closed(0.05, 30.0);
 // Load over width and length of the body [Pa]; tyres of lorries have 1e5, of aircraft 4e5.
 const Range usual_pressure = Range::closed(20.0, 5e5);
+// What hangs on an axle is part of its mass, and part of the load. So a wheel that is heavier than
+// a solid one of steel [kg/m^3], and than its load by this factor, has a mass in other units.
+constexpr double solid_steel = 7850.0, usual_lift = 1.5;
 // Between two values of one gravity, over the larger.
 constexpr double same_gravity = 2e-3, similar_gravity = 0.05;
 constexpr double same_pace = 1e-9;  // of speeds and times of two rigs
@@ -127,6 +130,19 @@ bool rolls_on(const Scene& scene, const FixWheelRig& rig, const FixTerrain& terr
   return std::any_of(contacts.begin(), contacts.end(), [&](const FixContactContinuum* contact) {
     return contact->uses(rig.wheel_fix()) && contact->uses(terrain);
   });
+}
+
+/// @return the key of a constant load, or ""
+const char* key_of_load(const Options& options) {
+  for (const char* name : {"load_mass", "load_force", "load"})
+    if (options.has(name)) return name;
+  return "";
+}
+
+/// [N]
+double load_from(const Options& options) {
+  const bool mass = options.has("load_mass");
+  return options.number(key_of_load(options)) * (mass ? options.number("gravity") : 1.0);
 }
 
 }  // namespace
@@ -398,14 +414,9 @@ Found sinkage_ends_above_the_base(const Scene& scene, FixContactContinuum& conta
 
 Found load_suits_the_body(const Scene&, const DrivenBody& driven) {
   const Options& options = driven.options;
-  const auto* key = [&] {
-    for (const char* name : {"load_mass", "load_force", "load"})
-      if (options.has(name)) return name;
-    return "";
-  }();
+  const char* key = key_of_load(options);
   if (!*key) return {};
-  const bool mass = options.has("load_mass");
-  const double load = options.number(key) * (mass ? options.number("gravity") : 1.0);
+  const double load = load_from(options);
   const Body& body = driven.body.body();
   const auto [lower, upper] = body.surface().bounds();
   const Vector3 size = upper - lower;
@@ -415,6 +426,20 @@ Found load_suits_the_body(const Scene&, const DrivenBody& driven) {
       "{} makes {:.4g} N, {:.3g} Pa over length and width of '{}'; wheels, tyres and plates have "
       "{} Pa; give kg or N, and its size in m",
       options.where(key), load, pressure, driven.body.id, usual_pressure.text()));
+}
+
+Found mass_suits_the_load(const Scene&, const DrivenBody& driven) {
+  const auto* wheel = dynamic_cast<const WheelHub*>(&driven.body.body());
+  if (!wheel || !*key_of_load(driven.options)) return {};
+  const double radius = wheel->nominal_radius(), mass = wheel->total_mass(),
+               load = load_from(driven.options), weight = mass * driven.options.number("gravity"),
+               density = mass / (pi * radius * radius * wheel->nominal_width());
+  if (density <= solid_steel || weight <= usual_lift * load) return {};
+  return warning(fmt::format(
+      "'{}' has {:.4g} kg, {:.3g} times the mass of a solid wheel of steel with its radius and "
+      "width, and {:.3g} times that of its load of {:.4g} N; check the mass in kg and the size in "
+      "m",
+      driven.body.id, mass, density / solid_steel, weight / load, load));
 }
 
 Found body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& driven) {

@@ -115,6 +115,7 @@ constexpr Rule rules[] = {
     rule<speed_suits_the_ground>(When::before_run),
     rule<sinkage_ends_above_the_base>(When::before_run),
     rule<load_suits_the_body>(When::before_run),
+    rule<mass_suits_the_load>(When::before_run),
     rule<body_passes_no_grain_in_a_step>(When::before_run),
     rule<body_starts_at_the_ground>(When::before_run),
     rule<ground_level_is_the_ground>(When::before_run),

@@ -94,6 +94,8 @@ Found speed_suits_the_ground(const Scene& scene, const DrivenBody& driven);
 Found sinkage_ends_above_the_base(const Scene& scene, FixContactContinuum& contact);
 /// Grams for kilograms, millimetres for metres.
 Found load_suits_the_body(const Scene& scene, const DrivenBody& driven);
+/// Grams for kilograms of a wheel or tyre; plates have no mass.
+Found mass_suits_the_load(const Scene& scene, const DrivenBody& driven);
 Found body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& driven);
 
 // ---- where things are (place.cpp)
