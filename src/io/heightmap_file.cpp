@@ -45,8 +45,10 @@ std::string read_text(const std::string& path) {
   const std::string head = bytes.substr(0, 4);
   if (head == std::string("II*\0", 4) || head == std::string("MM\0*", 4) ||
       head == std::string("II+\0", 4) || head == std::string("MM\0+", 4))
-    throw InputError(path, "is a GeoTIFF", formats,
-                     "convert it: gdal_translate -of AAIGrid in.tif out.asc");
+    throw InputError(
+        path, "is a GeoTIFF", formats,
+        "convert it: gdal_translate -of AAIGrid in.tif out.asc; for heights in feet add "
+        "-ot Float32 -scale 0 1 0 0.3048");
   return text_of_bytes(std::move(bytes), path, kind);
 }
 

@@ -32,7 +32,7 @@ def _raster(text: str) -> tuple[str, Path]:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("surrogate", type=path, help="file of furrow-post surrogate")
-    add("elevation", type=path, help="elevation model in metres, any raster that GDAL reads")
+    add("elevation", type=path, help="elevation model, any raster that GDAL reads; in metres, or with its unit in the file")
     add_target(parser, "folder to write: map.tif, map.png, mobility.csv", required=True)
     raster = "NAME=FILE, raster of a soil parameter; may be repeated"
     add("--raster", action="append", default=[], type=_raster, metavar="RASTER", help=raster)

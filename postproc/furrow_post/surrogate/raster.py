@@ -14,6 +14,12 @@ from ..errors import ResultsError
 from ..programs import optional_module
 
 NOTHING = -9999.0  # of cells without a value
+# [m] of the names that GDAL has for the unit of heights, EPSG 9001, 9002 and 9003; no name: metres
+HEIGHTS = {
+    **dict.fromkeys(("", "m", "metre", "meter"), 1.0),
+    **dict.fromkeys(("ft", "foot"), 0.3048),
+    **dict.fromkeys(("us-ft", "us survey foot"), 1200 / 3937),
+}
 
 
 @dataclass(frozen=True)
@@ -68,21 +74,26 @@ def read_raster(file: Path) -> Raster:
 
 
 def read_slope(file: Path) -> Raster:
-    """Steepest slope [degrees] of an elevation model in metres, by Horn's differences.
+    """Steepest slope [degrees] of an elevation model by Horn's differences. Lengths and heights have the units that
+    the file states, else metres.
 
     @raises ResultsError
     """
     gdal = _gdal()
     data = _open(gdal, file)
     projection = data.GetProjection()
-    if (
-        projection
-        and optional_module("osgeo.osr", "python3-gdal").SpatialReference(projection).IsGeographic()
-    ):
+    system = optional_module("osgeo.osr", "python3-gdal").SpatialReference(projection) if projection else None
+    if system and system.IsGeographic():
         raise ResultsError(
             f"{file}: has degrees of longitude and latitude; reproject it to metres by gdalwarp -t_srs EPSG:..."
         )
-    options = {"format": "MEM", "slopeFormat": "degree", "computeEdges": True}
+    unit, length = data.GetRasterBand(1).GetUnitType(), system.GetLinearUnits() if system else 1.0  # [m]
+    if unit.lower() not in HEIGHTS or (not unit and length != 1.0):
+        raise ResultsError(
+            f"{file}: has heights in '{unit}', and lengths in {length:.6g} m; allowed: heights in m, ft or us-ft, and for "
+            "lengths in m also no unit; write the unit of the heights by gdal_edit.py -units UNIT"
+        )
+    options = {"format": "MEM", "slopeFormat": "degree", "computeEdges": True, "scale": length / HEIGHTS[unit.lower()]}
     return _read(gdal.DEMProcessing("", data, "slope", **options))
 
 

@@ -5,11 +5,13 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from osgeo import gdal
+from osgeo import gdal, osr
 
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_numbers
+from furrow_post.errors import ResultsError
 from furrow_post.surrogate.mobility import Vehicle, evaluate, mobility_of, tabulate
+from furrow_post.surrogate.raster import read_slope
 from furrow_post.surrogate.training import HUB_DROP, PULL, TORQUE
 from support.command import run_post
 from support.folder import FolderTest
@@ -140,6 +142,39 @@ class MapTest(FolderTest):
             self.assertEqual(row["go_probability"] > 0.5, margin > 0)
             if margin > 0.01:
                 self.assertAlmostEqual(row["energy_J_per_m"], energy, delta=0.01 * energy)
+
+    def plane(self, system: str, unit: str, length: float, height: float) -> Path:
+        """A GeoTIFF of a plane that rises by 20 degrees; length, height: units [m]; system: of PROJ."""
+        file = self.folder / "plane.tif"
+        data = gdal.GetDriverByName("GTiff").Create(str(file), 8, 8, 1, gdal.GDT_Float64)
+        data.SetGeoTransform((5e5, 10.0 / length, 0.0, 4e6, 0.0, -10.0 / length))
+        reference = osr.SpatialReference()
+        reference.SetFromUserInput(system)
+        data.SetProjection(reference.ExportToWkt())
+        band = data.GetRasterBand(1)
+        band.WriteArray(np.tile(np.arange(8) * 10.0 * np.tan(np.radians(20.0)) / height, (8, 1)))
+        if unit:
+            band.SetUnitType(unit)
+        return file
+
+    def test_heights_have_the_unit_that_the_file_states(self) -> None:
+        """UTM in metres and New York in US survey feet; NAVD88 in metres, feet and US survey feet."""
+        foot, survey = 0.3048, 1200 / 3937
+        for system, unit, length, height in (
+            ("EPSG:32610", "", 1.0, 1.0),
+            ("EPSG:32610+5703", "", 1.0, 1.0),
+            ("EPSG:32610+8228", "", 1.0, foot),
+            ("EPSG:32610+6360", "", 1.0, survey),
+            ("EPSG:32610", "ft", 1.0, foot),
+            ("EPSG:2263+6360", "", survey, survey),
+            ("EPSG:2263", "m", survey, 1.0),
+        ):
+            with self.subTest(system=system, unit=unit):
+                slope = read_slope(self.plane(system, unit, length, height)).values[1:-1, 1:-1]
+                np.testing.assert_allclose(slope, 20.0, atol=1e-4)  # without GDAL's edges
+        for system, unit in (("EPSG:32610", "cm"), ("EPSG:2263", "")):
+            with self.assertRaisesRegex(ResultsError, f"has heights in '{unit}', and .*allowed: heights in m, ft or us-ft"):
+                read_slope(self.plane(system, unit, 1.0, 1.0))
 
     def test_faults_are_one_line(self) -> None:
         other = self.folder / "other.asc"
