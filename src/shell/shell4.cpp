@@ -2,14 +2,15 @@
 #include "shell/shell4.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/symmetric_eigenvalues.h"
 #include "shell/shell4_block.h"
 #include "simd/dispatch.h"
 
@@ -22,9 +23,7 @@ constexpr double folded_four_cos2 = 1.0;
 constexpr double stability_reserve = 0.9;  // for stretch, pressure and the turning of the axes
 
 double largest_eigenvalue(const Eigen::MatrixXd& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
+  return symmetric_eigenvalues(symmetric).maxCoeff();
 }
 
 /// Rotary inertia per mass of an element, and its highest frequency squared with it.
@@ -55,13 +54,19 @@ constexpr double same_stiffness = 1e-9;  // of the largest
 
 /// K of the mirror image (Shell4Mirror).
 Matrix24 mirror_image(const Matrix24& K) {
-  Matrix24 P = Matrix24::Zero();
+  std::array<int, 24> other;  // component of the node across the mirror
   for (int pair = 0; pair < 2; ++pair)
     for (int k = 0; k < 6; ++k) {
       const int own = 6 * Shell4Mirror::first[pair] + k, image = 6 * Shell4Mirror::second[pair] + k;
-      P(own, image) = P(image, own) = Shell4Mirror::sign[k];
+      other[static_cast<std::size_t>(own)] = image;
+      other[static_cast<std::size_t>(image)] = own;
     }
-  return P * K * P;
+  Matrix24 image;
+  for (int i = 0; i < 24; ++i)
+    for (int j = 0; j < 24; ++j)
+      image(i, j) = Shell4Mirror::sign[i % 6] * Shell4Mirror::sign[j % 6] *
+                    K(other[static_cast<std::size_t>(i)], other[static_cast<std::size_t>(j)]);
+  return image;
 }
 
 /// With e = u + P u and o = u - P u of the first node of each pair, and both of K's blocks between

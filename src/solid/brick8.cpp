@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "core/check_number.h"
 #include "core/error.h"
+#include "core/symmetric_eigenvalues.h"
 #include "simd/dispatch.h"
 #include "solid/brick8_block.h"
 
@@ -83,9 +83,7 @@ double highest_rate(Matrix24 K, const double (&inverse_mass)[8]) {
   for (Eigen::Index a = 0; a < 8; ++a)
     for (Eigen::Index b = 0; b < 8; ++b)
       K.block<3, 3>(3 * a, 3 * b) *= std::sqrt(inverse_mass[a] * inverse_mass[b]);
-  return Eigen::SelfAdjointEigenSolver<Matrix24>(K, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
+  return symmetric_eigenvalues(K).maxCoeff();
 }
 
 /// All but where its elements are. @param mass [kg] that each distinct node brings into the element

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "brick_model.h"
+#include "core/symmetric_eigenvalues.h"
 
 namespace furrow::test::rib_test {
 namespace {
@@ -69,9 +69,7 @@ class Rib {
         K.col(i).setZero();
         K(i, i) = ribbed().law.shear * width_;
       }
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly)
-               .eigenvalues()
-               .minCoeff() > 0.0;
+    return symmetric_eigenvalues(K).minCoeff() > 0.0;
   }
 
  private:
