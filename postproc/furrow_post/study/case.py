@@ -2,14 +2,20 @@
 """One run of a study: a program with its arguments, in a folder of its own."""
 
 import math
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
+from typing import Any
+
+import yaml
 
 from ..errors import ResultsError
 
 Value = str | float | int | Path
 
+YAML_NAMES = (".yaml", ".yml")
+LONGEST_NAME = 256  # letters; longer texts are no names of files
 FOLDER = "{folder}"  # in an argument, a variable or a file's text: the folder of the run
 
 
@@ -68,7 +74,50 @@ class Case:
         }
 
     def input_files(self) -> list[Path]:
-        """Files that the command line names: scripts, materials, tyres; and those of reads."""
+        """Files that the command line names: scripts, materials, tyres; those of reads; and what YAML files of them
+        name, as a material its base."""
         named = [Path(str(value)) for value in (*self.arguments, *self.variables.values())]
-        paths = dict.fromkeys((*named, *self.reads))
-        return [path for path in paths if path.is_absolute() and path.is_file()]
+        found: dict[Path, None] = {}
+        for path in (*named, *self.reads):
+            if path.is_absolute() and path.is_file():
+                _add_with_named(path, found)
+        for text in self.files.values():
+            for path in _named_in(text, Path("/")):
+                _add_with_named(path, found)
+        return list(found)
+
+
+def _add_with_named(path: Path, found: dict[Path, None]) -> None:
+    if path in found:
+        return
+    found[path] = None
+    if path.suffix in YAML_NAMES:
+        for named in _named_in(path.read_text(encoding="utf-8", errors="replace"), path.parent):
+            _add_with_named(named, found)
+
+
+def _named_in(text: str, folder: Path) -> Iterator[Path]:
+    """Files that values of a YAML text name; what is no YAML names none."""
+    for value in _words_of(text):
+        path = (folder / value).resolve()
+        if Path(value).suffix and path.is_file():
+            yield path
+
+
+@lru_cache(maxsize=None)
+def _words_of(text: str) -> tuple[str, ...]:
+    try:
+        return tuple(_texts(yaml.safe_load(text)))
+    except yaml.YAMLError:
+        return ()
+
+
+def _texts(content: Any) -> Iterator[str]:
+    """Single words of nested mappings and lists."""
+    if isinstance(content, dict):
+        content = list(content.values())
+    if isinstance(content, list):
+        for each in content:
+            yield from _texts(each)
+    elif isinstance(content, str) and "\n" not in content and len(content) < LONGEST_NAME:
+        yield content

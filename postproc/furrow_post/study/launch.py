@@ -14,7 +14,7 @@ from pathlib import Path
 from ..errors import Interrupted, ResultsError
 from .case import FOLDER, Case, Value
 from .claim import lock
-from .record import Record, digest, forget
+from .record import Record, digest, digests, forget
 
 # A study yields to other work; its runs end, with a checkpoint, when it is killed
 PREFIX = ("setpriv", "--pdeathsig", "TERM", "nice", "-n", "10")
@@ -99,7 +99,7 @@ def launch(case: Case, folder: Path, tools: Tools) -> Record:
     record = Record(
         job=case.identity(tools.root),
         program=digest(program),
-        inputs={path.name: digest(path) for path in case.input_files()},
+        inputs=digests(case.input_files()),
         commit=tools.commit(),
         started=started,
         wall_time=round(attempt.wall_time, 3),

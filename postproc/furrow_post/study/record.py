@@ -4,7 +4,7 @@
 import hashlib
 import json
 import shutil
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from functools import lru_cache
 from pathlib import Path
@@ -23,13 +23,25 @@ def digest(path: Path) -> str:
     return _digest(path, path.stat().st_mtime_ns)
 
 
+def digests(paths: Iterable[Path]) -> dict[str, str]:
+    """File name -> digest. Of files with one name the later ones have a number."""
+    found: dict[str, str] = {}
+    for path in paths:
+        name, count = path.name, 1
+        while name in found:
+            count += 1
+            name = f"{path.name} {count}"
+        found[name] = digest(path)
+    return found
+
+
 @dataclass(frozen=True)
 class Record:
     """One run as it was made."""
 
     job: Mapping[str, object]  # Case.identity
     program: str  # digest of the executable
-    inputs: Mapping[str, str]  # file name -> digest, of what the command line names
+    inputs: Mapping[str, str]  # file name -> digest, of Case.input_files
     commit: str  # of the source tree; "+" behind it: with changes; empty: none
     started: str  # UTC, ISO 8601
     wall_time: float  # [s]

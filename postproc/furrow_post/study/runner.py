@@ -12,7 +12,7 @@ from .case import Case
 from .claim import claimed
 from .launch import Tools, launch
 from .progress import Progress
-from .record import FAILED, FINISHED, Record, digest, read_record
+from .record import FAILED, FINISHED, Record, digest, digests, read_record
 
 LOOK_EVERY = 1.0  # [s] at what is running
 
@@ -67,9 +67,15 @@ class Runner:
             return None
         if self.same_program and record.program != digest(self.tools.program(case.program)):
             return None
-        if self.same_inputs and record.inputs != {p.name: digest(p) for p in case.input_files()}:
+        if self.same_inputs and record.inputs != digests(case.input_files()):
             return None
         return record
+
+    def changed(self, case: Case) -> list[str]:
+        """Input files that differ from those of the run, as far as its record has them."""
+        record = self.ended(case)
+        now = digests(case.input_files()) if record else {}
+        return [name for name, found in record.inputs.items() if now.get(name) != found] if record else []
 
     def state(self, case: Case) -> State:
         if self.record(case):

@@ -99,9 +99,21 @@ def carry_out(study: Study, parsed: argparse.Namespace) -> int:
         for case in chosen:
             print(f"{runner.state(case).value:8} {case.name:40} {case.what}".rstrip())
         return 0
+    _warn_of_changes(runner, chosen)
     if not parsed.evaluate:
         runner.run(chosen)
     return _evaluate(study, runner, chosen, parsed.check, parsed.merge)
+
+
+def _warn_of_changes(runner: Runner, cases: Sequence[Case]) -> None:
+    changed = [names for case in cases if (names := runner.changed(case))]
+    if changed:
+        names = ", ".join(sorted({name for each in changed for name in each}))
+        print(
+            f"WARNING: {len(changed)} runs in {runner.results} were made with other input files ({names}); remove their "
+            "folders to repeat them",
+            file=sys.stderr,
+        )
 
 
 def _evaluate(

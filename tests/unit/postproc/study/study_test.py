@@ -56,6 +56,15 @@ class StudyTest(unittest.TestCase):
         self.assertRegex(printed, r"missing +a1 +value 1\nmissing +b1 +value 2")
         self.assertEqual(self.tree.starts(), [])
 
+    def test_runs_of_other_input_files_are_kept_with_a_warning(self) -> None:
+        self.run_study(a1=1, a2=2)
+        self.assertNotIn("WARNING", self.run_study(a1=1, a2=2)[1])
+        self.tree.script.write_text("run 2\n")
+        printed = self.run_study(a1=1, a2=2, b1=1)[1]
+        self.assertIn("WARNING: 2 runs in ", printed)
+        self.assertIn("were made with other input files (made.lig); remove their folders to repeat them", printed)
+        self.assertEqual(self.tree.starts(), ["a1", "a2", "b1"])
+
     def test_selection_by_stage_and_pattern(self) -> None:
         self.run_study("a", a1=1, a2=1, b1=2)
         self.assertEqual(self.tree.starts(), ["a1", "a2"])

@@ -119,6 +119,20 @@ class CasesTest(unittest.TestCase):
         self.tree.script.write_text(SCRIPT + "run 1\n")
         self.assertEqual(len(self.runner().missing(again)), 2)
 
+    def test_a_point_is_made_again_when_the_base_of_its_material_changes(self) -> None:
+        """Also a base of a base, and one with the name of the material."""
+        (self.sand.parent / "variants").mkdir()
+        first, second = self.sand.parent / "variants" / "sand.yaml", self.sand.with_name("dry.yaml")
+        self.sand.write_text("base: variants/sand.yaml\nlaw: {d: 1}\n")
+        first.write_text("base: ../dry.yaml\n")
+        second.write_text("law: {d: 2}\n")
+        case = case_of(self.plan("value=1"), self.plan("value=1").points[0])
+        for file in (self.sand, first, second):
+            self.runner().run([case])
+            self.assertEqual(self.runner().missing([case]), [])
+            file.write_text(file.read_text() + "# changed\n")
+            self.assertEqual(self.runner().missing([case]), [case], file)
+
     def test_a_later_command_adds_points_of_the_same_scene(self) -> None:
         first = self.plan("value=1,2")
         first.write(self.results)
