@@ -7,7 +7,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -176,7 +175,7 @@ class Stepper {
         jacobian.col(j) =
             (residual_of(high) - residual_of(low)) / (h * (int(has_ahead) + int(has_behind)));
       }
-      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(jacobian);
+      Eigen::FullPivLU<Eigen::MatrixXd> factors(jacobian);
       factors.setThreshold(1e-13);
       if (factors.rank() < n)
         return describe(unknown, target, trial,
