@@ -163,6 +163,7 @@ class _Fit:
     def __post_init__(self) -> None:
         self.errors = np.array([MEASURED[name] for test in self.tests for name in test.measured])
         self.correction = np.zeros(len(self.errors))
+        self.known_states: dict[tuple[str, Mesh], States] = {}
 
     def values(self, x: Floats) -> dict[str, float]:
         return {
@@ -170,13 +171,16 @@ class _Fit:
             for (name, guess), shift in zip(self.start.items(), x)
         }
 
-    def states(self, x: Floats, mesh: Mesh) -> list[dict[str, float]]:
+    def states(self, x: Floats, mesh: Mesh) -> States:
         blank = {name: "" for name in self.start}
         try:
             sections = tyre_sections(self.known, self.values(x), blank)
         except ResultsError as error:
             raise NotAtRest(str(error)) from error
-        return self.solve(tyre_text("trial", [], sections), self.tests, mesh)
+        text = tyre_text("trial", [], sections)
+        if (text, mesh) not in self.known_states:
+            self.known_states[text, mesh] = self.solve(text, self.tests, mesh)
+        return self.known_states[text, mesh]
 
     def misfit(self, states: Sequence[dict[str, float]]) -> Floats:
         """Logarithms over measurements, in errors of a measurement."""
