@@ -108,9 +108,9 @@ def carry_out(study: Study, parsed: argparse.Namespace) -> int:
 def _warn_of_changes(runner: Runner, cases: Sequence[Case]) -> None:
     changed = [names for case in cases if (names := runner.changed(case))]
     if changed:
-        names = ", ".join(sorted({name for each in changed for name in each}))
+        every = ", ".join(sorted({name for each in changed for name in each}))
         print(
-            f"WARNING: {len(changed)} runs in {runner.results} were made with other input files ({names}); remove their "
+            f"WARNING: {len(changed)} runs in {runner.results} were made with other input files ({every}); remove their "
             "folders to repeat them",
             file=sys.stderr,
         )
