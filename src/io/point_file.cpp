@@ -302,12 +302,26 @@ MaterialSections sections_with(const PointFit& fit, const std::vector<std::strin
 }
 
 std::vector<double> curves_of(const PointFit& fit, const MaterialSections& sections) {
+  struct Driven {
+    const FitCurve& first;
+    std::unique_ptr<Material> material;
+    PointHistory history;
+  };
+  std::vector<Driven> paths;
   std::vector<double> points;
   for (const FitCurve& curve : fit.curves) {
-    MaterialSections of_sample = sections;
-    for (const auto& [number, value] : curve.sample) number.put(of_sample, value);
-    const auto material = make_material(fit.material.model, of_sample);
-    for (const double value : curve_of(*material, curve)) points.push_back(value);
+    auto driven = std::find_if(paths.begin(), paths.end(),
+                               [&](const Driven& each) { return share_a_path(each.first, curve); });
+    if (driven == paths.end()) {
+      MaterialSections of_sample = sections;
+      for (const auto& [number, value] : curve.sample) number.put(of_sample, value);
+      auto material = make_material(fit.material.model, of_sample);
+      PointHistory history = drive_point(*material, curve.path);
+      paths.push_back({curve, std::move(material), std::move(history)});
+      driven = std::prev(paths.end());
+    }
+    for (const double value : curve_of(*driven->material, driven->history, curve))
+      points.push_back(value);
   }
   return points;
 }

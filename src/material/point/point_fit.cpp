@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "material/point/point_driver.h"
 
 namespace furrow {
 
@@ -114,8 +113,25 @@ FitParameter::FitParameter(const MaterialModel& model, const MaterialOptions& op
                      "a start other than 0, or lower and upper");
 }
 
-std::vector<double> curve_of(const Material& material, const FitCurve& curve) {
-  const PointHistory history = drive_point(material, curve.path);
+bool share_a_path(const FitCurve& one, const FitCurve& other) {
+  const auto same_value = [](const auto& a, const auto& b) {
+    return a.first.name() == b.first.name() && a.second == b.second;
+  };
+  const auto same_segment = [](const PathSegment& a, const PathSegment& b) {
+    return a.control == b.control && a.target == b.target && a.steps == b.steps &&
+           a.duration == b.duration;
+  };
+  const PointPath &path = one.path, &path2 = other.path;
+  return std::equal(one.sample.begin(), one.sample.end(), other.sample.begin(), other.sample.end(),
+                    same_value) &&
+         path.motion == path2.motion && path.strain_from_switch == path2.strain_from_switch &&
+         path.tolerance == path2.tolerance &&
+         std::equal(path.segments.begin(), path.segments.end(), path2.segments.begin(),
+                    path2.segments.end(), same_segment);
+}
+
+std::vector<double> curve_of(const Material& material, const PointHistory& history,
+                             const FitCurve& curve) {
   const PointChannel channel = find_point_channel(material, curve.channel);
   const int first = static_cast<int>(curve.path.segments.size() - curve.measured.size()) + 1;
   std::vector<double> values;

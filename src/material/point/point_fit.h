@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "material/point/point_driver.h"
 #include "material/point/point_path.h"
 #include "material/registry.h"
 
@@ -81,7 +82,11 @@ struct FitCurve {
   double deviation = 0.0;
 };
 
-/// The channel at the measured points. @throws StateError when the path cannot be followed
-std::vector<double> curve_of(const Material& material, const FitCurve& curve);
+/// Whether one path of one sample has both curves.
+bool share_a_path(const FitCurve& one, const FitCurve& other);
+
+/// The channel at the measured points of a path that was driven.
+std::vector<double> curve_of(const Material& material, const PointHistory& history,
+                             const FitCurve& curve);
 
 }  // namespace furrow

@@ -181,6 +181,32 @@ TEST_F(PointFileTest, ParametersThatCannotBeFittedAreRefusedWithTheirLine) {
   EXPECT_EQ(refusal("law.beta"), "no error");
 }
 
+TEST_F(PointFileTest, CurvesOfOnePathAndSampleShareIt) {
+  const std::string drive = "data: data.csv, drive: {stress: sigma_Pa}, path: {type: confined";
+  const auto fit = [&](const std::vector<std::string>& curves) {
+    std::string text = "material: ground.yaml\nparameters: [{name: elasticity.nu}]\ncurves:\n";
+    for (const std::string& curve : curves) text += "  - {" + curve + "}\n";
+    return read_point_fit(file("fit.yaml", text));
+  };
+  const std::vector<std::string> curves = {
+      drive + "}, compare: {density: rho}", drive + "}, compare: {p: sigma_Pa}",
+      drive + ", steps: 3}, compare: {p: sigma_Pa}",
+      "sample: {law.density: 2000}, " + drive + "}, compare: {p: sigma_Pa}",
+      "sample: {law.density: 2000}, " + drive + "}, compare: {density: rho}"};
+  const PointFit whole = fit(curves);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_EQ(share_a_path(whole.curves[i], whole.curves[j]), (i == 1 && j == 0) || i + j == 7)
+          << i << j;
+  std::vector<double> apart;
+  for (const std::string& curve : curves) {
+    const PointFit one = fit({curve, drive + "}, compare: {density: rho}"});
+    const std::vector<double> values = curves_of(one, sections_with(one, {"0.25"}));
+    apart.insert(apart.end(), values.begin(), values.begin() + 2);
+  }
+  EXPECT_EQ(curves_of(whole, sections_with(whole, {"0.25"})), apart);
+}
+
 TEST_F(PointFileTest, SampleChangesItsCurveAlone) {
   const auto fit = [&](const std::string& sample) {
     const std::string curve =
