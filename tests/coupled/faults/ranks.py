@@ -73,7 +73,7 @@ def main(furrow, *mpirun):
           script=GRAINS + begun + "fix wheel all wheel/rigid diameter -1\n")
     timed(table, "killed", here, script=GRAINS + "run 10\n" + begun + GO_ON,
           meanwhile=lambda: subprocess.run(["kill", "-9", (table.folder / "pid").read_text().strip()], check=True))
-    timed(table, "too little memory", launch(mpirun, "ulimit -v 500000", furrow), "ERROR",
+    timed(table, "too little memory", launch(mpirun, "ulimit -v 400000", furrow), "ERROR",
           script=GRAINS + begun + "region more block -0.1 0.1 -0.1 0.1 0 0.2 units box\nlattice sc 0.0004\n"
                  "create_atoms 1 region more\n" + GO_ON)
 

@@ -3,6 +3,7 @@
 
     signals.py <furrow> [<mpirun -n>]
 
+Without a launcher the cases of one process, with it those of one rank of two.
 The grains of faults.py fall on a floor while a signal comes; the run that continues gives the same
 state, bit for bit, as a run without a break.
 """
@@ -83,12 +84,21 @@ def continues(furrow, table, name, number, status, launcher=()):
     table.expect(f"{name}: the same grains", got == state(table, "end") and len(got) > 100, "they differ")
 
 
-def main(furrow, *mpirun):
-    table = Table()
+ENDLESS = "shell touch going\nlabel again\nvariable x equal 1\njump SELF again\n"
+ENDS = ((signal.SIGTERM, 143), (signal.SIGINT, 130))
+
+
+def one_rank_of_two(furrow, table, launcher):
+    continues(furrow, table, "SIGTERM of one rank of two", signal.SIGTERM, 143, launcher)
+    for number, status in ENDS:
+        said = interrupted(furrow, table, ENDLESS, [number], launcher)
+        table.check(f"signal {number} in a loop, of one rank of two", said, status, "without a checkpoint")
+
+
+def one_process(furrow, table):
     continues(furrow, table, "SIGTERM", signal.SIGTERM, 143)
     continues(furrow, table, "SIGINT", signal.SIGINT, 130)
     continues(furrow, table, "SIGHUP", signal.SIGHUP, 129)
-    continues(furrow, table, "SIGTERM of one rank of two", signal.SIGTERM, 143, [*mpirun, "2"])
     said = interrupted(furrow, table, going(GRAINS, 100000000), [signal.SIGUSR1, signal.SIGTERM])
     table.check("SIGUSR1", said, 143)
     files = list(table.folder.glob("restart_forced*"))
@@ -101,13 +111,18 @@ def main(furrow, *mpirun):
     table.expect("without checkpoint: no file", not list(table.folder.glob("restart_forced*")), "there is one")
     said = interrupted(furrow, table, going(GRAINS, 500) , [signal.SIGPIPE])
     table.check("SIGPIPE is ignored", said, 0)
-    endless = "shell touch going\nlabel again\nvariable x equal 1\njump SELF again\n"
-    for number, status in ((signal.SIGTERM, 143), (signal.SIGINT, 130)):
-        said = interrupted(furrow, table, endless, [number])
+    for number, status in ENDS:
+        said = interrupted(furrow, table, ENDLESS, [number])
         table.check(f"signal {number} in a loop without a run", said, status, "without a checkpoint")
-        said = interrupted(furrow, table, endless, [number], [*mpirun, "2"])
-        table.check(f"signal {number} in a loop, of one rank of two", said, status, "without a checkpoint")
-    table.check("second signal", interrupted(furrow, table, endless, [signal.SIGTERM, signal.SIGTERM]), 143, "ends at once")
+    table.check("second signal", interrupted(furrow, table, ENDLESS, [signal.SIGTERM, signal.SIGTERM]), 143, "ends at once")
+
+
+def main(furrow, *mpirun):
+    table = Table()
+    if mpirun:
+        one_rank_of_two(furrow, table, [*mpirun, "2"])
+    else:
+        one_process(furrow, table)
     table.end()
 
 
