@@ -191,7 +191,7 @@ def matrix(laws: dict[str, Values]) -> list[dict[str, Any]]:
         for law, values in laws.items():
             row[law] = rounded(values[key]) if key in values else ""
         row |= {name: reference[name] for name in ("grains", "grains_error", "measured", "measured_to")}
-        row |= {name: reference[name] for name in ("goal", "kind", "label")}
+        row |= {name: reference[name] for name in ("goal", "kind", "label", "note")}
         for law, values in laws.items():
             value = values.get(key, math.nan)
             off = distance(value, reference)

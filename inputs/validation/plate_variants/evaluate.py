@@ -81,7 +81,7 @@ def laboratory_numbers(run: Run) -> Row:
 
 def row_of(run: Run) -> Row:
     """Its error, or what it cost and its numbers."""
-    row: Row = {"case": run.name, "what": run.what, "error": run.error}
+    row: Row = {"case": run.name, "what": run.what, "failure": run.error}
     if not run.error:
         row["user_s"] = run.seconds
         row.update(field_numbers(run) if run.case.stage == "field" else laboratory_numbers(run))

@@ -192,7 +192,7 @@ def row_of(run: Run) -> Row:
         "stage": run.case.stage,
         "what": run.what,
         "user_s": run.seconds,
-        "error": run.error,
+        "failure": run.error,
         "depth_m": run.case.variables["depth"],
         "cell_m": run.case.variables["cell"],
     }
@@ -232,7 +232,7 @@ def draw_depths(rows: Sequence[Row], path: Path) -> None:
             values = [nrmm(depth, density)[column] for depth in depths]
             axes.plot(depths, values, style, color="0.5", label=f"NRMM, {density:.0f} kg/m3")
         for pattern, mark, label in SERIES:
-            mine = [r for r in rows if fnmatch(r["run"], pattern) and not r["error"]]
+            mine = [r for r in rows if fnmatch(r["run"], pattern) and not r["failure"]]
             axes.plot([r["depth_m"] for r in mine], [r[what] for r in mine], mark, label=label)
         axes.set(xlabel="depth of the snow [m]", ylabel=title, ylim=(0, None))
         axes.grid(alpha=0.3)
@@ -244,7 +244,7 @@ def draw_depths(rows: Sequence[Row], path: Path) -> None:
 def effects(rows: Sequence[Mapping[str, Any]]) -> list[Row]:
     """How far sinkage and resistance move with absorbing faces, with friction [%], and the error of
     their averages over time."""
-    found = {row["run"]: row for row in rows if not row["error"]}
+    found = {row["run"]: row for row in rows if not row["failure"]}
     return [
         {"run": run, "of": base, **_change(found[run], found[base])}
         for run, base in EFFECTS.items()

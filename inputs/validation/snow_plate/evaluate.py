@@ -32,7 +32,7 @@ def row_of(run: Run) -> dict[str, Any]:
         "what": run.what,
         "user_s": run.seconds,
         "sinkage_reached_m": round(reached, 4),
-        "error": run.error,
+        "failure": run.error,
     }
     if run.error:
         return row

@@ -139,7 +139,7 @@ def row_of(run: Run) -> Row:
     row: Row = {
         "run": run.name.rpartition("/")[2],
         "user_s": run.seconds,
-        "error": run.error,
+        "failure": run.error,
         "remap_interval": int(run.record.variable("remap_interval")),
     }
     if run.error:
@@ -190,7 +190,7 @@ class Found:
 def numbers_of(row: Mapping[str, str]) -> Row:
     """The values of a stored row that are numbers, as such."""
     found: Row = dict(row)
-    for name in row.keys() - {"run", "stage", "what", "change", "error"}:
+    for name in row.keys() - {"run", "stage", "what", "change", "failure"}:
         found[name] = float(row[name]) if row[name] else ""
     return found
 
@@ -492,7 +492,7 @@ def computed(found: Found, names: Sequence[Sequence[str]], sinkage: str) -> Mapp
     """Quantity of SLOPE_GOAL -> values of these runs; empty where one is missing or failed.
     sinkage: the column that is read as such."""
     runs = [[found(name) for name in line] for line in names]
-    if not all(run and not run["error"] for line in runs for run in line):
+    if not all(run and not run["failure"] for line in runs for run in line):
         return {}
     columns = {what: sinkage if what == "sinkage_m" else what for what in SLOPE_GOAL}
     return {
@@ -603,7 +603,7 @@ def cell_table(cells: Mapping[str, float], known: Mapping[str, Mapping[str, Any]
         }
         for name, runs in CELL_SERIES.items()
         for run in runs
-        if run in known and not known[run]["error"]
+        if run in known and not known[run]["failure"]
     ]
 
 
@@ -640,7 +640,7 @@ def numerical_table(table: Sequence[Row], found: Callable[[str], Mapping[str, An
 
 def error_table(found: Found) -> tuple[list[Row], dict[str, Convergence]]:
     """Each change of one choice with the base; and what the sizes of cells come to."""
-    if ERROR_BASE not in found.runs or found(ERROR_BASE)["error"]:
+    if ERROR_BASE not in found.runs or found(ERROR_BASE)["failure"]:
         return [], {}
     names = [ERROR_BASE, *(name for name, run in found.runs.items() if run.case.stage == "error")]
     table = [
@@ -663,7 +663,7 @@ def error_table(found: Found) -> tuple[list[Row], dict[str, Convergence]]:
 
 def grid_series(table: Sequence[Row]) -> list[Row]:
     """Rows that differ in the cells alone: the base, and other sizes."""
-    sound = [r for r in table if not r["error"]]
+    sound = [r for r in table if not r["failure"]]
     return [r for r in sound if r["cell_m"] != 0.04 or r is table[0]]
 
 
@@ -711,7 +711,7 @@ def pressure_table(found: Found) -> Iterator[Row]:
     """The tyre at other pressures on 0.20 m of 220 kg/m3, with NRMM."""
     for pressure, name in PRESSURES.items():
         row = found(name)
-        if row and not row["error"]:
+        if row and not row["failure"]:
             sinkage = empirical.nrmm_sinkage(0.20, 220.0, pressure)
             resistance = empirical.nrmm_resistance(220.0, WIDTH, MEASURED_RADIUS, sinkage) / LOAD
             yield {

@@ -86,8 +86,8 @@ class Search:
         stresses = self.stresses(logs)
         found = [self.make(case_of(stresses, depth)) for depth in DEPTHS]
         for run in found:
-            if run["error"]:
-                raise ResultsError(f"{run['run']}: {run['error']}")
+            if run["failure"]:
+                raise ResultsError(f"{run['run']}: {run['failure']}")
         rows = [row for row in study.reference() if study.is_calibration(row)]
         depths = [row["depth_m"] for row in rows]
         trial: Trial = {"trial": len(self.trials), **dict(zip(SEARCHED, stresses))}

@@ -247,7 +247,7 @@ class IdentifyTest(unittest.TestCase):
             depth = float(str(case.variables["depth"]))
             sinkage = 0.1583 + 0.8 * (depth - 0.2) + 0.02 * off[0] + 0.01 * off[1]
             return {
-                "error": "",
+                "failure": "",
                 "run": case.name,
                 "sinkage_m": sinkage,
                 "resistance": 0.0717 + 0.03 * off[1] - 0.02 * off[0],
@@ -265,7 +265,7 @@ class CellsTest(unittest.TestCase):
 
     def run_row(self, rut: float, resistance: float) -> dict[str, Any]:
         names = {**dict.fromkeys(study.CELL_COLUMNS, 1.0), "rut_depth_m": rut}
-        return {**names, "resistance": resistance, "numerical": 0.1 * resistance, "error": ""}
+        return {**names, "resistance": resistance, "numerical": 0.1 * resistance, "failure": ""}
 
     def test_the_loss_is_a_share_of_the_resistance(self) -> None:
         name, (coarse, _, fine, _) = next(
@@ -292,7 +292,7 @@ class StoredTest(unittest.TestCase):
         return Runs([], Runner(Path("none"), Tools.of(SOURCE / "inputs", SOURCE / "build")))
 
     def test_a_stored_row_stands_for_a_run_that_is_not_there(self) -> None:
-        stored = {"run": "a", "what": "5", "error": "", "resistance": "0.07", "slip": ""}
+        stored = {"run": "a", "what": "5", "failure": "", "resistance": "0.07", "slip": ""}
         found = study.Found(self.runs(), [stored])
         self.assertEqual(found("a"), {**stored, "resistance": 0.07})
         self.assertEqual(found("b"), {})
