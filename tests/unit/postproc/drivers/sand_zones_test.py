@@ -60,7 +60,7 @@ class ZonesTest(FolderTest):
 
 class InstantsTest(unittest.TestCase):
     def test_mean_has_the_standard_error_of_its_instants(self) -> None:
-        instants: list[list[zones.Row]] = [
+        instants: list[list[dict[str, object]]] = [
             [{"depth_mm": depth, "shear_ahead_mm": depth + n} for depth in (47, 84)] for n in (0, 1, 2, 3)
         ]
         first, second = zones.mean_of(instants)
