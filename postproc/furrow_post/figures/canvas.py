@@ -12,6 +12,7 @@ from ..arrays import Floats, Integers
 from ..read.results import Surface
 
 NOTHING = -1  # of the objects, where a pixel shows none
+AT_ONCE = 200_000  # pixels of the rectangles around triangles, which limits the memory
 
 
 @dataclass
@@ -120,25 +121,35 @@ class Canvas:
         highest = np.minimum(highest, [self.width, self.height])
         sides = pixels[:, 1:, :2] - pixels[:, :1, :2]
         area = np.cross(sides[:, 0], sides[:, 1])
-        for t in np.flatnonzero((highest > lowest).all(axis=1) & (area != 0)):
-            column, row = np.meshgrid(
-                np.arange(lowest[t, 0], highest[t, 0]), np.arange(lowest[t, 1], highest[t, 1])
-            )
-            a, b, c = pixels[t, :, :2]
-            # barycentric coordinates of the pixels' middles
+
+        def weights(t: Integers, column: Integers, row: Integers) -> Floats:
+            """(3, n) barycentric coordinates of pixels' middles in triangles"""
+            a, b, c = pixels[t, :, :2].transpose(1, 2, 0)
             v = ((column - a[0]) * (c[1] - a[1]) - (row - a[1]) * (c[0] - a[0])) / area[t]
             w = ((b[0] - a[0]) * (row - a[1]) - (b[1] - a[1]) * (column - a[0])) / area[t]
-            u = 1 - v - w
-            inside = (u >= 0) & (v >= 0) & (w >= 0)
-            depth = u * pixels[t, 0, 2] + v * pixels[t, 1, 2] + w * pixels[t, 2, 2]
-            where = row * self.width + column
-            inside &= depth > self.depth[where]
-            where = where[inside]
-            self.depth[where] = depth[inside]
-            self.object[where] = first_object + t
-            if normal is not None:
-                mixed = np.stack([u[inside], v[inside], w[inside]], axis=1) @ normals[t]
-                normal[where] = mixed / np.linalg.norm(mixed, axis=1, keepdims=True)
+            return np.stack([1 - v - w, v, w])
+
+        drawn = np.flatnonzero((highest > lowest).all(axis=1) & (area != 0))
+        size = highest - lowest
+        batch = np.cumsum(size[drawn].prod(axis=1)) // AT_ONCE
+        for part in np.split(drawn, np.flatnonzero(np.diff(batch)) + 1):
+            which, number = counted(size[part].prod(axis=1))
+            t = part[which]
+            row, column = lowest[t, 1] + number // size[t, 0], lowest[t, 0] + number % size[t, 0]
+            share = weights(t, column, row)
+            # of triangles equally near the first is kept, as the last of the reversed ones
+            inside = np.flatnonzero((share >= 0).all(axis=0))[::-1]
+            t = t[inside]
+            depth = (share[:, inside] * pixels[t, :, 2].T).sum(axis=0)
+            where = row[inside] * self.width + column[inside]
+            self._keep_nearest(where, depth, first_object + t)
+        if normal is not None:
+            of_these = (self.object >= first_object) & (self.object < first_object + len(area))
+            seen = np.flatnonzero(of_these)
+            t = self.object[seen] - first_object
+            share = weights(t, seen % self.width, seen // self.width)
+            mixed = (share.T[..., None] * normals[t]).sum(axis=1)
+            normal[seen] = mixed / np.linalg.norm(mixed, axis=1, keepdims=True)
 
     def world_points(self, pixels: Integers) -> Floats:
         """(n, 3) The points that n pixels show; at infinity where they show none."""
@@ -149,6 +160,13 @@ class Canvas:
         shown: Floats = np.column_stack([right, up, self.depth[pixels]])
         points: Floats = shown @ axes
         return points
+
+
+def counted(counts: Integers) -> tuple[Integers, Integers]:
+    """For counts (2, 3) the groups 0 0 1 1 1, and numbers in each group 0 1 0 1 2."""
+    which = np.repeat(np.arange(len(counts)), counts)
+    number = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
+    return which, number
 
 
 def top_heights(x: Floats, radius: Floats, low: Floats, high: Floats, cell: float) -> Floats:

@@ -6,7 +6,7 @@ from scipy.ndimage import uniform_filter
 
 from ..arrays import Floats
 from ..read.results import Surface
-from .canvas import NOTHING, Canvas, View
+from .canvas import NOTHING, Canvas, View, counted
 
 SUPERSAMPLE = 2  # pixels of the canvas along each side of one of the picture
 SURFACE_COLOUR = (0.36, 0.40, 0.45)
@@ -22,16 +22,17 @@ def corner_normals(surface: Surface, crease: float = 40.0) -> Floats:
     corners = x[triangles]
     face = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     unit = face / np.maximum(np.linalg.norm(face, axis=1, keepdims=True), 1e-300)
-    around: list[list[int]] = [[] for _ in range(len(x))]
-    for t, nodes in enumerate(triangles):
-        for node in nodes:
-            around[node].append(t)
-    normals = np.empty((len(triangles), 3, 3))
+    # each corner with all corners at its node, which are sorted by node
+    node = triangles.ravel()
+    at_node = np.bincount(node, minlength=len(x))
+    sorted_corners = np.argsort(node, kind="stable")
+    corner, number = counted(at_node[node])
+    near = sorted_corners[(np.cumsum(at_node) - at_node)[node[corner]] + number] // 3
     limit = np.cos(np.radians(crease))
-    for t, nodes in enumerate(triangles):
-        for k, node in enumerate(nodes):
-            near = around[node]
-            normals[t, k] = face[near][unit[near] @ unit[t] > limit].sum(axis=0)
+    smooth = (unit[near] * unit[corner // 3]).sum(axis=1) > limit
+    corner, near = corner[smooth], near[smooth]
+    sums = [np.bincount(corner, face[near, k], len(node)) for k in range(3)]
+    normals = np.stack(sums, axis=1).reshape(-1, 3, 3)
     length = np.linalg.norm(normals, axis=2, keepdims=True)
     unit_normals: Floats = normals / np.maximum(length, 1e-300)
     return unit_normals
