@@ -66,6 +66,10 @@ WHEEL: dict[str, tuple[dict[str, float], str]] = {  # -> variables, place in the
     "1.5 times the load": ({"load": 4680}, "load=4680"),
     "twice the speed": ({"speed": 2}, "speed=2"),
 }  # fmt: skip
+ANGLE = 15  # [degrees] of slip of the whole wheel
+ANGLE_AT = f"slip 0, slip angle {ANGLE} degrees"
+ANGLE_GRAINS = {0.03: SEEDS, 0.04: SEEDS}  # [m] -> packings
+ANGLED: dict[str, Value] = {"slip_angle": ANGLE, "distance": 0.8}  # [degree], [m]
 GOALS = {  # quantity -> allowed difference, and how it is measured
     "sin phi at peak": (0.10, "relative"),
     "sin phi at end": (0.10, "relative"),
@@ -77,6 +81,7 @@ GOALS = {  # quantity -> allowed difference, and how it is measured
     "run-out over height": (0.20, "relative"),
     "height over radius": (0.20, "relative"),
     "hub drop": (0.03, "relative"),
+    "lateral force over load": (0.15, "relative"),
     "resistance coefficient": (0.01, "absolute"),
 }
 FITTED = {  # what each law was fitted to
@@ -191,10 +196,20 @@ def body_cases() -> Iterator[Case]:
                 wheel: dict[str, Value] = {**given, "cell": cell, **variables}
                 name = f"wheel_{number}/{law}_{cell}"
                 yield script_case(name, CROSSCHECK / "wheel_continuum.lig", wheel, files=files, stage="wheel")
+        for cell in CELLS["wheel"]:
+            turned: dict[str, Value] = {**given, **ANGLED, "cell": cell, "symmetry": "no"}
+            yield script_case(f"angle/{law}_{cell}", CROSSCHECK / "wheel_continuum.lig", turned, files=files, stage="angle")
+
+
+def angle_of_grains_cases() -> Iterator[Case]:
+    for size, seeds in ANGLE_GRAINS.items():
+        for seed in seeds:
+            turned: dict[str, Value] = {"here": CROSSCHECK, **ANGLED, "diameter": size, "seed": seed}
+            yield script_case(f"angle/grains_{size}_{seed}", CROSSCHECK / "wheel_sand_grains.lig", turned, stage="angle")
 
 
 def cases() -> list[Case]:
-    return [*law_cases(), *grain_cases(), *body_cases()]
+    return [*law_cases(), *grain_cases(), *body_cases(), *angle_of_grains_cases()]
 
 
 def strength_of_law(run: Run, driven: str) -> dict[str, float]:
@@ -344,6 +359,22 @@ def wheel_values(run: Run) -> Iterator[tuple[Key, float]]:
     yield ("wheel", at, "resistance coefficient"), means["resistance"]
 
 
+def angle_values(run: Run) -> Iterator[tuple[Key, float]]:
+    columns = Results(run.folder).columns
+    means = steady_columns(columns, WINDOW)
+    last = columns["x"] > columns["x"][-1] - WINDOW
+    side = abs(float((columns["lateral_force"][last] / columns["load"][last]).mean()))
+    yield ("wheel", ANGLE_AT, "hub drop"), means["sinkage_m"]
+    yield ("wheel", ANGLE_AT, "resistance coefficient"), means["resistance"]
+    yield ("wheel", ANGLE_AT, "lateral force over load"), side
+
+
+def fine_grains(sizes: Mapping[float, Sequence[float]]) -> tuple[float, float]:
+    """Mean of the packings of the finest grains. Its error has their scatter and the step from coarser grains."""
+    fine, coarse = (mean(sizes[size]) for size in sorted(sizes)[:2])
+    return fine, math.hypot(mean_of_packings(sizes[min(sizes)])[1], fine - coarse)
+
+
 def wheel_of_grains() -> Iterator[tuple[Key, float, float]]:
     """Values of the cross-check for fine grains, with their standard errors."""
     rows = {
@@ -445,7 +476,16 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
                 packings.setdefault(key, []).append(value)
             else:
                 (laws if float(cell) == CELLS[key[0]][0] else coarse)[column][key] = value
+    angled: dict[Key, dict[float, list[float]]] = {}
+    for run in runs.done("angle"):
+        column, size = run.name.partition("/")[2].split("_")[:2]
+        for key, value in angle_values(run):
+            if column == "grains":
+                angled.setdefault(key, {}).setdefault(float(size), []).append(value)
+            else:
+                (laws if float(size) == CELLS["wheel"][0] else coarse)[column][key] = value
     grains = {key: mean_of_packings(values) for key, values in packings.items()}
+    grains |= {key: fine_grains(sizes) for key, sizes in angled.items() if len(sizes) > 1}
     grains |= {key: (value, error) for key, value, error in wheel_of_grains()}
     rows = matrix(laws, coarse, grains)
     output.table("results.csv", rows)
