@@ -67,7 +67,7 @@ WHEEL: dict[str, tuple[dict[str, float], str]] = {  # -> variables, place in the
     "twice the speed": ({"speed": 2}, "speed=2"),
 }  # fmt: skip
 ANGLE = 15  # [degrees] of slip of the whole wheel
-ANGLE_AT = f"slip 0, slip angle {ANGLE} degrees"
+ANGLE_AT = f"slip angle {ANGLE} degrees"
 ANGLE_GRAINS = {0.03: SEEDS, 0.04: SEEDS}  # [m] -> packings
 ANGLED: dict[str, Value] = {"slip_angle": ANGLE, "distance": 0.8}  # [degree], [m]
 GOALS = {  # quantity -> allowed difference, and how it is measured
