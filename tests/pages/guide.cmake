@@ -10,6 +10,9 @@ endfunction()
 
 file(GLOB howto RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/inputs/guide/howto/*.md
      ${PROJECT_SOURCE_DIR}/inputs/guide/*.md)
+list(REMOVE_ITEM howto inputs/guide/howto/python.md)  # starts two ranks
+guide_test(howto_python ${PROJECT_BINARY_DIR} inputs/guide/howto/python.md)
+furrow_ranks(pages.howto_python 2)
 guide_test(howto ${PROJECT_BINARY_DIR} ${howto})
 set_tests_properties(pages.howto PROPERTIES COST 200)  # the longest start first
 set(tutorial inputs/guide/tutorials)
