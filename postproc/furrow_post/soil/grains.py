@@ -38,6 +38,7 @@ WIDTH_OF_PLATE, DEPTH_OF_PLATE = 2.1, 0.8  # least width and depth of a bed over
 CONE_SPEED, CONE_FRICTION = 0.4, 0.3  # [m/s]; of steel and grains
 CONE_BED = (5.0, 3.5)  # width and depth of the bed of a cone over the diameter of its base
 LOADS = (0.06, 0.12, 0.24)  # of the ring, over what the smallest plate carries
+STICKING_LOADS = (0.06, 0.12)  # the same on grains that stick: a larger load presses the ring into the snow
 FAMILIES = ("sand", "snow_bonded")  # beds of the laboratory that have room for plates and ring
 SEEDS = (86028121, 49979687)  # of the packings
 FACE_FRICTION = 0.5  # of plates, ring and grains

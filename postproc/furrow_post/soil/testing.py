@@ -15,7 +15,7 @@ from ..read.soil_card import Cone, NoResult, Shear, SoilCard, write_card
 from .exports import EXPORTS
 from .fits import ShearCurve, cone_index, fit_plates, fit_shear
 from .grain_cone import cone_notes, fit_grain_cones, widest
-from .grains import NO_CONE_ON_SNOW, GrainBench, Packings, grain_notes, steepest
+from .grains import NO_CONE_ON_SNOW, STICKING_LOADS, GrainBench, Packings, grain_notes, steepest
 from .instruments import (
     FAST_RING_PACE,
     RING_PACE,
@@ -107,7 +107,8 @@ def make_grain_card(
     @raises ResultsError, Stopped, Failed"""
     plates = [bench.plate(size, seed, runs) for seed in effort.seeds for size in sizes]
     carried = carried_pressure(plates)
-    rings = [bench.ring(load * carried, seed, runs) for seed in effort.seeds for load in effort.loads]
+    loads = STICKING_LOADS if bench.ground.sticks else effort.loads
+    rings = [bench.ring(load * carried, seed, runs) for seed in effort.seeds for load in loads]
     shear = _result_of(lambda: fit_shear(rings))
     cones = bench.cones(effort, runs)
     cone: Cone | NoResult = fit_grain_cones(cones) if cones else NO_CONE_ON_SNOW

@@ -110,6 +110,17 @@ class LibraryTest(unittest.TestCase):
         self.assertEqual(len(logarithms), 2)
         self.assertLess(math.sqrt(float(np.mean(np.square(logarithms)))), misfit)
 
+    def test_plates_on_bonded_grains_agree_with_the_law_of_that_snow(self) -> None:
+        """Neither was fitted to a plate. The page has the pressures under a plate of 200 mm."""
+        page = (SOILS / "README.md").read_text(encoding="utf-8")
+        names = ("snow_bonded", "snow", "fresh_snow_cam_clay")
+        grains, law, clay = (read_card(SOILS / f"{name}.yaml").bekker_and_shear()[0] for name in names)
+        for millimetres in (10, 20, 40):
+            sinkage = np.array(1e-3 * millimetres)
+            row = [float(plate.at(sinkage, 0.1)) for plate in (grains, law, clay)]
+            self.assertLess(abs(row[1] / row[0] - 1), 0.06)
+            self.assertIn(f"| {millimetres} | " + " | ".join(f"{1e-3 * pressure:.1f}" for pressure in row) + " |", page)
+
     def test_the_width_of_the_ring_on_a_cohesive_sand(self) -> None:
         """The cohesion of the fit is that of the law within its error. With the angle of the law, two speeds give
         the width that shears."""
