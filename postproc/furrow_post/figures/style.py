@@ -56,6 +56,11 @@ def annotate_panel(axes: Axes, letter: str, text: str) -> None:
 
 def save(figure: Figure, target: Path, dpi: float = 150) -> None:
     """Writes and closes a figure; the ending of target says the format."""
+    if engine := figure.get_layout_engine():
+        # with an engine savefig draws twice, the first time for the layout alone
+        figure.dpi = dpi
+        engine.execute(figure)
+        figure.set_layout_engine(None)
     figure.savefig(target, dpi=dpi)
     plt.close(figure)
 
