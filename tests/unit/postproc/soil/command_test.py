@@ -15,7 +15,7 @@ TRUTH = {"k_c": -4e3, "k_phi": 5e5, "n": 0.6, "c": 400.0, "phi": 30.0, "K": 0.00
 CONE = (2e4, 8e5)  # [Pa] at the surface, [Pa/m]
 GRAIN_CONE = 30.0  # index over weight density and size, of grains without size
 SPEED_STRESS = 500.0  # [Pa] at 1 m/s, by the root of the speed
-STAND_IN = """#!/usr/bin/python3
+STAND_IN = """#!/usr/bin/python3 -S
 import math, sys
 words = sys.argv
 values = {words[k + 1]: words[k + 2] for k, word in enumerate(words) if word == "-var"}

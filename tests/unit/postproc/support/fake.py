@@ -10,7 +10,7 @@ from furrow_post.study.launch import Tools
 
 # Variables: sleep [s], fail (message), status, signal (number), value, checkpoint. Every start adds
 # a line to starts.txt in the build folder.
-PROGRAM = """#!{python}
+PROGRAM = """#!{python} -S
 import os, pathlib, sys, time
 words = sys.argv[1:]
 v = dict(zip(*[iter(w for i, w in enumerate(words) if "-var" in words[max(i - 2, 0):i])] * 2))
