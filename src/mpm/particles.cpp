@@ -120,11 +120,13 @@ void Particles::reorder(const std::vector<std::size_t>& order) {
     }
   }
   for_each_column([&](Column& c) {
-    const auto n = static_cast<std::size_t>(c.components);
-    scratch_.resize(order.size() * n);
-    for (std::size_t i = 0; i < order.size(); ++i)
-      std::copy_n(c.values.data() + n * order[i], n, scratch_.data() + n * i);
-    c.values.swap(scratch_);
+    if (c.components == 1) {
+      scratch_.resize(order.size());
+      for (std::size_t i = 0; i < order.size(); ++i) scratch_[i] = c.values[order[i]];
+      c.values.swap(scratch_);
+    } else {
+      c.values = rows_of(c, order, 0, order.size());
+    }
   });
   size_ = order.size();
 }
@@ -132,12 +134,24 @@ void Particles::reorder(const std::vector<std::size_t>& order) {
 void Particles::reorder_some(const std::vector<std::size_t>& order, std::size_t first,
                              std::size_t last) {
   for_each_column([&](Column& c) {
-    const auto n = static_cast<std::size_t>(c.components);
-    scratch_.resize((last - first) * n);
-    for (std::size_t i = first; i < last; ++i)
-      std::copy_n(c.values.data() + n * order[i], n, scratch_.data() + n * (i - first));
-    std::copy(scratch_.begin(), scratch_.end(), c.values.data() + n * first);
+    const std::vector<double> moved = rows_of(c, order, first, last);
+    std::copy(moved.begin(), moved.end(),
+              c.values.data() + static_cast<std::size_t>(c.components) * first);
   });
+}
+
+/// Values of the particles order[first] ... order[last - 1]. Not in scratch_: columns swap with it,
+/// and all would get the memory of the column with most components.
+std::vector<double> Particles::rows_of(const Column& column, const std::vector<std::size_t>& order,
+                                       std::size_t first, std::size_t last) {
+  const auto n = static_cast<std::size_t>(column.components);
+  std::vector<double> rows;
+  rows.reserve((last - first) * n);
+  for (std::size_t i = first; i < last; ++i) {
+    const double* row = column.values.data() + n * order[i];
+    rows.insert(rows.end(), row, row + n);
+  }
+  return rows;
 }
 
 void Particles::pack(std::size_t i, std::vector<double>& buffer) const {

@@ -120,6 +120,8 @@ class Particles {
 
  private:
   void reorder_some(const std::vector<std::size_t>& order, std::size_t first, std::size_t last);
+  static std::vector<double> rows_of(const Column& column, const std::vector<std::size_t>& order,
+                                     std::size_t first, std::size_t last);
   std::vector<double> zeros(int components) const {
     return std::vector<double>(size_ * static_cast<std::size_t>(components), 0.0);
   }
@@ -141,7 +143,7 @@ class Particles {
 
   std::vector<Column> columns_;
   std::vector<std::shared_ptr<AddedColumn>> added_;  // each shared with its handle, if there is one
-  std::vector<double> scratch_;
+  std::vector<double> scratch_;                      // of a column with one component
   std::size_t size_ = 0;
   std::size_t state_fields_;
 };

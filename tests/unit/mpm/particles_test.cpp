@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mpm/particles.h"
 
+#include <malloc.h>
+
 #include <memory>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -69,6 +73,25 @@ TEST(Particles, ReorderMovesAllColumnsAndDropsTheRest) {
   EXPECT_EQ(memory.data()[5], 2.0);
   particles.reorder({});
   EXPECT_EQ(particles.size(), 0u);
+}
+
+/// Columns with one component once took the memory of those with twelve, one by one.
+TEST(Particles, ReorderingTakesNoMoreMemory) {
+  constexpr std::size_t count = 20000;
+  const auto material = material_of(elastic(1e6, 0.3, 1000));
+  Particles particles(*material);
+  particles.append(count);
+  const ParticleColumn memory = particles.add_column("one", 13);
+  std::vector<std::size_t> order(count);
+  std::iota(order.rbegin(), order.rend(), std::size_t(0));
+  const auto allocated = [] {
+    const struct mallinfo2 memory_of_heap = mallinfo2();
+    return memory_of_heap.uordblks + memory_of_heap.hblkhd;
+  };
+  for (int n = 0; n < 2; ++n) particles.reorder(order);
+  const std::size_t before = allocated();
+  for (int n = 0; n < 60; ++n) particles.reorder(order);
+  EXPECT_LT(allocated(), before + count * sizeof(double));
 }
 
 TEST(Particles, AColumnAddedLateIsZeroAndTravelsWithTheParticle) {
