@@ -39,11 +39,11 @@ OPEN_MPI = {
 AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
-class Failed(Exception):
+class Failed(ResultsError):
     """furrow stopped with a status other than 0; its messages are on the screen."""
 
     def __init__(self, status: int) -> None:
-        super().__init__(f"furrow ended with status {status}")
+        super().__init__(f"furrow ended with status {status}; its error is above")
         self.status = status
 
 

@@ -8,7 +8,7 @@ from ..errors import ResultsError
 from ..programs import inputs_folder
 from .catalogue import Variables, quick_variables, script_of
 from .one import SceneRun, post, run_scene, show, words_of
-from .process import Failed, Runs, Stopped
+from .process import Runs, Stopped
 
 # Snow by the oedometer alone predicts; the tyre scene's own was identified on wheels
 OEDOMETER_SNOW = [("material", "../materials/fresh_snow_cam_clay.yaml")]
@@ -46,14 +46,14 @@ def run_two_grounds(folder: Path, quick: bool, runs: Runs) -> None:
                 _run(name, folder, quick, runs)
             for name in names:
                 show(folder / name, quick, shown=False)
-        except (ResultsError, Stopped, Failed, OSError) as error:
+        except (ResultsError, Stopped, OSError) as error:
             troubles.append(error)
 
     other = threading.Thread(target=on_continuum)
     other.start()
     try:
         _run("grains", folder, quick, runs)
-    except (ResultsError, Stopped, Failed, OSError) as error:
+    except (ResultsError, Stopped, OSError) as error:
         troubles.append(error)
     other.join()
     for trouble in troubles:

@@ -28,6 +28,7 @@ class Material:
     density: float
     young: float
     poisson: float
+    linear: bool = True  # whether the file has Young's modulus, which modulus_scale needs
 
     @property
     def wave_speed(self) -> float:
@@ -75,7 +76,8 @@ def read_material(path: Path) -> Material:
             bulk = (1 + float(elasticity["e0"])) * TYPICAL_PRESSURE / float(elasticity["kappa"])
             young = 3 * bulk * (1 - 2 * poisson)
         title = str(content.get("title", path.stem))
-        return Material(title, float(law["density"]), young, poisson)
+        linear = "elasticity" in content and content["elasticity"]["type"] == "linear"
+        return Material(title, float(law["density"]), young, poisson, linear)
 
 
 def content_with_bases(path: Path) -> str:

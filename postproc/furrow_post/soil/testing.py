@@ -69,7 +69,7 @@ def make_card(
     cells = effort.plate_cells
     plates = [plate_test(bench, size, SINKAGE * size, cells, runs) for size in sizes]
     carried = carried_pressure(plates)
-    scale = ring_scale(bench.material.young, carried)
+    scale = ring_scale(bench.material.young, carried) if bench.material.linear else 1.0
     loads, turn, paces = effort.loads, effort.turn, (RING_PACE, FAST_RING_PACE)
     if scale < 1:
         loads, turn, paces = SOFT_LOADS, SOFT_TURN, SOFT_PACES

@@ -8,6 +8,7 @@ import unittest
 from unittest import mock
 
 from furrow_post.read.soil_card import Cone, read_card
+from furrow_post.soil.material import read_material
 from support.command import SOURCE, run_soil
 from support.folder import FolderTest
 
@@ -138,7 +139,14 @@ class CardCommandTest(FolderTest):
         self.furrow(1)
         done = self.soil("card", "dry_sand_smooth", "-o", "card")
         self.assertNotEqual(done.returncode, 0)
+        self.assertIn("furrow-soil: furrow ended with status 1; its error is above", done.stderr)
         self.assertFalse((self.folder / "card" / "card.yaml").exists())
+
+    def test_only_laws_with_youngs_modulus_have_it_scaled(self) -> None:
+        """modulus_scale of the ring needs it; furrow refuses it for porous elasticity and NorSand."""
+        materials = SOURCE / "inputs" / "materials"
+        found = {name: read_material(materials / f"{name}.yaml").linear for name in ("fresh_snow", "fresh_snow_foam", "norsand_dry")}
+        self.assertEqual(found, {"fresh_snow": True, "fresh_snow_foam": False, "norsand_dry": False})
 
     def test_a_card_of_grains_has_the_parameters(self) -> None:
         done = self.soil("card", "sand_cmu", "-o", "card")
