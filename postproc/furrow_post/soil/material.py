@@ -76,7 +76,7 @@ def read_material(path: Path) -> Material:
             bulk = (1 + float(elasticity["e0"])) * TYPICAL_PRESSURE / float(elasticity["kappa"])
             young = 3 * bulk * (1 - 2 * poisson)
         title = str(content.get("title", path.stem))
-        linear = "elasticity" in content and content["elasticity"]["type"] == "linear"
+        linear = content.get("elasticity", {}).get("type") == "linear"
         return Material(title, float(law["density"]), young, poisson, linear)
 
 
