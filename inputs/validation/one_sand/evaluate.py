@@ -353,26 +353,23 @@ def collapse_values(run: Run) -> Iterator[tuple[Key, float]]:
 
 
 def wheel_values(run: Run) -> Iterator[tuple[Key, float]]:
-    at = list(WHEEL)[int(run.name.partition("/")[0].partition("_")[2])]
-    means = steady_columns(Results(run.folder).columns, WINDOW)
-    yield ("wheel", at, "hub drop"), means["sinkage_m"]
-    yield ("wheel", at, "resistance coefficient"), means["resistance"]
-
-
-def angle_values(run: Run) -> Iterator[tuple[Key, float]]:
+    angled = run.case.stage == "angle"
+    at = ANGLE_AT if angled else list(WHEEL)[int(run.name.partition("/")[0].partition("_")[2])]
     columns = Results(run.folder).columns
     means = steady_columns(columns, WINDOW)
-    last = columns["x"] > columns["x"][-1] - WINDOW
-    side = abs(float((columns["lateral_force"][last] / columns["load"][last]).mean()))
-    yield ("wheel", ANGLE_AT, "hub drop"), means["sinkage_m"]
-    yield ("wheel", ANGLE_AT, "resistance coefficient"), means["resistance"]
-    yield ("wheel", ANGLE_AT, "lateral force over load"), side
+    yield ("wheel", at, "hub drop"), means["sinkage_m"]
+    yield ("wheel", at, "resistance coefficient"), means["resistance"]
+    if angled:
+        last = columns["x"] > columns["x"][-1] - WINDOW
+        side = abs(float((columns["lateral_force"][last] / columns["load"][last]).mean()))
+        yield ("wheel", at, "lateral force over load"), side
 
 
-def fine_grains(sizes: Mapping[float, Sequence[float]]) -> tuple[float, float]:
+def fine_grains(sizes: Mapping[str, Sequence[float]]) -> tuple[float, float]:
     """Mean of the packings of the finest grains. Its error has their scatter and the step from coarser grains."""
-    fine, coarse = (mean(sizes[size]) for size in sorted(sizes)[:2])
-    return fine, math.hypot(mean_of_packings(sizes[min(sizes)])[1], fine - coarse)
+    finest, next_one = sorted(sizes, key=float)[:2]
+    fine, scatter = mean_of_packings(sizes[finest])
+    return fine, math.hypot(scatter, fine - mean(sizes[next_one]))
 
 
 def wheel_of_grains() -> Iterator[tuple[Key, float, float]]:
@@ -468,24 +465,19 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
             continue
         for name, value in grain_values(run).items():
             packings.setdefault(element_key(run, name), []).append(value)
-    values_of_stage = {"plate": plate_values, "collapse": collapse_values, "wheel": wheel_values}
+    sizes: dict[Key, dict[str, list[float]]] = {}  # of grains at the slip angle -> values of the packings
+    values_of_stage = {"plate": plate_values, "collapse": collapse_values, "wheel": wheel_values, "angle": wheel_values}
     for run in runs.done(*values_of_stage):
-        column, _, cell = run.name.partition("/")[2].partition("_")
+        column, size, *_ = run.name.partition("/")[2].split("_")
         for key, value in values_of_stage[run.case.stage](run):
-            if column == "grains":
+            if column != "grains":
+                (laws if float(size) == CELLS[key[0]][0] else coarse)[column][key] = value
+            elif run.case.stage == "angle":
+                sizes.setdefault(key, {}).setdefault(size, []).append(value)
+            else:
                 packings.setdefault(key, []).append(value)
-            else:
-                (laws if float(cell) == CELLS[key[0]][0] else coarse)[column][key] = value
-    angled: dict[Key, dict[float, list[float]]] = {}
-    for run in runs.done("angle"):
-        column, size = run.name.partition("/")[2].split("_")[:2]
-        for key, value in angle_values(run):
-            if column == "grains":
-                angled.setdefault(key, {}).setdefault(float(size), []).append(value)
-            else:
-                (laws if float(size) == CELLS["wheel"][0] else coarse)[column][key] = value
     grains = {key: mean_of_packings(values) for key, values in packings.items()}
-    grains |= {key: fine_grains(sizes) for key, sizes in angled.items() if len(sizes) > 1}
+    grains |= {key: fine_grains(values) for key, values in sizes.items() if len(values) > 1}
     grains |= {key: (value, error) for key, value, error in wheel_of_grains()}
     rows = matrix(laws, coarse, grains)
     output.table("results.csv", rows)
