@@ -64,11 +64,13 @@ def read_material(path: Path) -> Material:
     content = _with_base(path, 0)
     with content_of(path, "furrow-soil needs density, and E and nu or kappa, e0 and nu"):
         law = content["law"]
-        if law.get("type") == "norsand":  # which has its own elasticity
+        norsand = law.get("type") == "norsand"  # which has its own elasticity
+        linear = not norsand and content["elasticity"]["type"] == "linear"
+        if norsand:
             poisson = float(law["nu"])
             shear = float(law["G"]) * (TYPICAL_PRESSURE / NORSAND_PRESSURE) ** float(law["n"])
             young = 2 * shear * (1 + poisson)
-        elif content["elasticity"]["type"] == "linear":
+        elif linear:
             young, poisson = float(content["elasticity"]["E"]), float(content["elasticity"]["nu"])
         else:
             elasticity = content["elasticity"]
@@ -76,7 +78,6 @@ def read_material(path: Path) -> Material:
             bulk = (1 + float(elasticity["e0"])) * TYPICAL_PRESSURE / float(elasticity["kappa"])
             young = 3 * bulk * (1 - 2 * poisson)
         title = str(content.get("title", path.stem))
-        linear = content.get("elasticity", {}).get("type") == "linear"
         return Material(title, float(law["density"]), young, poisson, linear)
 
 

@@ -81,7 +81,7 @@ class Case:
         for path in (*named, *self.reads):
             if path.is_absolute() and path.is_file():
                 _add_with_named(path, found)
-        for text in self.files.values():
+        for text in (text for name, text in self.files.items() if Path(name).suffix in YAML_NAMES):
             for path in _named_in(text, Path("/")):
                 _add_with_named(path, found)
         return list(found)
