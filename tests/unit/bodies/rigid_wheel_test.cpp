@@ -10,13 +10,13 @@
 #include "core/error.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"
+#include "tests/support/words.h"
 
 namespace furrow::rigid_wheel_test {
 namespace {
 
 using test::error_of;
 using ::testing::HasSubstr;
-using Words = std::vector<std::string>;
 
 RigidWheelParameters small_wheel() {
   RigidWheelParameters wheel;
@@ -27,11 +27,9 @@ RigidWheelParameters small_wheel() {
   return wheel;
 }
 
-std::string refusal_of(Words words) {
-  const Words needed{"diameter", "0.74", "width", "0.272", "mass", "636", "inertia", "2.15"};
-  for (std::size_t i = 0; i < needed.size(); i += 2)
-    if (std::find(words.begin(), words.end(), needed[i]) == words.end())
-      words.insert(words.end(), {needed[i], needed[i + 1]});
+std::string refusal_of(const std::string& line) {
+  const std::vector<std::string> words =
+      test::words(line, "diameter 0.74 width 0.272 mass 636 inertia 2.15");
   return error_of<InputError>(
       [&] { RigidWheel wheel(RigidWheel::schema("fix wheel/rigid").read(words)); });
 }
@@ -41,9 +39,8 @@ constexpr std::array<Coordinate, 6> all_coordinates{Coordinate::x,   Coordinate:
                                                     Coordinate::yaw, Coordinate::camber};
 
 TEST(RigidWheel, ReadsItsKeys) {
-  const RigidWheel wheel(
-      RigidWheel::schema().read(Words{"diameter", "0.74", "width", "0.272", "shoulder", "0.051",
-                                      "mass", "636", "inertia", "2.15", "axle", "1", "2", "3"}));
+  const RigidWheel wheel(RigidWheel::schema().read(
+      test::words("diameter 0.74 width 0.272 shoulder 0.051 mass 636 inertia 2.15 axle 1 2 3")));
   EXPECT_DOUBLE_EQ(wheel.parameters().hub.inertia.mass, 636.0);
   EXPECT_DOUBLE_EQ(wheel.parameters().hub.inertia.axial, 2.15);
   EXPECT_DOUBLE_EQ(wheel.parameters().hub.inertia.diametral,
@@ -57,20 +54,20 @@ TEST(RigidWheel, ReadsItsKeys) {
 }
 
 TEST(RigidWheel, RefusesWithKeywordAndRemedy) {
-  EXPECT_THAT(refusal_of({"mass", "-5"}),
+  EXPECT_THAT(refusal_of("mass -5"),
               HasSubstr("fix wheel/rigid, keyword 'mass' is -5; allowed: a number > 0 [kg]"));
-  EXPECT_THAT(refusal_of({"inertia", "88"}),
+  EXPECT_THAT(refusal_of("inertia 88"),
               HasSubstr("keyword 'inertia' is 88 kg m^2; allowed: at most 87.0684 kg m^2"));
-  EXPECT_THAT(refusal_of({"inertia_diametral", "1"}),
+  EXPECT_THAT(refusal_of("inertia_diametral 1"),
               HasSubstr("keyword 'inertia_diametral' is 1 kg m^2; allowed: at least half of"));
-  EXPECT_THAT(refusal_of({"shoulder", "0.2"}), HasSubstr("has shoulder 0.2 m"));
-  EXPECT_THAT(refusal_of({"grousers", "6"}),
+  EXPECT_THAT(refusal_of("shoulder 0.2"), HasSubstr("has shoulder 0.2 m"));
+  EXPECT_THAT(refusal_of("grousers 6"),
               HasSubstr("keyword 'grouser_height' is missing; allowed: a number > 0 [m]"));
-  EXPECT_THAT(refusal_of({"grousers", "6", "grouser_height", "0.02"}),
+  EXPECT_THAT(refusal_of("grousers 6 grouser_height 0.02"),
               HasSubstr("keyword 'grouser_thickness' is missing"));
-  EXPECT_THAT(refusal_of({"grouser_height", "0.02"}),
+  EXPECT_THAT(refusal_of("grouser_height 0.02"),
               HasSubstr("keyword 'grouser_height' is given to a wheel without grousers"));
-  EXPECT_THAT(refusal_of({"segments", "8"}),
+  EXPECT_THAT(refusal_of("segments 8"),
               HasSubstr("keyword 'segments' is 8; allowed: an integer in [12, 5000]"));
 }
 

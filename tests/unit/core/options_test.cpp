@@ -5,13 +5,13 @@
 
 #include "core/error.h"
 #include "tests/support/error_of.h"
+#include "tests/support/words.h"
 
 namespace furrow::options_test {
 namespace {
 
 using test::error_of;
 using ::testing::HasSubstr;
-using Words = std::vector<std::string>;
 
 Schema wheel_schema() {
   Schema schema("fix wheel/rigid");
@@ -25,13 +25,13 @@ Schema wheel_schema() {
   return schema;
 }
 
-std::string message_of(const Words& words) {
-  return error_of<InputError>([&] { wheel_schema().read(words); });
+std::string message_of(const std::string& line) {
+  return error_of<InputError>([&] { wheel_schema().read(test::words(line)); });
 }
 
 TEST(Options, ReadsGivenValuesAndDefaults) {
-  const Options options = wheel_schema().read(
-      Words{"axle", "1", "-2", "3e-1", "diameter", "0.74", "table", "1", "2", "mode", "slip"});
+  const Options options =
+      wheel_schema().read(test::words("axle 1 -2 3e-1 diameter 0.74 table 1 2 mode slip"));
   EXPECT_DOUBLE_EQ(options.number("diameter"), 0.74);
   EXPECT_DOUBLE_EQ(options.number("shoulder"), 0.0);
   EXPECT_EQ(options.integer("segments"), 64);
@@ -44,24 +44,22 @@ TEST(Options, ReadsGivenValuesAndDefaults) {
 }
 
 TEST(Options, RefusesWithKeywordAllowedAndRemedy) {
-  EXPECT_THAT(message_of({"diametre", "1"}),
+  EXPECT_THAT(message_of("diametre 1"),
               HasSubstr("no keyword 'diametre'; allowed: diameter, shoulder"));
-  EXPECT_THAT(message_of({"diametre", "1"}), HasSubstr("did you mean 'diameter'?"));
-  EXPECT_THAT(message_of({"diameter", "-1"}),
+  EXPECT_THAT(message_of("diametre 1"), HasSubstr("did you mean 'diameter'?"));
+  EXPECT_THAT(message_of("diameter -1"),
               HasSubstr("keyword 'diameter' is -1; allowed: a number > 0 [m]"));
-  EXPECT_THAT(message_of({"diameter", "nan"}), HasSubstr("is nan; allowed"));
-  EXPECT_THAT(message_of({"diameter", "1e999"}), HasSubstr("too large for a number"));
-  EXPECT_THAT(message_of({"diameter", "1,5"}), HasSubstr("which is not a number"));
-  EXPECT_THAT(message_of({"diameter"}), HasSubstr("has no value"));
-  EXPECT_THAT(message_of({"diameter", "shoulder", "1"}),
-              HasSubstr("keyword 'diameter' has no value"));
-  EXPECT_THAT(message_of({"shoulder", "0.1"}), HasSubstr("keyword 'diameter' is missing"));
-  EXPECT_THAT(message_of({"diameter", "1", "diameter", "2"}), HasSubstr("given twice"));
-  EXPECT_THAT(message_of({"diameter", "1", "segments", "9.5"}),
-              HasSubstr("an integer in [8, 1000]"));
-  EXPECT_THAT(message_of({"diameter", "1", "mode", "free"}), HasSubstr("one of: towed, slip"));
-  EXPECT_THAT(message_of({"diameter", "1", "axle", "1", "2"}), HasSubstr("3 numbers"));
-  EXPECT_THAT(message_of({"diameter", "1", "table"}), HasSubstr("has no value"));
+  EXPECT_THAT(message_of("diameter nan"), HasSubstr("is nan; allowed"));
+  EXPECT_THAT(message_of("diameter 1e999"), HasSubstr("too large for a number"));
+  EXPECT_THAT(message_of("diameter 1,5"), HasSubstr("which is not a number"));
+  EXPECT_THAT(message_of("diameter"), HasSubstr("has no value"));
+  EXPECT_THAT(message_of("diameter shoulder 1"), HasSubstr("keyword 'diameter' has no value"));
+  EXPECT_THAT(message_of("shoulder 0.1"), HasSubstr("keyword 'diameter' is missing"));
+  EXPECT_THAT(message_of("diameter 1 diameter 2"), HasSubstr("given twice"));
+  EXPECT_THAT(message_of("diameter 1 segments 9.5"), HasSubstr("an integer in [8, 1000]"));
+  EXPECT_THAT(message_of("diameter 1 mode free"), HasSubstr("one of: towed, slip"));
+  EXPECT_THAT(message_of("diameter 1 axle 1 2"), HasSubstr("3 numbers"));
+  EXPECT_THAT(message_of("diameter 1 table"), HasSubstr("has no value"));
 }
 
 TEST(Range, EndsAreOpenOrClosedAndNaNIsNeverInside) {
@@ -74,12 +72,7 @@ TEST(Range, EndsAreOpenOrClosedAndNaNIsNeverInside) {
 
 TEST(Options, EntriesOfAFileTellTheirLine) {
   const auto message = [](const std::vector<Entry>& entries) {
-    try {
-      wheel_schema().read(entries);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("no error");
+    return error_of<InputError>([&] { wheel_schema().read(entries); });
   };
   EXPECT_THAT(message({{"diameter", {"-1"}, "wheel.yaml, line 3"}}),
               HasSubstr("wheel.yaml, line 3: fix wheel/rigid, keyword 'diameter' is -1"));
@@ -108,7 +101,7 @@ Schema renamed_schema() {
 
 TEST(Options, AFormerNameIsTakenOverWithAWarningThatGivesTheNewOne) {
   const Options options =
-      renamed_schema().read(Words{"cycle", "4", "middle", "1", "2", "weightless_start", "yes"});
+      renamed_schema().read(test::words("cycle 4 middle 1 2 weightless_start yes"));
   EXPECT_EQ(options.integer("remap_interval"), 4);
   EXPECT_EQ(options.numbers("centre"), (std::vector<double>{1, 2}));
   EXPECT_FALSE(options.flag("initial_stress"));
@@ -120,31 +113,26 @@ TEST(Options, AFormerNameIsTakenOverWithAWarningThatGivesTheNewOne) {
   EXPECT_THAT(options.warnings()[2],
               HasSubstr("'weightless_start' is now called 'initial_stress'; write "
                         "'initial_stress no'"));
-  EXPECT_TRUE(renamed_schema().read(Words{"weightless_start", "no"}).flag("initial_stress"));
+  EXPECT_TRUE(renamed_schema().read(test::words("weightless_start no")).flag("initial_stress"));
   // What took effect is told in the new words.
   EXPECT_EQ(options.effective()[0].key, "remap_interval");
 }
 
 TEST(Options, TheNewNameNeedsNoWarning) {
-  EXPECT_TRUE(renamed_schema().read(Words{"remap_interval", "4"}).warnings().empty());
+  EXPECT_TRUE(renamed_schema().read(test::words("remap_interval 4")).warnings().empty());
 }
 
 TEST(Options, AFormerNameIsCheckedLikeTheKeyItself) {
-  const auto message_of = [](const Words& words) {
-    try {
-      renamed_schema().read(words);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("no error");
+  const auto message_of = [](const std::string& line) {
+    return error_of<InputError>([&] { renamed_schema().read(test::words(line)); });
   };
-  EXPECT_THAT(message_of({"cycle", "99"}),
+  EXPECT_THAT(message_of("cycle 99"),
               HasSubstr("keyword 'cycle' (now 'remap_interval') is 99; allowed: an integer in "
                         "[1, 64]"));
-  EXPECT_THAT(message_of({"cycle", "4", "remap_interval", "5"}),
+  EXPECT_THAT(message_of("cycle 4 remap_interval 5"),
               HasSubstr("keyword 'remap_interval' is given twice"));
-  EXPECT_THAT(message_of({"weightless_start", "maybe"}), HasSubstr("allowed: yes or no"));
-  EXPECT_THAT(message_of({"middle", "1", "cycle", "4"}),
+  EXPECT_THAT(message_of("weightless_start maybe"), HasSubstr("allowed: yes or no"));
+  EXPECT_THAT(message_of("middle 1 cycle 4"),
               HasSubstr("keyword 'middle' (now 'centre') has 1 value(s)"));
 }
 

@@ -4,10 +4,12 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/error.h"
 #include "tests/support/error_of.h"
+#include "tests/support/words.h"
 
 namespace furrow::ground_relief_test {
 namespace {
@@ -15,27 +17,27 @@ namespace {
 using test::error_of;
 using ::testing::HasSubstr;
 
-GroundRelief relief_of(const std::vector<std::string>& words) {
+GroundRelief relief_of(const std::string& line) {
   Schema schema("fix terrain");
   declare_relief(schema);
-  return relief_from(schema.read(words), {});
+  return relief_from(schema.read(test::words(line)), {});
 }
 
 TEST(GroundRelief, HeightsAreThoseOfTheShapesAndAddUp) {
-  EXPECT_TRUE(relief_of({}).flat());
-  EXPECT_EQ(relief_of({}).height(3.0, 4.0), 0.0);
-  const GroundRelief sine = relief_of({"washboard", "0.8", "0.03", "flat_until", "0.5"});
+  EXPECT_TRUE(relief_of("").flat());
+  EXPECT_EQ(relief_of("").height(3.0, 4.0), 0.0);
+  const GroundRelief sine = relief_of("washboard 0.8 0.03 flat_until 0.5");
   EXPECT_EQ(sine.height(0.4, 0.0), 0.0);
   EXPECT_NEAR(sine.height(0.7, 9.0), 0.03, 1e-15);
   EXPECT_NEAR(sine.height(0.5 + 0.8 * 7.0 + 0.6, 0.0), -0.03, 1e-14);
-  const GroundRelief step = relief_of({"trapezoid", "1", "0.1", "0.2", "0.6"});
+  const GroundRelief step = relief_of("trapezoid 1 0.1 0.2 0.6");
   EXPECT_NEAR(step.height(1.1, 0.0), 0.1, 1e-15);
   EXPECT_NEAR(step.height(1.2, 0.0), 0.05, 1e-15);
   EXPECT_EQ(step.height(1.31, 0.0), 0.0);
-  const GroundRelief log = relief_of({"half_cylinder", "1", "0.1"});
+  const GroundRelief log = relief_of("half_cylinder 1 0.1");
   EXPECT_NEAR(log.height(1.06, 0.0), 0.08, 1e-15);
   EXPECT_EQ(log.height(0.89, 0.0), 0.0);
-  const GroundRelief both = relief_of({"half_cylinder", "1", "0.1", "washboard", "0.8", "0.03"});
+  const GroundRelief both = relief_of("half_cylinder 1 0.1 washboard 0.8 0.03");
   EXPECT_NEAR(both.height(1.0, 0.0), 0.1 + 0.03, 1e-15);
 }
 
@@ -47,8 +49,7 @@ TEST(GroundRelief, PeriodogramOfARandomProfileHasTheSpectrumOfIso8608) {
   const std::vector<double> octaves = {0.02, 0.04, 0.08, 0.16, 0.32, 0.64, 1.28};  // [cycles/m]
   std::vector<double> measured(octaves.size(), 0.0), expected(octaves.size(), 0.0);
   for (int seed = 1; seed <= seeds; ++seed) {
-    const GroundRelief relief =
-        relief_of({"roughness", "256e-6", "roughness_seed", std::to_string(seed)});
+    const GroundRelief relief = relief_of(fmt::format("roughness 256e-6 roughness_seed {}", seed));
     VectorX heights(points);
     for (int i = 0; i < points; ++i)
       heights[i] = (1.0 - std::cos(2.0 * pi * i / points)) * relief.height(i * step, 0.0);
@@ -83,17 +84,12 @@ TEST(GroundRelief, MapThatCannotBeOfTheGroundIsRefused) {
     ReliefParameters parameters;
     parameters.heightmap = map;
     const GroundRelief relief(parameters, "ground");
-    try {
-      relief.check_map({-2.0, -1.0}, {2.0, 1.0});
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return error_of<InputError>([&] { relief.check_map({-2.0, -1.0}, {2.0, 1.0}); });
   };
-  EXPECT_EQ(said(0.1, 0.0, 0.05), "");
-  EXPECT_NE(said(100.0, 0.0, 50.0).find("has a height every 100 m"), std::string::npos);
-  EXPECT_NE(said(0.1, 412.0, 0.05).find("has heights of 412 m"), std::string::npos);
-  EXPECT_NE(said(0.1, 0.0, 5.0).find("climbs and falls"), std::string::npos);
+  EXPECT_EQ(said(0.1, 0.0, 0.05), "no error");
+  EXPECT_THAT(said(100.0, 0.0, 50.0), HasSubstr("has a height every 100 m"));
+  EXPECT_THAT(said(0.1, 412.0, 0.05), HasSubstr("has heights of 412 m"));
+  EXPECT_THAT(said(0.1, 0.0, 5.0), HasSubstr("climbs and falls"));
 }
 
 /// The table of ISO 8608, in 1e-6 m^3.
@@ -103,8 +99,8 @@ TEST(GroundRelief, RoadClassesHaveTheMeanDensitiesOfIso8608) {
                                                       {'G', 65536}, {'H', 262144}};
   for (const auto& [letter, density] : table) {
     EXPECT_DOUBLE_EQ(Roughness::mean_density(letter), 1e-6 * density);
-    const GroundRelief by_class = relief_of({"road_class", std::string(1, letter)}),
-                       by_density = relief_of({"roughness", std::to_string(density) + "e-6"});
+    const GroundRelief by_class = relief_of(fmt::format("road_class {}", letter)),
+                       by_density = relief_of(fmt::format("roughness {}e-6", density));
     EXPECT_FALSE(by_class.flat());
     EXPECT_NEAR(by_class.height(1.7, 0.0), by_density.height(1.7, 0.0), 1e-12);
   }
@@ -115,7 +111,7 @@ TEST(GroundRelief, RmsOfARoadClassIsThatOfItsSpectrumBetweenItsWavelengths) {
   constexpr double n1 = 0.05, n2 = 2.0, n0 = 0.1, length = 4000.0, step = 0.1;
   for (const auto& [letter, density] : {std::pair("A", 16e-6), std::pair("E", 4096e-6)}) {
     const GroundRelief relief =
-        relief_of({"road_class", letter, "roughness_band", "0.05", "2", "roughness_seed", "5"});
+        relief_of(fmt::format("road_class {} roughness_band 0.05 2 roughness_seed 5", letter));
     double squares = 0.0;
     for (int i = 0; i < static_cast<int>(length / step); ++i)
       squares += std::pow(relief.height(i * step, 0.0), 2);
@@ -125,31 +121,30 @@ TEST(GroundRelief, RmsOfARoadClassIsThatOfItsSpectrumBetweenItsWavelengths) {
 }
 
 TEST(GroundRelief, SeedAndPlaceAloneGiveTheHeight) {
-  const std::vector<std::string> words = {"roughness", "1e-3", "roughness_seed", "7"};
-  const GroundRelief one = relief_of(words), same = relief_of(words),
-                     other = relief_of({"roughness", "1e-3", "roughness_seed", "8"});
+  const std::string line = "roughness 1e-3 roughness_seed 7";
+  const GroundRelief one = relief_of(line), same = relief_of(line),
+                     other = relief_of("roughness 1e-3 roughness_seed 8");
   EXPECT_EQ(one.height(123.4, 0.0), same.height(123.4, 5.0));
   EXPECT_NE(one.height(123.4, 0.0), other.height(123.4, 0.0));
-  const GroundRelief later = relief_of({"roughness", "1e-3", "flat_until", "2"});
+  const GroundRelief later = relief_of("roughness 1e-3 flat_until 2");
   EXPECT_EQ(later.height(2.0, 0.0), 0.0);
   EXPECT_LT(std::abs(later.height(2.0 + 1e-6, 0.0)), 1e-6);  // continuous
 }
 
 TEST(GroundRelief, ShapesThatCannotBeAreRefusedWithTheirKeyword) {
-  const auto refusal = [](const std::vector<std::string>& words) {
-    return error_of<InputError>([&] { relief_of(words); });
+  const auto refusal = [](const std::string& line) {
+    return error_of<InputError>([&] { relief_of(line); });
   };
-  EXPECT_THAT(refusal({"washboard", "0", "0.1"}), HasSubstr("keyword 'washboard'"));
-  EXPECT_THAT(refusal({"trapezoid", "0", "0.1", "0.5", "0.5"}), HasSubstr("keyword 'trapezoid'"));
-  EXPECT_THAT(refusal({"half_cylinder", "0", "-1"}), HasSubstr("keyword 'half_cylinder'"));
-  EXPECT_THAT(refusal({"roughness", "1e-6", "roughness_band", "2", "1"}),
-              HasSubstr("keyword 'roughness_band'"));
-  EXPECT_THAT(refusal({"flat_until", "1"}), HasSubstr("keyword 'flat_until'"));
-  EXPECT_THAT(refusal({"roughness_seed", "3"}), HasSubstr("without 'roughness'"));
-  EXPECT_THAT(refusal({"road_class", "C", "roughness", "1e-6"}),
+  EXPECT_THAT(refusal("washboard 0 0.1"), HasSubstr("keyword 'washboard'"));
+  EXPECT_THAT(refusal("trapezoid 0 0.1 0.5 0.5"), HasSubstr("keyword 'trapezoid'"));
+  EXPECT_THAT(refusal("half_cylinder 0 -1"), HasSubstr("keyword 'half_cylinder'"));
+  EXPECT_THAT(refusal("roughness 1e-6 roughness_band 2 1"), HasSubstr("keyword 'roughness_band'"));
+  EXPECT_THAT(refusal("flat_until 1"), HasSubstr("keyword 'flat_until'"));
+  EXPECT_THAT(refusal("roughness_seed 3"), HasSubstr("without 'roughness'"));
+  EXPECT_THAT(refusal("road_class C roughness 1e-6"),
               HasSubstr("keyword 'road_class' is given with 'roughness'"));
-  EXPECT_THAT(refusal({"road_class", "c"}), HasSubstr("A, B, C, D, E, F, G, H"));
-  EXPECT_THAT(refusal({"heightmap_origin", "0", "0", "0"}), HasSubstr("without 'heightmap'"));
+  EXPECT_THAT(refusal("road_class c"), HasSubstr("A, B, C, D, E, F, G, H"));
+  EXPECT_THAT(refusal("heightmap_origin 0 0 0"), HasSubstr("without 'heightmap'"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/error.h"
@@ -19,7 +20,6 @@ namespace {
 
 using test::error_of;
 using ::testing::HasSubstr;
-using Words = std::vector<std::string>;
 
 constexpr double stiffness = 6000.0;                 // of each spring [N/m]
 constexpr double half_track = 0.5, half_base = 0.8;  // [m]
@@ -217,37 +217,26 @@ TEST(SprungBody, ModesOfThreeAndFourUnequalWheelsSwingWithTheirNaturalFrequency)
 
 // ---- with rigs and wheels
 
+Options chassis_options(const std::string& line) {
+  return Chassis::schema("fix wheel/chassis").read(test::words("rigs a,b " + line));
+}
+
 struct Vehicle {
-  Vehicle(std::vector<Vector2> at, const Words& rig_words, const Words& words)
+  /// @param rig keywords of all rigs @param line of the chassis
+  Vehicle(std::vector<Vector2> at, const std::string& rig, const std::string& line)
       : places(std::move(at)), loads(places.size(), 0.0) {
     std::vector<WheelRig*> all_rigs;
     for (const Vector2& place : places) {
       wheels.push_back(std::make_unique<RigidWheel>(make_wheel(0.2, 160)));
       wheels.back()->place({place.x(), place.y(), 0.2}, 0.0, 0.0);
-      Words all{"load_mass",
-                "15",
-                "speed",
-                "0.5",
-                "load_ramp_time",
-                "0.4",
-                "settle_time",
-                "1.5",
-                "accelerate_time",
-                "0.2",
-                "ground_level",
-                "0",
-                "suspension_stiffness",
-                "4000",
-                "suspension_damping",
-                "400"};
-      all.insert(all.end(), rig_words.begin(), rig_words.end());
-      rigs.push_back(
-          std::make_unique<WheelRig>(WheelRig::schema("fix wheel/rig").read(all), *wheels.back()));
+      rigs.push_back(std::make_unique<WheelRig>(
+          rig_of(*wheels.back(),
+                 "load_mass 15 speed 0.5 load_ramp_time 0.4 settle_time 1.5 accelerate_time 0.2 "
+                 "ground_level 0 suspension_stiffness 4000 suspension_damping 400 " +
+                     rig)));
       all_rigs.push_back(rigs.back().get());
     }
-    Words all{"rigs", "a,b"};
-    all.insert(all.end(), words.begin(), words.end());
-    chassis = std::make_unique<Chassis>(Chassis::schema("fix wheel/chassis").read(all), all_rigs);
+    chassis = std::make_unique<Chassis>(chassis_options(line), all_rigs);
   }
   /// Means of the last 0.1 s.
   void run(double end) {
@@ -306,13 +295,12 @@ void expect_shifted(const Vehicle& vehicle, int along, double moment, double tol
 // the vehicle about its track.
 TEST(Chassis, SideSlopeShiftsTheLoadByStatics) {
   constexpr double height = 0.3, slope = 10.0;
-  using Case = std::tuple<Places, Words, double>;
+  using Case = std::tuple<Places, std::string, double>;
   for (const auto& [places, pitch, guide] :
-       {Case{axle, {}, 0.0}, Case{tricycle, {"pitch_inertia", "9"}, -radius},
-        Case{two_axles, {"pitch_inertia", "16"}, 0.0}}) {
-    Words words{"roll_inertia", "6", "height", "0.3", "guide_height", std::to_string(guide)};
-    words.insert(words.end(), pitch.begin(), pitch.end());
-    Vehicle vehicle(places, {"mode", "towed", "side_slope", "10", "damping", "300"}, words);
+       {Case{axle, "", 0.0}, Case{tricycle, "pitch_inertia 9", -radius},
+        Case{two_axles, "pitch_inertia 16", 0.0}}) {
+    Vehicle vehicle(places, "mode towed side_slope 10 damping 300",
+                    fmt::format("roll_inertia 6 height 0.3 guide_height {} {}", guide, pitch));
     vehicle.run(1.5);
     const double down = standard_gravity * std::cos(radians(slope));
     const double across = standard_gravity * std::sin(radians(slope));
@@ -336,14 +324,10 @@ TEST(Chassis, SideSlopeShiftsTheLoadByStatics) {
 TEST(Chassis, GradeShiftsTheLoadByStatics) {
   constexpr double height = 0.25, slope = 8.0;
   const double along = standard_gravity * std::sin(radians(slope));
-  for (const auto& [places, roll] :
-       {std::pair{bogie, Words{}}, {two_axles, Words{"roll_inertia", "12"}}}) {
+  for (const auto& [places, roll] : {std::pair{bogie, ""}, {two_axles, "roll_inertia 12"}}) {
     const double count = static_cast<double>(places.size()), weight = 15.0 * count * along;
-    Words words{"pitch_inertia", "8", "height", "0.25"};
-    words.insert(words.end(), roll.begin(), roll.end());
-    Vehicle vehicle(
-        places, {"mode", "torque", "torque", std::to_string(radius * weight / count), "slope", "8"},
-        words);
+    Vehicle vehicle(places, fmt::format("mode torque torque {} slope 8", radius * weight / count),
+                    std::string("pitch_inertia 8 height 0.25 ") + roll);
     vehicle.run(2.5);
     EXPECT_NEAR(vehicle.guide, 0.0, 0.02 * weight);
     EXPECT_NEAR(vehicle.torque, radius * weight, 1e-5);
@@ -354,20 +338,20 @@ TEST(Chassis, GradeShiftsTheLoadByStatics) {
 }
 
 TEST(Chassis, RefusesWheelsThatDoNotSupportItAndMissingInertia) {
-  const auto refusal = [](const Vector2& offset, const Words& rig, const Words& words) {
-    return error_of<InputError>([&] { Vehicle({0.5 * offset, -0.5 * offset}, rig, words); });
+  const auto refusal = [](const Vector2& offset, const std::string& line) {
+    return error_of<InputError>([&] {
+      Vehicle({0.5 * offset, -0.5 * offset}, "mode towed", line);
+    });
   };
-  const Words towed{"mode", "towed"};
-  EXPECT_THAT(refusal({0.0, 1.0}, towed, {}),
+  EXPECT_THAT(refusal({0.0, 1.0}, ""),
               HasSubstr("keyword 'roll_inertia' is missing, and the wheels are 1 m apart along y"));
-  EXPECT_THAT(refusal({0.0, 1.0}, towed, {"roll_inertia", "1", "pitch_inertia", "1"}),
+  EXPECT_THAT(refusal({0.0, 1.0}, "roll_inertia 1 pitch_inertia 1"),
               HasSubstr("keyword 'pitch_inertia' is given, and all wheels have the same x"));
-  EXPECT_THAT(refusal({1.0, 1.0}, towed, {"roll_inertia", "1", "pitch_inertia", "1"}),
+  EXPECT_THAT(refusal({1.0, 1.0}, "roll_inertia 1 pitch_inertia 1"),
               HasSubstr("has wheels that do not support the body in roll and pitch"));
-  Vehicle pair(axle, towed, {"roll_inertia", "1"});
+  Vehicle pair(axle, "mode towed", "roll_inertia 1");
   const auto second = [&] {
-    Chassis(Chassis::schema("fix wheel/chassis").read(Words{"rigs", "a,b", "roll_inertia", "1"}),
-            {pair.rigs[0].get(), pair.rigs[1].get()});
+    Chassis(chassis_options("roll_inertia 1"), {pair.rigs[0].get(), pair.rigs[1].get()});
   };
   EXPECT_THAT(error_of<InputError>(second), HasSubstr("carries a chassis already"));
   EXPECT_THAT(error_of<StateError>([&] {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/error.h"
@@ -20,22 +21,17 @@ namespace {
 
 using test::error_of;
 using ::testing::HasSubstr;
-using Words = std::vector<std::string>;
 
 constexpr double g = 9.80665, radius = 0.2, inertia = 0.06;  // of make_wheel()
 constexpr double dt = 1e-4;                                  // [s]
 
-Words with(Words words) {
-  for (const char* word : {"travel", "free", "settle_time", "0.4", "accelerate_time", "0.2",
-                           "ground_level", "0", "damping", "600"})
-    words.push_back(word);
-  return words;
-}
+const std::string free_rig =
+    " travel free settle_time 0.4 accelerate_time 0.2 ground_level 0 damping 600";
 
 /// The history of a run, a row for every fifth step.
-History history_of(const Words& words, const Floor& floor, double end, int segments = 80) {
+History history_of(const std::string& line, const Floor& floor, double end, int segments = 80) {
   RigidWheel wheel = make_wheel(0.2003, segments);
-  WheelRig rig(WheelRig::schema("fix wheel/rig").read(with(words)), wheel);
+  WheelRig rig = rig_of(wheel, line + free_rig);
   History history(WheelRig::channels());
   long step = 0;
   run(rig, wheel, end, dt, &floor, [&](const std::vector<double>& row) {
@@ -76,8 +72,8 @@ struct Hill {
   double slope;     // [degrees]
   double mass;      // [kg] that moves along x
   double friction;  // of the floor
-  Words words;      // the mode
-  double a;         // [m/s^2] closed form
+  std::string mode;
+  double a;  // [m/s^2] closed form
 };
 
 // Rolling without slip: a = -g sin/(1 + I/(m r^2)); sliding: a = -(g sin -+ mu g cos).
@@ -86,41 +82,22 @@ TEST(FreeTravel, OnAnInclinedPlaneAccelerationsAreThoseOfTheClosedForms) {
   const auto cosine = [](double slope) { return std::cos(radians(slope)); };
   const double m = 6.0, rolling = 1.0 + inertia / (m * radius * radius);
   const std::vector<Hill> hills = {
-      {"rolls down", -10, m, 0.5, {"mode", "towed"}, g * sine(10) / rolling},
-      {"rolls back down", 10, m, 0.5, {"mode", "towed"}, -g * sine(10) / rolling},
-      {"without friction", -10, m, 0.0, {"mode", "towed"}, g * sine(10)},
-      {"locked",
-       -20,
-       m,
-       0.1,
-       {"mode", "spin", "spin_rate", "0"},
-       g * (sine(20) - 0.1 * cosine(20))},
+      {"rolls down", -10, m, 0.5, "mode towed", g * sine(10) / rolling},
+      {"rolls back down", 10, m, 0.5, "mode towed", -g * sine(10) / rolling},
+      {"without friction", -10, m, 0.0, "mode towed", g * sine(10)},
+      {"locked", -20, m, 0.1, "mode spin spin_rate 0", g * (sine(20) - 0.1 * cosine(20))},
       // rolls and slides: tan 30 degrees > mu (1 + m r^2/I)
-      {"slips", -30, m, 0.05, {"mode", "towed"}, g * (sine(30) - 0.05 * cosine(30))},
-      {"spins uphill",
-       3,
-       m,
-       0.1,
-       {"mode", "spin", "spin_rate", "100"},
-       g * (0.1 * cosine(3) - sine(3))},
-      {"torque on the level",
-       0,
-       m,
-       0.5,
-       {"mode", "torque", "torque", "1"},
-       1.0 / radius / (m * rolling)},
-      {"heavier than its load",
-       0,
-       12.0,
-       0.5,
-       {"mode", "torque", "torque", "1", "dragged_mass", "12"},
+      {"slips", -30, m, 0.05, "mode towed", g * (sine(30) - 0.05 * cosine(30))},
+      {"spins uphill", 3, m, 0.1, "mode spin spin_rate 100", g * (0.1 * cosine(3) - sine(3))},
+      {"torque on the level", 0, m, 0.5, "mode torque torque 1", 1.0 / radius / (m * rolling)},
+      {"heavier than its load", 0, 12.0, 0.5, "mode torque torque 1 dragged_mass 12",
        1.0 / radius / (12.0 + inertia / (radius * radius))},
   };
   for (const Hill& hill : hills) {
     SCOPED_TRACE(hill.name);
-    Words words = hill.words;
-    words.insert(words.end(), {"load_mass", "6", "slope", std::to_string(hill.slope)});
-    const History history = history_of(words, floor_of(hill.friction), 1.4, 160);
+    const History history =
+        history_of(fmt::format("{} load_mass 6 slope {}", hill.mode, hill.slope),
+                   floor_of(hill.friction), 1.4, 160);
     EXPECT_NEAR(acceleration(history), hill.a,
                 hill.friction == 0.0 ? 1e-9 : 0.02 * std::abs(hill.a));
     // the ground carries the part of the weight that is square to it
@@ -135,19 +112,17 @@ TEST(FreeTravel, OnAnInclinedPlaneAccelerationsAreThoseOfTheClosedForms) {
 // equilibrium at v = u - creep D/(mu N); the rig at that slip measures the pull D.
 TEST(FreeTravel, UnderADrawbarLoadTheWheelTravelsAtTheSlipThatPullsIt) {
   const Floor floor = floor_of(0.5, 0.2);
-  const History free = history_of(
-      {"load_force", "60", "mode", "spin", "spin_rate", "5", "drawbar_load", "12"}, floor, 3.0);
+  const History free =
+      history_of("load_force 60 mode spin spin_rate 5 drawbar_load 12", floor, 3.0);
   const double rim = 5.0 * radius, v = rim - floor.creep * 12.0 / (0.5 * 60.0);
   EXPECT_NEAR(mean(free, "velocity_x"), v, 2e-3 * v);
   EXPECT_NEAR(mean(free, "drawbar_pull"), 12.0, 0.05);
   EXPECT_EQ(judge_travel(free, first_row_of_cruise(free)).travel, Travel::travels);
 
   RigidWheel wheel = make_wheel(0.2003);
-  WheelRig rig(WheelRig::schema().read({"load_force", "60", "mode", "slip", "slip",
-                                        std::to_string(mean(free, "slip")), "speed",
-                                        std::to_string(v), "settle_time", "0.4", "accelerate_time",
-                                        "0.2", "ground_level", "0", "damping", "600"}),
-               wheel);
+  WheelRig rig = rig_of(wheel, fmt::format("load_force 60 mode slip slip {} speed {} settle_time "
+                                           "0.4 accelerate_time 0.2 ground_level 0 damping 600",
+                                           mean(free, "slip"), v));
   History prescribed(WheelRig::channels());
   run(rig, wheel, 3.0, dt, &floor, [&](const std::vector<double>& row) { prescribed.append(row); });
   EXPECT_NEAR(mean(prescribed, "drawbar_pull"), 12.0, 0.15);
@@ -157,12 +132,10 @@ TEST(FreeTravel, UnderADrawbarLoadTheWheelTravelsAtTheSlipThatPullsIt) {
 TEST(FreeTravel, ASlopeAndADrawbarLoadAreTheSameForTheWheel) {
   const Floor floor = floor_of(0.5, 0.2);
   const double slope = radians(8.0), weight = 60.0;
-  const History hill =
-      history_of({"load_force", "60", "mode", "spin", "spin_rate", "5", "slope", "8"}, floor, 2.0);
+  const History hill = history_of("load_force 60 mode spin spin_rate 5 slope 8", floor, 2.0);
   const History level =
-      history_of({"load_force", std::to_string(weight * std::cos(slope)), "mode", "spin",
-                  "spin_rate", "5", "drawbar_load", std::to_string(weight * std::sin(slope)),
-                  "dragged_mass", std::to_string(weight / g)},
+      history_of(fmt::format("load_force {} mode spin spin_rate 5 drawbar_load {} dragged_mass {}",
+                             weight * std::cos(slope), weight * std::sin(slope), weight / g),
                  floor, 2.0);
   for (const char* name : {"slip", "velocity_x", "drawbar_pull", "force_z", "drive_torque"})
     EXPECT_NEAR(mean(hill, name), mean(level, name), 2e-3 * std::abs(mean(level, name)) + 1e-4)
@@ -171,30 +144,22 @@ TEST(FreeTravel, ASlopeAndADrawbarLoadAreTheSameForTheWheel) {
 
 TEST(FreeTravel, WhatGetsNowhereIsSaidAndNotAveraged) {
   struct Case {
-    Words words;
+    std::string line;
     double friction;
     Travel travel;
     std::string said;
   };
   const std::vector<Case> cases = {
-      {{"mode", "towed", "slope", "-10"}, 0.5, Travel::runs_away, "the wheel runs away"},
-      {{"mode", "torque", "torque", "12"}, 0.3, Travel::runs_away, "the wheel runs away"},
-      {{"mode", "torque", "torque", "12", "drawbar_load", "18"},
-       0.3,
-       Travel::runs_away,
-       "the wheel spins away"},
-      {{"mode", "spin", "spin_rate", "5", "drawbar_load", "29.9"}, 0.5, Travel::travels, ""},
+      {"mode towed slope -10", 0.5, Travel::runs_away, "the wheel runs away"},
+      {"mode torque torque 12", 0.3, Travel::runs_away, "the wheel runs away"},
+      {"mode torque torque 12 drawbar_load 18", 0.3, Travel::runs_away, "the wheel spins away"},
+      {"mode spin spin_rate 5 drawbar_load 29.9", 0.5, Travel::travels, ""},
       // the floor of the test creeps
-      {{"mode", "spin", "spin_rate", "0", "slope", "10"},
-       0.5,
-       Travel::rolls_back,
-       "the wheel rolls back"},
+      {"mode spin spin_rate 0 slope 10", 0.5, Travel::rolls_back, "the wheel rolls back"},
   };
   for (const Case& each : cases) {
     SCOPED_TRACE(each.said);
-    Words words = each.words;
-    words.insert(words.end(), {"load_force", "60"});
-    const History history = history_of(words, floor_of(each.friction), 1.4);
+    const History history = history_of(each.line + " load_force 60", floor_of(each.friction), 1.4);
     const TravelVerdict verdict = judge_travel(history, first_row_of_cruise(history));
     EXPECT_EQ(verdict.travel, each.travel) << verdict.sentence;
     EXPECT_THAT(verdict.sentence, HasSubstr(each.said));
@@ -246,44 +211,37 @@ TEST(FreeTravel, VerdictsFollowSpeedsAndSinkage) {
 }
 
 TEST(FreeTravel, ARigMadeAgainContinuesBitwise) {
-  const Words words = with({"load_mass", "6", "slope", "5", "mode", "torque", "torque", "3"});
-  expect_continues_bitwise(
-      [&](RigidWheel& wheel) { return WheelRig(WheelRig::schema().read(words), wheel); }, Floor(),
-      5000, 8000);
+  expect_continues_bitwise("load_mass 6 slope 5 mode torque torque 3" + free_rig, Floor(), 5000,
+                           8000);
 }
 
 TEST(FreeTravel, RefusesWhatContradictsIt) {
-  const auto refusal_of = [](Words words) {
-    for (const char* word : {"settle_time", "0.2", "accelerate_time", "0.2", "ground_level", "0"})
-      words.push_back(word);
-    RigidWheel wheel = make_wheel();
-    return error_of<InputError>(
-        [&] { WheelRig(WheelRig::schema("fix wheel/rig").read(words), wheel); });
-  };
-  const std::vector<std::pair<Words, std::string>> table = {
-      {{"load_force", "60", "mode", "towed"}, "keyword 'speed' is missing with travel prescribed"},
-      {{"load_force", "60", "mode", "towed", "travel", "free", "speed", "1"},
-       "keyword 'speed' is given with travel free"},
-      {{"load_force", "60", "mode", "towed", "speed", "1", "drawbar_load", "5"},
+  const std::string stages = " settle_time 0.2 accelerate_time 0.2 ground_level 0";
+  const std::vector<std::pair<std::string, std::string>> table = {
+      {"load_force 60 mode towed", "keyword 'speed' is missing with travel prescribed"},
+      {"load_force 60 mode towed travel free speed 1", "keyword 'speed' is given with travel free"},
+      {"load_force 60 mode towed speed 1 drawbar_load 5",
        "keyword 'drawbar_load' is given with travel prescribed; allowed: only with travel free"},
-      {{"load_force", "60", "mode", "towed", "speed", "1", "dragged_mass", "5"},
+      {"load_force 60 mode towed speed 1 dragged_mass 5",
        "keyword 'dragged_mass' is given with travel prescribed"},
-      {{"load_force", "60", "mode", "slip", "slip", "0.2", "travel", "free"},
+      {"load_force 60 mode slip slip 0.2 travel free",
        "keyword 'mode' is slip with travel free; allowed: towed, torque or spin"},
-      {{"load_force", "60", "mode", "spin", "travel", "free"},
-       "keyword 'spin_rate' is missing in mode spin"},
-      {{"load_force", "60", "mode", "towed", "speed", "1", "spin_rate", "5"},
+      {"load_force 60 mode spin travel free", "keyword 'spin_rate' is missing in mode spin"},
+      {"load_force 60 mode towed speed 1 spin_rate 5",
        "keyword 'spin_rate' is given in mode towed"},
-      {{"sinkage", "0.01", "mode", "towed", "travel", "free"},
-       "keyword 'travel' is free with a prescribed sinkage"},
-      {{"load_force", "60", "mode", "towed", "travel", "free", "dragged_mass", "1"},
+      {"sinkage 0.01 mode towed travel free", "keyword 'travel' is free with a prescribed sinkage"},
+      {"load_force 60 mode towed travel free dragged_mass 1",
        "keyword 'dragged_mass' is 1 kg; allowed: at least 3 kg, the mass of the wheel"},
-      {{"load_force", "60", "mode", "towed", "travel", "free", "drawbar_load", "1e5"},
+      {"load_force 60 mode towed travel free drawbar_load 1e5",
        "keyword 'drawbar_load' is 100000 N under a load of 60 N"},
-      {{"load_force", "60", "mode", "towed", "travel", "free", "slope", "60"},
+      {"load_force 60 mode towed travel free slope 60",
        "keyword 'slope' is 60; allowed: a number in [-45, 45] [degrees]"},
   };
-  for (const auto& [words, said] : table) EXPECT_THAT(refusal_of(words), HasSubstr(said));
+  for (const auto& [line, said] : table) {
+    RigidWheel wheel = make_wheel();
+    EXPECT_THAT(error_of<InputError>([&, &line = line] { rig_of(wheel, line + stages); }),
+                HasSubstr(said));
+  }
 }
 
 }  // namespace

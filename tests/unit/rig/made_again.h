@@ -9,20 +9,20 @@
 
 namespace furrow {
 
-/// @param make RigidWheel& -> the rig on it
+/// @param line of the rig
 /// @param from, to steps of 1e-4 s: of the checkpoint, of the comparison
-template <class Make>
-void expect_continues_bitwise(Make make, const Floor& floor, long from, long to) {
+inline void expect_continues_bitwise(const std::string& line, const Floor& floor, long from,
+                                     long to) {
   constexpr double dt = 1e-4;
   RigidWheel one = make_wheel(0.2003), other = make_wheel(0.2003);
-  WheelRig first = make(one);
+  WheelRig first = rig_of(one, line);
   const auto step = [&](WheelRig& rig, RigidWheel& wheel, long i) {
     rig.apply(static_cast<double>(i) * dt, dt);
     wheel.advance(dt);
     floor.press_on(wheel.surface());
   };
   for (long i = 0; i < from; ++i) step(first, one, i);
-  WheelRig second = make(other);
+  WheelRig second = rig_of(other, line);
   test::hand_over(one, other);
   test::hand_over(first, second);
   for (long i = from; i < to; ++i) {

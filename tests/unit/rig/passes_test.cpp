@@ -18,14 +18,12 @@ namespace {
 
 using test::error_of;
 using ::testing::HasSubstr;
-using Words = std::vector<std::string>;
 
 constexpr double dt = 1e-4, height = 0.2003;  // [s], [m] of the axle at the start
 // settle, accelerate, cruise and back: a period of 1.05 s
-const Words three{
-    "load_force",  "60",  "speed",           "1",   "mode",         "towed", "damping", "600",
-    "settle_time", "0.3", "accelerate_time", "0.1", "ground_level", "0",     "passes",  "3",
-    "pass_length", "0.4", "return_time",     "0.3"};
+const std::string three =
+    "load_force 60 speed 1 mode towed damping 600 settle_time 0.3 accelerate_time 0.1 ground_level "
+    "0 passes 3 pass_length 0.4 return_time 0.3";
 
 Floor soft_floor() {
   Floor floor;
@@ -34,7 +32,7 @@ Floor soft_floor() {
 }
 
 History history_of(RigidWheel& wheel, double end) {
-  WheelRig rig(WheelRig::schema().read(three), wheel);
+  WheelRig rig = rig_of(wheel, three);
   History history(WheelRig::channels());
   const Floor floor = soft_floor();
   run(rig, wheel, end, dt, &floor, [&](const std::vector<double>& row) { history.append(row); });
@@ -87,16 +85,13 @@ TEST(Passes, OnARigidFloorAreAlike) {
 }
 
 TEST(Passes, ARigMadeAgainOnTheWayBackContinuesBitwise) {
-  const auto make = [](RigidWheel& wheel) {
-    return WheelRig(WheelRig::schema().read(three), wheel);
-  };
   for (const long from : {8000L, 9000L, 10000L})  // lifted, brought back, lowered
-    expect_continues_bitwise(make, soft_floor(), from, from + 3000);
+    expect_continues_bitwise(three, soft_floor(), from, from + 3000);
 }
 
 TEST(Passes, RefusesWhatMakesNoSense) {
   const auto refusal_of = [](const std::string& key, const std::string& value) {
-    Words words = three;
+    std::vector<std::string> words = test::words(three);
     const auto found = std::find(words.begin(), words.end(), key);
     if (value.empty())
       words.erase(found, found + 2);

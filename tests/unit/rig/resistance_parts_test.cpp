@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "bodies/rigid_plane.h"
@@ -20,11 +21,10 @@ TEST(ResistanceParts, OfASlidingWheelOnARigidPlaneAreItsFriction) {
   for (const double slip : {0.3, -0.5, -1.0}) {
     SCOPED_TRACE(slip);
     RigidWheel wheel = make_wheel(0.2003, 160);
-    WheelRig rig(
-        WheelRig::schema().read({"load_force", "60", "speed", "1", "mode", "slip", "slip",
-                                 std::to_string(slip), "settle_time", "0.3", "accelerate_time",
-                                 "0.1", "ground_level", "0", "damping", "600"}),
-        wheel);
+    WheelRig rig =
+        rig_of(wheel, fmt::format("load_force 60 speed 1 mode slip slip {} settle_time 0.3 "
+                                  "accelerate_time 0.1 ground_level 0 damping 600",
+                                  slip));
     RigidPlane plane({0.0, 3e8, 0.0, mu, 1e8}, wheel.surface());
     History history(WheelRig::channels());
     for (long i = 0; i < 10000; ++i) {

@@ -10,6 +10,7 @@
 
 #include "bodies/rigid_wheel.h"
 #include "rig/wheel_rig.h"
+#include "tests/support/words.h"
 
 namespace furrow {
 
@@ -22,6 +23,11 @@ inline RigidWheel make_wheel(double height = 0.2, int segments = 80) {
   wheel.geometry.element_size = segments > 80 ? 0.05 : 0.1;
   wheel.hub = {{3.0, 0.06, 0.04}, {0.0, 0.0, height}};
   return RigidWheel(wheel);
+}
+
+/// The rig of a line of keywords; others: keywords that the line may leave out.
+inline WheelRig rig_of(RigidWheel& wheel, const std::string& line, const std::string& others = "") {
+  return WheelRig(WheelRig::schema("fix wheel/rig").read(test::words(line, others)), wheel);
 }
 
 /// A rigid floor at z = 0 by a penalty, with Coulomb friction that is viscous at creeping speeds.

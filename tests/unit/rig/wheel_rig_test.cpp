@@ -16,23 +16,15 @@ namespace {
 
 using test::error_of;
 using ::testing::HasSubstr;
-using Words = std::vector<std::string>;
+const std::string stages = " settle_time 0.2 accelerate_time 0.2 ground_level 0";
 
-Words with(Words words) {
-  const Words common{"settle_time", "0.2", "accelerate_time", "0.2", "ground_level", "0"};
-  for (std::size_t i = 0; i < common.size(); i += 2)
-    if (std::find(words.begin(), words.end(), common[i]) == words.end())
-      words.insert(words.end(), {common[i], common[i + 1]});
-  return words;
+WheelRig make_rig(RigidWheel& wheel, const std::string& line) {
+  return rig_of(wheel, line, stages);
 }
 
-WheelRig make_rig(RigidWheel& wheel, const Words& words) {
-  return WheelRig(WheelRig::schema("fix wheel/rig").read(with(words)), wheel);
-}
-
-std::string refusal_of(const Words& words) {
+std::string refusal_of(const std::string& line) {
   RigidWheel wheel = make_wheel();
-  return error_of<InputError>([&] { make_rig(wheel, words); });
+  return error_of<InputError>([&] { make_rig(wheel, line); });
 }
 
 std::size_t channel(const std::string& name) { return History(WheelRig::channels()).index(name); }
@@ -54,25 +46,23 @@ struct CruiseMean {
 
 TEST(WheelRig, ChannelsAndRowsAgree) {
   RigidWheel wheel = make_wheel();
-  const WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed"});
+  const WheelRig rig = make_rig(wheel, "load_force 60 speed 1 mode towed");
   EXPECT_EQ(rig.measure(0.0).size(), WheelRig::channels().size());
   EXPECT_EQ(WheelRig::channels().front().name, "time");
   for (const Channel& each : WheelRig::channels()) EXPECT_FALSE(each.meaning.empty());
 }
 
 /// Other targets, as Python sets them.
-std::string refused_targets(WheelRig& rig, const Words& words) {
+std::string refused_targets(WheelRig& rig, const std::string& line) {
   return error_of<InputError>(
-      [&] { rig.retarget(WheelRig::schema("fix wheel/rig").read(with(words))); });
+      [&] { rig.retarget(WheelRig::schema("fix wheel/rig").read(test::words(line, stages))); });
 }
 
 TEST(WheelRig, RefusedTargetsLeaveTheDraggedMass) {
   RigidWheel wheel = make_wheel();
-  const auto words = [](const char* mass, const char* torque) {
-    return Words{"load_mass", mass, "mode", "torque", "torque", torque, "travel", "free"};
-  };
-  WheelRig rig = make_rig(wheel, words("15", "1"));
-  EXPECT_THAT(refused_targets(rig, words("30", "1e9")), HasSubstr("'torque'"));
+  const std::string heavier = "load_mass 30 mode torque travel free torque ";
+  WheelRig rig = make_rig(wheel, "load_mass 15 mode torque travel free torque 1");
+  EXPECT_THAT(refused_targets(rig, heavier + "1e9"), HasSubstr("'torque'"));
   const auto speed_after_a_push = [&] {
     wheel.hold(Coordinate::x);
     wheel.advance(1e-3);
@@ -82,24 +72,21 @@ TEST(WheelRig, RefusedTargetsLeaveTheDraggedMass) {
     return wheel.velocity().x();
   };
   EXPECT_NEAR(speed_after_a_push(), 10.0 * 1e-3 / 15.0, 1e-12);
-  EXPECT_EQ(refused_targets(rig, words("30", "1")), "no error");
+  EXPECT_EQ(refused_targets(rig, heavier + "1"), "no error");
   EXPECT_NEAR(speed_after_a_push(), 10.0 * 1e-3 / 30.0, 1e-12);
 }
 
 TEST(WheelRig, SprungMassIsThatOfTheScript) {
   RigidWheel wheel = make_wheel();
-  const auto words = [](const char* mass) {
-    return Words{"load_mass", mass, "mode", "towed", "speed", "1", "suspension_stiffness", "4000"};
-  };
-  WheelRig rig = make_rig(wheel, words("15"));
-  EXPECT_EQ(refused_targets(rig, words("15")), "no error");
-  EXPECT_THAT(refused_targets(rig, words("30")), HasSubstr("sprung mass"));
+  const std::string sprung = "mode towed speed 1 suspension_stiffness 4000 load_mass ";
+  WheelRig rig = make_rig(wheel, sprung + "15");
+  EXPECT_EQ(refused_targets(rig, sprung + "15"), "no error");
+  EXPECT_THAT(refused_targets(rig, sprung + "30"), HasSubstr("sprung mass"));
 }
 
 TEST(WheelRig, PhasesFollowTheClock) {
   RigidWheel wheel = make_wheel();
-  const WheelRig rig =
-      make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "start", "1"});
+  const WheelRig rig = make_rig(wheel, "load_force 60 speed 1 mode towed start 1");
   EXPECT_EQ(rig.stage(0.5), RigStage::settle);
   EXPECT_EQ(rig.stage(1.19), RigStage::settle);
   EXPECT_EQ(rig.stage(1.21), RigStage::accelerate);
@@ -109,21 +96,17 @@ TEST(WheelRig, PhasesFollowTheClock) {
 
 TEST(WheelRig, TheLoadIsAMassOrAForceWheelIncluded) {
   RigidWheel wheel = make_wheel();
-  EXPECT_DOUBLE_EQ(make_rig(wheel, {"load_mass", "5", "speed", "1", "mode", "towed"}).load(),
-                   5.0 * 9.80665);
-  EXPECT_DOUBLE_EQ(
-      make_rig(wheel, {"load_mass", "5", "gravity", "1.62", "speed", "1", "mode", "towed"}).load(),
-      5.0 * 1.62);
-  EXPECT_DOUBLE_EQ(make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed"}).load(),
-                   60.0);
+  EXPECT_DOUBLE_EQ(make_rig(wheel, "load_mass 5 speed 1 mode towed").load(), 5.0 * 9.80665);
+  EXPECT_DOUBLE_EQ(make_rig(wheel, "load_mass 5 gravity 1.62 speed 1 mode towed").load(),
+                   5.0 * 1.62);
+  EXPECT_DOUBLE_EQ(make_rig(wheel, "load_force 60 speed 1 mode towed").load(), 60.0);
 }
 
 // Without ground: the impulse of the ramped load is momentum, z'(t) = -(W/m) times the integral of
 // the ramp.
 TEST(WheelRig, WithoutGroundTheLoadFallsFreely) {
   RigidWheel wheel = make_wheel();
-  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "0", "mode", "towed",
-                                  "load_ramp_time", "0.1", "start", "0.05"});
+  WheelRig rig = make_rig(wheel, "load_force 60 speed 0 mode towed load_ramp_time 0.1 start 0.05");
   const Ramp ramp{0.05, 0.1};
   run(rig, wheel, 0.3, 1e-4, nullptr, [&](const std::vector<double>& row) {
     ASSERT_NEAR(row[channel("velocity_z")], -60.0 / 3.0 * ramp.integral(row[0]), 60.0 / 3.0 * 1e-4);
@@ -133,16 +116,14 @@ TEST(WheelRig, WithoutGroundTheLoadFallsFreely) {
 
 TEST(WheelRig, UntilItsStartTheWheelIsHeld) {
   RigidWheel wheel = make_wheel();
-  WheelRig rig =
-      make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "start", "0.5"});
+  WheelRig rig = make_rig(wheel, "load_force 60 speed 1 mode towed start 0.5");
   run(rig, wheel, 0.5, 1e-3, nullptr,
       [](const std::vector<double>& row) { ASSERT_EQ(row[channel("z")], 0.2); });
 }
 
 TEST(WheelRig, ThePrescribedSinkageIsReachedAndKept) {
   RigidWheel wheel = make_wheel(0.25);
-  WheelRig rig =
-      make_rig(wheel, {"sinkage", "0.03", "speed", "1", "mode", "towed", "ground_level", "0.02"});
+  WheelRig rig = make_rig(wheel, "sinkage 0.03 speed 1 mode towed ground_level 0.02");
   double last = -1.0;
   run(rig, wheel, 0.6, 1e-4, nullptr, [&](const std::vector<double>& row) {
     ASSERT_GE(row[channel("hub_drop")], last - 1e-15);
@@ -158,8 +139,8 @@ TEST(WheelRig, PrescribedSlipIsExactFromTheFirstRollingStep) {
   for (const double target : {-1.0, -0.5, 0.0, 0.25, 0.9})
     for (const double angle : {0.0, 20.0}) {
       RigidWheel wheel = make_wheel();
-      WheelRig rig = make_rig(wheel, {"sinkage", "0", "speed", "0.8", "mode", "slip", "slip",
-                                      std::to_string(target), "slip_angle", std::to_string(angle)});
+      WheelRig rig = make_rig(
+          wheel, fmt::format("sinkage 0 speed 0.8 mode slip slip {} slip_angle {}", target, angle));
       const Ramp ramp{0.2, 0.2};
       run(rig, wheel, 0.6, 1e-4, nullptr, [&](const std::vector<double>& row) {
         if (row[0] > 0.2005) {
@@ -176,21 +157,19 @@ TEST(WheelRig, PrescribedSlipIsExactFromTheFirstRollingStep) {
 
 TEST(WheelRig, SlipDefinitionsSetTheSameMotionByDifferentNumbers) {
   RigidWheel wheel = make_wheel();
-  const Words common{"load_force", "60", "speed", "0.8", "mode", "slip"};
-  const auto target = [&](const std::string& definition, const std::string& value) {
-    Words words = common;
-    words.insert(words.end(), {"slip_definition", definition, "slip", value});
-    return make_rig(wheel, words).target_rim_speed();
+  const auto target = [&](const std::string& definition) {
+    return make_rig(wheel, "load_force 60 speed 0.8 mode slip slip_definition " + definition)
+        .target_rim_speed();
   };
-  EXPECT_DOUBLE_EQ(target("larger_speed", "0.2"), 1.0);
-  EXPECT_DOUBLE_EQ(target("rim_speed", "0.2"), 1.0);
-  EXPECT_DOUBLE_EQ(target("vehicle_speed", "0.25"), 1.0);
+  EXPECT_DOUBLE_EQ(target("larger_speed slip 0.2"), 1.0);
+  EXPECT_DOUBLE_EQ(target("rim_speed slip 0.2"), 1.0);
+  EXPECT_DOUBLE_EQ(target("vehicle_speed slip 0.25"), 1.0);
 }
 
 // No ground: alpha = T/I, so omega = T/I times the integral of the ramp.
 TEST(WheelRig, ATorqueSpinsTheWheelUpByItsInertia) {
   RigidWheel wheel = make_wheel();
-  WheelRig rig = make_rig(wheel, {"sinkage", "0", "speed", "0", "mode", "torque", "torque", "0.3"});
+  WheelRig rig = make_rig(wheel, "sinkage 0 speed 0 mode torque torque 0.3");
   const Ramp ramp{0.2, 0.2};
   run(rig, wheel, 0.6, 1e-4, nullptr, [&](const std::vector<double>& row) {
     ASSERT_NEAR(row[channel("spin_rate")], 0.3 / 0.06 * ramp.integral(row[0]), 0.3 / 0.06 * 1e-4);
@@ -201,8 +180,7 @@ TEST(WheelRig, ATorqueSpinsTheWheelUpByItsInertia) {
 TEST(WheelRig, OnAFloorTheWheelCarriesItsLoad) {
   RigidWheel wheel = make_wheel(0.2005);
   const Floor floor;
-  WheelRig rig =
-      make_rig(wheel, {"load_force", "60", "speed", "0", "mode", "towed", "damping", "600"});
+  WheelRig rig = make_rig(wheel, "load_force 60 speed 0 mode towed damping 600");
   std::vector<double> last;
   run(rig, wheel, 0.8, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
   EXPECT_NEAR(last[channel("force_z")], 60.0, 1e-6);
@@ -219,8 +197,7 @@ TEST(WheelRig, OnAFloorTheWheelCarriesItsLoad) {
 TEST(WheelRig, ATowedWheelRollsFreelyOnAFrictionalFloor) {
   RigidWheel wheel = make_wheel(0.2003, 160);
   const Floor floor;
-  WheelRig rig =
-      make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "damping", "600"});
+  WheelRig rig = make_rig(wheel, "load_force 60 speed 1 mode towed damping 600");
   CruiseMean mean;
   mean.after = 0.6;
   run(rig, wheel, 1.2, 4e-5, &floor, std::ref(mean));
@@ -238,8 +215,8 @@ TEST(WheelRig, ASlidingWheelPullsItsFrictionForce) {
   for (const double slip : {-1.0, 0.5}) {
     RigidWheel wheel = make_wheel(0.2003);
     const Floor floor;
-    WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "slip", "slip",
-                                    std::to_string(slip), "damping", "600"});
+    WheelRig rig =
+        make_rig(wheel, fmt::format("load_force 60 speed 1 mode slip slip {} damping 600", slip));
     CruiseMean mean;
     mean.after = 0.6;
     run(rig, wheel, 1.2, 4e-5, &floor, std::ref(mean));
@@ -253,8 +230,7 @@ TEST(WheelRig, ASlidingWheelPullsItsFrictionForce) {
 TEST(WheelRig, ADrivenWheelTurnsItsTorqueIntoPull) {
   RigidWheel wheel = make_wheel(0.2003, 160);
   const Floor floor;
-  WheelRig rig = make_rig(
-      wheel, {"load_force", "60", "speed", "1", "mode", "torque", "torque", "2", "damping", "600"});
+  WheelRig rig = make_rig(wheel, "load_force 60 speed 1 mode torque torque 2 damping 600");
   CruiseMean mean;
   mean.after = 0.6;
   run(rig, wheel, 1.2, 4e-5, &floor, std::ref(mean));
@@ -266,8 +242,8 @@ TEST(WheelRig, ADrivenWheelTurnsItsTorqueIntoPull) {
 TEST(WheelRig, TheEnergyBalanceClosesOverAWholeRun) {
   RigidWheel wheel = make_wheel(0.2003, 160);
   const Floor floor;
-  WheelRig rig = make_rig(wheel, {"load_mass", "6", "speed", "1", "mode", "slip", "slip", "0.3",
-                                  "damping", "100", "slip_angle", "10"});
+  WheelRig rig =
+      make_rig(wheel, "load_mass 6 speed 1 mode slip slip 0.3 damping 100 slip_angle 10");
   std::vector<double> last;
   run(rig, wheel, 0.8, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
   const double drive = last[channel("drive_work")];
@@ -281,10 +257,8 @@ TEST(WheelRig, TheEnergyBalanceClosesOverAWholeRun) {
 }
 
 TEST(WheelRig, ARigMadeAgainContinuesBitwise) {
-  const Words words{"load_mass", "6",       "speed", "1",          "mode",
-                    "towed",     "damping", "100",   "slip_angle", "10"};
-  expect_continues_bitwise([&](RigidWheel& wheel) { return make_rig(wheel, words); }, Floor(), 3000,
-                           5000);
+  expect_continues_bitwise("load_mass 6 speed 1 mode towed damping 100 slip_angle 10" + stages,
+                           Floor(), 3000, 5000);
 }
 
 TEST(Course, IsLinearBetweenItsPointsAndConstantOutside) {
@@ -301,9 +275,9 @@ TEST(Course, IsLinearBetweenItsPointsAndConstantOutside) {
 TEST(WheelRig, TargetsFollowTheirRampsFromTheStartOfTheCruise) {
   constexpr double dt = 1e-4, cruise = 0.4;
   RigidWheel wheel = make_wheel();
-  WheelRig rig = make_rig(
-      wheel, {"load_force_ramp", "0", "60", "0.2", "90", "speed", "0.8", "mode", "slip",
-              "slip_ramp", "0", "-0.2", "0.2", "0.6", "slip_angle_ramp", "0.1", "5", "0.3", "25"});
+  WheelRig rig = make_rig(wheel,
+                          "load_force_ramp 0 60 0.2 90 speed 0.8 mode slip slip_ramp 0 -0.2 0.2 "
+                          "0.6 slip_angle_ramp 0.1 5 0.3 25");
   const Course load({{0.0, 60.0}, {0.2, 90.0}}), slip({{0.0, -0.2}, {0.2, 0.6}}),
       angle({{0.1, 5.0}, {0.3, 25.0}});
   run(rig, wheel, 0.8, dt, nullptr, [&](const std::vector<double>& row) {
@@ -320,19 +294,16 @@ TEST(WheelRig, TargetsFollowTheirRampsFromTheStartOfTheCruise) {
 
 TEST(WheelRig, TheSpinRateFollowsItsRampWithTheAxleFree) {
   RigidWheel wheel = make_wheel();
-  WheelRig rig = make_rig(wheel, {"load_force", "60", "travel", "free", "mode", "spin",
-                                  "spin_rate_ramp", "0", "2", "0.2", "6"});
+  WheelRig rig = make_rig(wheel, "load_force 60 travel free mode spin spin_rate_ramp 0 2 0.2 6");
   run(rig, wheel, 0.5, 1e-4, nullptr, [](const std::vector<double>&) {});
   EXPECT_NEAR(wheel.rate(Coordinate::spin), 2.0 + 4.0 * (0.1 - 0.5e-4) / 0.2, 1e-12);
 }
 
 TEST(WheelRig, RadiusAndSpeedOfSlipSetTheSpinAndTheRecordedSlip) {
-  const auto spin_of = [](Words words) {
-    const Words common{"load_force", "60",   "speed", "0.8",        "mode",
-                       "slip",       "slip", "0.5",   "slip_angle", "20"};
-    words.insert(words.end(), common.begin(), common.end());
+  const auto spin_of = [](const std::string& definition) {
     RigidWheel wheel = make_wheel();
-    WheelRig rig = make_rig(wheel, words);
+    WheelRig rig =
+        make_rig(wheel, "load_force 60 speed 0.8 mode slip slip 0.5 slip_angle 20 " + definition);
     run(rig, wheel, 0.5, 1e-4, nullptr, [](const std::vector<double>& row) {
       if (row[0] > 0.2005) {
         ASSERT_NEAR(row[channel("slip")], 0.5, 1e-12);
@@ -342,17 +313,15 @@ TEST(WheelRig, RadiusAndSpeedOfSlipSetTheSpinAndTheRecordedSlip) {
   };
   const double forward = 0.8 * std::cos(radians(20.0));
   EXPECT_NEAR(spin_of({}), forward / 0.5 / 0.2, 1e-12);
-  EXPECT_NEAR(spin_of({"slip_speed", "total"}), 0.8 / 0.5 / 0.2, 1e-12);
-  EXPECT_NEAR(spin_of({"slip_radius", "effective", "effective_radius", "0.19"}),
-              forward / 0.5 / 0.19, 1e-12);
+  EXPECT_NEAR(spin_of("slip_speed total"), 0.8 / 0.5 / 0.2, 1e-12);
+  EXPECT_NEAR(spin_of("slip_radius effective effective_radius 0.19"), forward / 0.5 / 0.19, 1e-12);
 }
 
 TEST(WheelRig, TheTipRadiusIncludesGrousersAndTheMeaningOfSlipStatesIt) {
   RigidWheelParameters parameters = make_wheel().parameters();
   parameters.geometry.grousers = {12, 0.02, 0.01, 0.0};
   RigidWheel wheel(parameters);
-  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1.1", "mode", "slip", "slip", "0.5",
-                                  "slip_radius", "tip"});
+  WheelRig rig = make_rig(wheel, "load_force 60 speed 1.1 mode slip slip 0.5 slip_radius tip");
   double pitches = 0.0;
   run(rig, wheel, 0.6, 1e-4, nullptr,
       [&](const std::vector<double>& row) { pitches = row[channel("grouser_pitches")]; });
@@ -366,8 +335,8 @@ TEST(WheelRig, TheTipRadiusIncludesGrousersAndTheMeaningOfSlipStatesIt) {
 TEST(WheelRig, TractiveAndLateralForceAreThoseOfTheTravelInTheWheelFrame) {
   RigidWheel wheel = make_wheel(0.2003);
   const Floor floor;
-  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "slip", "slip", "-1",
-                                  "slip_angle", "20", "damping", "600"});
+  WheelRig rig =
+      make_rig(wheel, "load_force 60 speed 1 mode slip slip -1 slip_angle 20 damping 600");
   CruiseMean mean;
   mean.after = 0.6;
   run(rig, wheel, 1.0, 4e-5, &floor, std::ref(mean));
@@ -383,8 +352,8 @@ TEST(WheelRig, OnASideSlopeAFreeWheelSlidesDownhill) {
   RigidWheel wheel = make_wheel(0.2003);
   Floor floor;
   floor.friction = 0.0;
-  WheelRig rig = make_rig(wheel, {"load_mass", "6", "speed", "1", "mode", "towed", "side_slope",
-                                  "10", "lateral", "free", "damping", "600"});
+  WheelRig rig =
+      make_rig(wheel, "load_mass 6 speed 1 mode towed side_slope 10 lateral free damping 600");
   std::vector<double> last;
   run(rig, wheel, 0.7, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
   const double sine = std::sin(radians(10.0));
@@ -399,8 +368,9 @@ TEST(WheelRig, OnASideSlopeTheSideForceIsThatOfTheWeight) {
   for (const double slope : {10.0, -10.0}) {
     RigidWheel wheel = make_wheel(0.2003);
     const Floor floor;
-    WheelRig rig = make_rig(wheel, {"load_mass", "6", "speed", "1", "mode", "towed", "side_slope",
-                                    std::to_string(slope), "lateral", "free", "damping", "600"});
+    WheelRig rig = make_rig(
+        wheel, fmt::format("load_mass 6 speed 1 mode towed side_slope {} lateral free damping 600",
+                           slope));
     CruiseMean mean;
     mean.after = 0.8;
     run(rig, wheel, 1.4, 4e-5, &floor, std::ref(mean));
@@ -412,42 +382,19 @@ TEST(WheelRig, OnASideSlopeTheSideForceIsThatOfTheWeight) {
 }
 
 TEST(WheelRig, ARigWithRampsContinuesBitwise) {
-  const Words words{"load_force_ramp",
-                    "0",
-                    "60",
-                    "0.3",
-                    "90",
-                    "speed",
-                    "1",
-                    "mode",
-                    "slip",
-                    "slip_ramp",
-                    "0",
-                    "0",
-                    "0.3",
-                    "0.4",
-                    "slip_angle_ramp",
-                    "0",
-                    "0",
-                    "0.3",
-                    "10",
-                    "damping",
-                    "100",
-                    "side_slope",
-                    "5",
-                    "lateral",
-                    "free"};
-  expect_continues_bitwise([&](RigidWheel& wheel) { return make_rig(wheel, words); }, Floor(), 4600,
-                           5800);
+  const std::string line =
+      "load_force_ramp 0 60 0.3 90 speed 1 mode slip slip_ramp 0 0 0.3 0.4 slip_angle_ramp 0 0 0.3 "
+      "10 damping 100 side_slope 5 lateral free";
+  expect_continues_bitwise(line + stages, Floor(), 4600, 5800);
 }
 
 // The settled wheel carries the whole load, and the spring the sprung mass of 4 kg.
 TEST(WheelRig, ASuspensionCarriesTheSprungMass) {
   RigidWheel wheel = make_wheel(0.2003);
   const Floor floor;
-  WheelRig rig = make_rig(
-      wheel, {"load_mass", "7", "speed", "0", "mode", "towed", "damping", "600",
-              "suspension_stiffness", "2000", "suspension_damping", "120", "settle_time", "1.5"});
+  WheelRig rig = make_rig(wheel,
+                          "load_mass 7 speed 0 mode towed damping 600 suspension_stiffness 2000 "
+                          "suspension_damping 120 settle_time 1.5");
   std::vector<double> last;
   run(rig, wheel, 1.5, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
   const double gravity = 9.80665;
@@ -458,104 +405,96 @@ TEST(WheelRig, ASuspensionCarriesTheSprungMass) {
 }
 
 TEST(WheelRig, ASuspendedRigContinuesBitwise) {
-  const Words words{
-      "load_mass",          "7", "speed", "1", "mode", "towed", "suspension_stiffness", "2000",
-      "suspension_damping", "20"};
-  expect_continues_bitwise([&](RigidWheel& wheel) { return make_rig(wheel, words); }, Floor(), 2000,
-                           3000);
+  const std::string line =
+      "load_mass 7 speed 1 mode towed suspension_stiffness 2000 suspension_damping 20";
+  expect_continues_bitwise(line + stages, Floor(), 2000, 3000);
 }
 
 TEST(WheelRig, ASuspensionNeedsASprungMassAndAShortStep) {
-  const Words words{"load_mass", "3", "speed", "1", "mode", "towed", "suspension_stiffness", "1e3"};
-  EXPECT_THAT(refusal_of(words), HasSubstr("keyword 'suspension_stiffness' is given, and the load "
-                                           "is 3 kg; allowed: a load above 3 kg"));
+  EXPECT_THAT(refusal_of("load_mass 3 speed 1 mode towed suspension_stiffness 1e3"),
+              HasSubstr("keyword 'suspension_stiffness' is given, and the load "
+                        "is 3 kg; allowed: a load above 3 kg"));
   RigidWheel wheel = make_wheel();
-  WheelRig rig = make_rig(
-      wheel, {"load_mass", "6", "speed", "1", "mode", "towed", "suspension_stiffness", "1e6"});
+  WheelRig rig = make_rig(wheel, "load_mass 6 speed 1 mode towed suspension_stiffness 1e6");
   EXPECT_THAT(error_of<StateError>([&] { rig.apply(0.05, 1e-3); }),
               HasSubstr("a step of 0.001 s is too long for a suspension"));
 }
 
 TEST(WheelRig, RefusesImpossibleCourses) {
-  const auto refusal_with = [](Words words) {
-    for (const char* word : {"speed", "1", "mode", "slip"}) words.push_back(word);
-    return refusal_of(words);
+  const auto refusal_with = [](const std::string& course) {
+    return refusal_of("speed 1 mode slip " + course);
   };
-  EXPECT_THAT(refusal_with({"load_force", "60", "slip_ramp", "0", "0", "1"}),
+  EXPECT_THAT(refusal_with("load_force 60 slip_ramp 0 0 1"),
               HasSubstr("keyword 'slip_ramp' has 3 numbers; allowed: pairs of time [s] and value"));
-  EXPECT_THAT(refusal_with({"load_force", "60", "slip_ramp", "0", "0", "0", "0.5"}),
+  EXPECT_THAT(refusal_with("load_force 60 slip_ramp 0 0 0 0.5"),
               HasSubstr("keyword 'slip_ramp' has the time 0 s after 0 s; allowed: times >= 0 that "
                         "grow; count the time from the start of the cruise"));
-  EXPECT_THAT(refusal_with({"load_force", "60", "slip_ramp", "0", "0", "1", "1"}),
+  EXPECT_THAT(refusal_with("load_force 60 slip_ramp 0 0 1 1"),
               HasSubstr("keyword 'slip' is 1 with slip_definition larger_speed"));
-  EXPECT_THAT(refusal_with({"load_force", "60", "slip", "0", "slip_ramp", "0", "0", "1", "0.5"}),
+  EXPECT_THAT(refusal_with("load_force 60 slip 0 slip_ramp 0 0 1 0.5"),
               HasSubstr("keyword 'slip' is given, and it changes over time too"));
-  EXPECT_THAT(refusal_with({"load_mass", "6", "load_force_ramp", "0", "60", "slip", "0"}),
+  EXPECT_THAT(refusal_with("load_mass 6 load_force_ramp 0 60 slip 0"),
               HasSubstr("has load_mass and a course of load_force"));
-  EXPECT_THAT(refusal_with({"load_force_ramp", "0", "60", "1", "-5", "slip", "0"}),
+  EXPECT_THAT(refusal_with("load_force_ramp 0 60 1 -5 slip 0"),
               HasSubstr("keyword 'load_force_ramp' has the value -5; allowed: a number > 0 [N]"));
-  EXPECT_THAT(
-      refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip_ramp", "0", "0"}),
-      HasSubstr("keyword 'slip' changes over time in mode towed"));
-  EXPECT_THAT(refusal_with({"load_force", "60", "slip", "0", "slip_radius", "effective"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode towed slip_ramp 0 0"),
+              HasSubstr("keyword 'slip' changes over time in mode towed"));
+  EXPECT_THAT(refusal_with("load_force 60 slip 0 slip_radius effective"),
               HasSubstr("keyword 'effective_radius' is missing with slip_radius effective"));
 }
 
 TEST(WheelRig, RefusesContradictionsWithKeywordAndRemedy) {
-  EXPECT_THAT(refusal_of({"speed", "1", "mode", "towed"}),
+  EXPECT_THAT(refusal_of("speed 1 mode towed"),
               HasSubstr("fix wheel/rig has no load; allowed: exactly one of load_mass [kg], "
                         "load_force [N], sinkage [m]; "
                         "give the load that the ground carries, weight of the wheel included"));
-  EXPECT_THAT(refusal_of({"load_mass", "5", "load_force", "60", "speed", "1", "mode", "towed"}),
+  EXPECT_THAT(refusal_of("load_mass 5 load_force 60 speed 1 mode towed"),
               HasSubstr("has load_mass and load_force; allowed: exactly one"));
-  EXPECT_THAT(refusal_of({"load_mass", "5", "sinkage", "0.1", "speed", "1", "mode", "towed"}),
+  EXPECT_THAT(refusal_of("load_mass 5 sinkage 0.1 speed 1 mode towed"),
               HasSubstr("has load_mass and sinkage"));
-  EXPECT_THAT(refusal_of({"load_force", "-60", "speed", "1", "mode", "towed"}),
+  EXPECT_THAT(refusal_of("load_force -60 speed 1 mode towed"),
               HasSubstr("keyword 'load_force' is -60; allowed: a number > 0 [N]"));
-  EXPECT_THAT(refusal_of({"load_mass", "0", "speed", "1", "mode", "towed"}),
-              HasSubstr("keyword 'load_mass' is 0"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "-1", "mode", "towed"}),
+  EXPECT_THAT(refusal_of("load_mass 0 speed 1 mode towed"), HasSubstr("keyword 'load_mass' is 0"));
+  EXPECT_THAT(refusal_of("load_force 60 speed -1 mode towed"),
               HasSubstr("keyword 'speed' is -1; allowed: a number in [0, 1000] [m/s]"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "skid"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode skid"),
               HasSubstr("keyword 'mode' is 'skid'; allowed: one of: towed, slip, torque"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "0", "mode", "slip", "slip", "0.2"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 0 mode slip slip 0.2"),
               HasSubstr("keyword 'speed' is 0 m/s in mode slip; allowed: a number > 0 [m/s]; give "
                         "a speed, or drive a "
                         "standing wheel with mode torque"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "slip"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode slip"),
               HasSubstr("keyword 'slip' is missing in mode slip"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip", "0.2"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode towed slip 0.2"),
               HasSubstr("keyword 'slip' is given in mode towed; allowed: a slip in mode slip, and "
                         "only there; remove it or "
                         "change the mode"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip_definition",
-                          "rim_speed"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode towed slip_definition rim_speed"),
               HasSubstr("keyword 'slip_definition' is given in mode towed"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "torque"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode torque"),
               HasSubstr("keyword 'torque' is missing in mode torque"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "torque", "5"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode towed torque 5"),
               HasSubstr("keyword 'torque' is given in mode towed"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "slip", "slip", "1"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode slip slip 1"),
               HasSubstr("keyword 'slip' is 1 with slip_definition larger_speed; allowed: -1 to "
                         "below 1 by the larger speed"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "slip", "slip", "-1.2",
-                          "slip_definition", "vehicle_speed"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode slip slip -1.2 slip_definition vehicle_speed"),
               HasSubstr("keyword 'slip' is -1.2 with slip_definition vehicle_speed"));
   EXPECT_THAT(
-      refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "load_ramp_time", "0.3"}),
+      refusal_of("load_force 60 speed 1 mode towed load_ramp_time 0.3"),
       HasSubstr("keyword 'load_ramp_time' is 0.3 s; allowed: 0 to settle_time, 0.2 s; lengthen "
                 "settle_time"));
-  EXPECT_THAT(refusal_of({"sinkage", "0.1", "speed", "1", "mode", "towed", "load_ramp_time", "0"}),
+  EXPECT_THAT(refusal_of("sinkage 0.1 speed 1 mode towed load_ramp_time 0"),
               HasSubstr("keyword 'load_ramp_time' is 0 s with a prescribed sinkage"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "settle_time", "0"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode towed settle_time 0"),
               HasSubstr("keyword 'settle_time' is 0"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip_angle", "90"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode towed slip_angle 90"),
               HasSubstr("keyword 'slip_angle' is 90"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "damping", "-1"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode towed damping -1"),
               HasSubstr("keyword 'damping' is -1"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "camber", "50"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode towed camber 50"),
               HasSubstr("keyword 'camber' is 50"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "gravity", "0"}),
+  EXPECT_THAT(refusal_of("load_force 60 speed 1 mode towed gravity 0"),
               HasSubstr("keyword 'gravity' is 0"));
 }
 
