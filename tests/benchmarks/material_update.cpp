@@ -76,108 +76,48 @@ class Points {
   std::size_t run_;
 };
 
-std::unique_ptr<Material> make(const std::string& name, const MaterialSections& sections) {
-  return make_material(name, sections);
+std::string elastic() { return "elastic density 200 E 13.79e6 nu 0.3"; }
+
+/// Fresh snow, [Shoop2001] Tables 1 and 3. @param shape K, alpha and section
+std::string snow(const std::string& shape = "K 1 alpha 0",
+                 const std::string& interpolation = "linear") {
+  return "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.02 eps_vol_pl_0 0.001 " + shape +
+         " E 13.79e6 nu 0.3 hardening table p 113.76 5e4 1e5 2e5 5e5 1e6 2e6 2.8e6 3.25e6 6e6 6e7 "
+         "eps_vol_pl 0 0.593 0.669 0.806 0.944 1.083 1.299 1.455 1.475 1.50 1.514 beyond "
+         "extrapolate interpolation " +
+         interpolation;
 }
 
-std::unique_ptr<Material> elastic() {
-  return make("elastic", {{"law", {{"density", {"200"}}}},
-                          {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}}});
+std::string foam() {
+  return "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity porous elasticity.kappa "
+         "0.005 elasticity.e0 3.5 pt_el 113.76 nu 0.3 "
+         "hardening exponential pc0 113.76 lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5";
 }
 
-/// Fresh snow, [Shoop2001] Tables 1 and 3.
-std::unique_ptr<Material> snow(const std::string& K, const std::string& alpha,
-                               const std::string& interpolation,
-                               const std::string& section = "abaqus") {
-  return make(
-      "drucker_prager_cap",
-      {{"law",
-        {{"density", {"200"}},
-         {"d", {"5e3"}},
-         {"beta", {"22.53"}},
-         {"R", {"0.02"}},
-         {"alpha", {alpha}},
-         {"K", {K}},
-         {"section", {section}},
-         {"eps_vol_pl_0", {"0.001"}}}},
-       {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}},
-       {"hardening",
-        {{"type", {"table"}},
-         {"p",
-          {"113.76", "5e4", "1e5", "2e5", "5e5", "1e6", "2e6", "2.8e6", "3.25e6", "6e6", "6e7"}},
-         {"eps_vol_pl",
-          {"0", "0.593", "0.669", "0.806", "0.944", "1.083", "1.299", "1.455", "1.475", "1.50",
-           "1.514"}},
-         {"interpolation", {interpolation}},
-         {"beyond", {"extrapolate"}}}}});
+/// The table of the snow above, p = 0.413 sigma_1.
+std::string compacting(const std::string& interpolation) {
+  return " E 13.79e6 nu 0.3 hardening table p 113.76 2.065e4 8.26e4 4.13e5 1.342e6 "
+         "eps_vol_pl 0 0.6419 0.8544 1.1314 1.5228 beyond extrapolate interpolation " +
+         interpolation;
 }
 
-std::unique_ptr<Material> foam() {
-  return make("crushable_foam",
-              {{"law", {{"density", {"200"}}, {"pt", {"11.376"}}, {"sigma0", {"275.79"}}}},
-               {"elasticity",
-                {{"type", {"porous"}},
-                 {"kappa", {"0.005"}},
-                 {"e0", {"3.5"}},
-                 {"pt_el", {"113.76"}},
-                 {"nu", {"0.3"}}}},
-               {"hardening",
-                {{"type", {"exponential"}},
-                 {"pc0", {"113.76"}},
-                 {"lambda", {"0.35"}},
-                 {"kappa", {"0.005"}},
-                 {"e0", {"3.5"}}}}});
-}
-
-/// Fresh snow of 200 kg/m3 that follows the oedometer, with K0 = 0.12 (the table of the snow above,
-/// p = 0.413 sigma_1).
-std::unique_ptr<Material> cam_clay(const std::string& interpolation) {
-  return make("cohesive_cam_clay",
-              {{"law", {{"density", {"200"}}, {"M", {"3.3"}}, {"tension_ratio", {"0.1"}}}},
-               {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}},
-               {"hardening",
-                {{"type", {"table"}},
-                 {"p", {"113.76", "2.065e4", "8.26e4", "4.13e5", "1.342e6"}},
-                 {"eps_vol_pl", {"0", "0.6419", "0.8544", "1.1314", "1.5228"}},
-                 {"interpolation", {interpolation}},
-                 {"beyond", {"extrapolate"}}}}});
+/// Fresh snow of 200 kg/m3 that follows the oedometer, with K0 = 0.12.
+std::string cam_clay(const std::string& interpolation = "linear") {
+  return "cohesive_cam_clay density 200 M 3.3 tension_ratio 0.1" + compacting(interpolation);
 }
 
 /// The same snow with independent lateral stress and shear strength.
-std::unique_ptr<Material> cohesive_cap(const std::string& interpolation) {
-  return make("cohesive_cap", {{"law",
-                                {{"density", {"200"}},
-                                 {"nu_p", {"0.1"}},
-                                 {"d", {"2e3"}},
-                                 {"d_density", {"200"}},
-                                 {"d_exponent", {"3"}},
-                                 {"beta", {"30"}},
-                                 {"tension_ratio", {"0.2"}}}},
-                               {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}},
-                               {"hardening",
-                                {{"type", {"table"}},
-                                 {"p", {"113.76", "2.065e4", "8.26e4", "4.13e5", "1.342e6"}},
-                                 {"eps_vol_pl", {"0", "0.6419", "0.8544", "1.1314", "1.5228"}},
-                                 {"interpolation", {interpolation}},
-                                 {"beyond", {"extrapolate"}}}}});
+std::string cohesive_cap(const std::string& interpolation = "linear") {
+  return "cohesive_cap density 200 nu_p 0.1 d 2e3 d_density 200 d_exponent 3 beta 30 tension_ratio "
+         "0.2" +
+         compacting(interpolation);
 }
 
 /// Dry sand.
-std::unique_ptr<Material> norsand(const std::string& N, const std::string& K) {
-  return make("norsand", {{"law",
-                           {{"density", {"1600"}},
-                            {"e0", {"0.66"}},
-                            {"M", {"1.2"}},
-                            {"N", {N}},
-                            {"gamma", {"0.8"}},
-                            {"lambda", {"0.02"}},
-                            {"chi", {"3.5"}},
-                            {"H", {"100"}},
-                            {"G", {"4e7"}},
-                            {"n", {"0.5"}},
-                            {"nu", {"0.2"}},
-                            {"K", {K}},
-                            {"section", {"matsuoka_nakai"}}}}});
+std::string norsand(const std::string& shape) {
+  return "norsand density 1600 e0 0.66 M 1.2 gamma 0.8 lambda 0.02 chi 3.5 H 100 G 4e7 n 0.5 nu "
+         "0.2 section matsuoka_nakai " +
+         shape;
 }
 
 void measure(benchmark::State& timer, const Material& material, double strain, double loosening,
@@ -206,96 +146,56 @@ void measure(benchmark::State& timer, const Material& material, double strain, d
       static_cast<double>(report.iterations) / static_cast<double>(point_count);
 }
 
-// Steps of 1e-4, as an explicit scene takes them. Unless the name says so every point is on its
-// own: the worst order for vectors.
-void BM_elastic(benchmark::State& timer) { measure(timer, *elastic(), 1e-4, 0.0); }
-/// The same law written point by point, with seven separate variables.
-void BM_elastic_pointwise(benchmark::State& timer) {
-  const auto material =
-      make_material(PlainElastic::model(), entries_of_text("density 200 E 13.79e6 nu 0.3"));
-  measure(timer, *material, 1e-4, 0.0);
-}
-void BM_cap_mixed(benchmark::State& timer) { measure(timer, *snow("1", "0", "linear"), 1e-4, 0.0); }
-void BM_cap_mixed_neighbours_alike(benchmark::State& timer) {
-  measure(timer, *snow("1", "0", "linear"), 1e-4, 0.0, 64);
-}
-void BM_cap_mixed_transition(benchmark::State& timer) {
-  measure(timer, *snow("1", "0.05", "linear"), 1e-4, 0.0);
-}
-void BM_cap_mixed_log_table(benchmark::State& timer) {
-  measure(timer, *snow("1", "0", "log"), 1e-4, 0.0);
-}
-void BM_cap_all_compacting(benchmark::State& timer) {
-  measure(timer, *snow("1", "0", "linear"), 1e-4, -1.0);
-}
-void BM_cap_mixed_large_steps(benchmark::State& timer) {
-  measure(timer, *snow("1", "0", "linear"), 1e-2, 0.0);
-}
-void BM_cap_mixed_lode(benchmark::State& timer) {
-  measure(timer, *snow("0.8", "0", "linear"), 1e-4, 0.0);
-}
-void BM_cap_mixed_smooth_cone(benchmark::State& timer) {
-  measure(timer, *snow("0.7", "0", "linear", "matsuoka_nakai"), 1e-4, 0.0);
-}
-void BM_foam_mixed(benchmark::State& timer) { measure(timer, *foam(), 1e-4, 0.0); }
-void BM_cohesive_cap_mixed(benchmark::State& timer) {
-  measure(timer, *cohesive_cap("linear"), 1e-4, 0.0);
-}
-void BM_cohesive_cap_mixed_log_table(benchmark::State& timer) {
-  measure(timer, *cohesive_cap("log"), 1e-4, 0.0);
-}
-void BM_cohesive_cap_all_compacting(benchmark::State& timer) {
-  measure(timer, *cohesive_cap("linear"), 1e-4, -1.0);
-}
-void BM_cohesive_cap_mixed_large_steps(benchmark::State& timer) {
-  measure(timer, *cohesive_cap("linear"), 1e-2, 0.0);
-}
-void BM_cam_clay_mixed(benchmark::State& timer) { measure(timer, *cam_clay("linear"), 1e-4, 0.0); }
-void BM_cam_clay_mixed_neighbours_alike(benchmark::State& timer) {
-  measure(timer, *cam_clay("linear"), 1e-4, 0.0, 64);
-}
-void BM_cam_clay_mixed_log_table(benchmark::State& timer) {
-  measure(timer, *cam_clay("log"), 1e-4, 0.0);
-}
-void BM_cam_clay_all_compacting(benchmark::State& timer) {
-  measure(timer, *cam_clay("linear"), 1e-4, -1.0);
-}
-void BM_cam_clay_mixed_large_steps(benchmark::State& timer) {
-  measure(timer, *cam_clay("linear"), 1e-2, 0.0);
-}
-void BM_norsand_mixed(benchmark::State& timer) { measure(timer, *norsand("0.5", "1"), 1e-4, 0.0); }
-void BM_norsand_mixed_other_N(benchmark::State& timer) {
-  measure(timer, *norsand("0.35", "1"), 1e-4, 0.0);
-}
-void BM_norsand_mixed_smooth_cone(benchmark::State& timer) {
-  measure(timer, *norsand("0.5", "0.72"), 1e-4, 0.0);
+/// @param run as of Points
+void add(const char* name, const std::string& material, double strain = 1e-4,
+         double loosening = 0.0, std::size_t run = 1) {
+  const auto body = [=](benchmark::State& timer) {
+    measure(timer, *material_of_text(material), strain, loosening, run);
+  };
+  benchmark::RegisterBenchmark(name, body)->Unit(benchmark::kMillisecond);
 }
 
-BENCHMARK(BM_elastic)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_elastic_pointwise)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cap_mixed)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cap_mixed_neighbours_alike)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cap_mixed_transition)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cap_mixed_log_table)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cap_all_compacting)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cap_mixed_large_steps)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cap_mixed_lode)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cap_mixed_smooth_cone)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_foam_mixed)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cohesive_cap_mixed)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cohesive_cap_mixed_log_table)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cohesive_cap_all_compacting)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cohesive_cap_mixed_large_steps)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cam_clay_mixed)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cam_clay_mixed_neighbours_alike)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cam_clay_mixed_log_table)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cam_clay_all_compacting)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_cam_clay_mixed_large_steps)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_norsand_mixed)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_norsand_mixed_other_N)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_norsand_mixed_smooth_cone)->Unit(benchmark::kMillisecond);
+// Steps of 1e-4, as an explicit scene takes them. Unless the name says so every point is on its
+// own: the worst order for vectors.
+void add_all() {
+  add("BM_elastic", elastic());
+  // The same law written point by point, with seven separate variables
+  const auto pointwise = [](benchmark::State& timer) {
+    const auto material =
+        make_material(PlainElastic::model(), entries_of_text("density 200 E 13.79e6 nu 0.3"));
+    measure(timer, *material, 1e-4, 0.0);
+  };
+  benchmark::RegisterBenchmark("BM_elastic_pointwise", pointwise)->Unit(benchmark::kMillisecond);
+  add("BM_cap_mixed", snow());
+  add("BM_cap_mixed_neighbours_alike", snow(), 1e-4, 0.0, 64);
+  add("BM_cap_mixed_transition", snow("K 1 alpha 0.05"));
+  add("BM_cap_mixed_log_table", snow("K 1 alpha 0", "log"));
+  add("BM_cap_all_compacting", snow(), 1e-4, -1.0);
+  add("BM_cap_mixed_large_steps", snow(), 1e-2);
+  add("BM_cap_mixed_lode", snow("K 0.8 alpha 0"));
+  add("BM_cap_mixed_smooth_cone", snow("K 0.7 alpha 0 section matsuoka_nakai"));
+  add("BM_foam_mixed", foam());
+  add("BM_cohesive_cap_mixed", cohesive_cap());
+  add("BM_cohesive_cap_mixed_log_table", cohesive_cap("log"));
+  add("BM_cohesive_cap_all_compacting", cohesive_cap(), 1e-4, -1.0);
+  add("BM_cohesive_cap_mixed_large_steps", cohesive_cap(), 1e-2);
+  add("BM_cam_clay_mixed", cam_clay());
+  add("BM_cam_clay_mixed_neighbours_alike", cam_clay(), 1e-4, 0.0, 64);
+  add("BM_cam_clay_mixed_log_table", cam_clay("log"));
+  add("BM_cam_clay_all_compacting", cam_clay(), 1e-4, -1.0);
+  add("BM_cam_clay_mixed_large_steps", cam_clay(), 1e-2);
+  add("BM_norsand_mixed", norsand("N 0.5 K 1"));
+  add("BM_norsand_mixed_other_N", norsand("N 0.35 K 1"));
+  add("BM_norsand_mixed_smooth_cone", norsand("N 0.5 K 0.72"));
+}
 
 }  // namespace
 }  // namespace furrow
 
-BENCHMARK_MAIN();
+int main(int count, char** words) {
+  furrow::add_all();
+  benchmark::Initialize(&count, words);
+  if (benchmark::ReportUnrecognizedArguments(count, words)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "tests/support/checkpoints.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::membrane_test {
 namespace {
@@ -108,12 +109,7 @@ TEST(Membrane, RestoreContinuesBitwise) {
 
 TEST(Membrane, RefusesImpossibleMaterials) {
   const auto message = [](MembraneMaterial m) {
-    try {
-      Membrane(make_sphere(0.1, 0), m, {});
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("no error");
+    return test::error_of<InputError>([&] { Membrane(make_sphere(0.1, 0), m, {}); });
   };
   EXPECT_THAT(message({-1.0, 0.3, 1e-3, 1000.0, 0.0}),
               testing::HasSubstr("'young' is -1; allowed: a number > 0 [Pa]"));

@@ -3,11 +3,12 @@
 
 #include "bodies/rigid_plane.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "bodies/rigid_plate.h"
 #include "core/error.h"
 #include "tests/support/checkpoints.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::rigid_plane_test {
 namespace {
@@ -108,12 +109,10 @@ TEST(RigidPlane, ContinuesFromItsState) {
 
 TEST(RigidPlane, RefusesValuesOutOfRange) {
   const Surface surface = plate_at(0.0);
-  try {
-    RigidPlane({0.0, -1.0, 0.0, 0.5, 1e8}, surface);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "rigid plane, stiffness is -1; allowed: a number > 0 [Pa/m]");
-  }
+  EXPECT_EQ(test::error_of<InputError>([&] {
+              RigidPlane({0.0, -1.0, 0.0, 0.5, 1e8}, surface);
+            }),
+            "rigid plane, stiffness is -1; allowed: a number > 0 [Pa/m]");
   EXPECT_THROW(RigidPlane({0.0, 1e8, 0.0, -0.5, 1e8}, surface), InputError);
 }
 

@@ -3,13 +3,13 @@
 #include "core/checkpoint.h"
 
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::checkpoint_test {
 namespace {
@@ -65,15 +65,6 @@ void restore(Part& part, const std::vector<char>& bytes) {
   state.finish();
 }
 
-std::string refusal_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "not refused";
-}
-
 TEST(Checkpoint, BringsBackEveryBit) {
   Part part;
   restore(part, saved());
@@ -86,7 +77,7 @@ TEST(Checkpoint, BringsBackEveryBit) {
 TEST(Checkpoint, NamesWhatMustNotHaveChanged) {
   Part heavier;
   heavier.mass = 2.0;
-  EXPECT_THAT(refusal_of([&] { restore(heavier, saved()); }),
+  EXPECT_THAT(test::error_of([&] { restore(heavier, saved()); }),
               AllOf(HasSubstr("part: mass is 2, and was 1 when the checkpoint was written"),
                     HasSubstr("continue with the input and the program of the first run")));
 }
@@ -97,7 +88,7 @@ TEST(Checkpoint, RefusesAnyAlteredByte) {
     std::vector<char> altered = whole;
     altered[n] = static_cast<char>(altered[n] ^ 4);
     Part part;
-    EXPECT_NE(refusal_of([&] { restore(part, altered); }), "not refused") << "byte " << n;
+    EXPECT_NE(test::error_of([&] { restore(part, altered); }), "no error") << "byte " << n;
   }
 }
 
@@ -105,10 +96,10 @@ TEST(Checkpoint, RefusesEveryShorterLength) {
   const std::vector<char> whole = saved();
   for (std::size_t n = 0; n < whole.size(); ++n) {
     Part part;
-    EXPECT_NE(refusal_of([&] {
+    EXPECT_NE(test::error_of([&] {
                 restore(part, {whole.begin(), whole.begin() + static_cast<long>(n)});
               }),
-              "not refused")
+              "no error")
         << "length " << n;
   }
 }
@@ -120,15 +111,15 @@ TEST(Checkpoint, RefusesAnotherLayoutByName) {
   other.value("width", width);
   const std::vector<char> bytes = other.bytes();
   Part part;
-  EXPECT_THAT(refusal_of([&] { restore(part, bytes); }),
+  EXPECT_THAT(test::error_of([&] { restore(part, bytes); }),
               HasSubstr("part: its part of the checkpoint has 'width' where 'length' is expected"));
   Checkpoint read("part", bytes.data(), bytes.size());
   read.value("mass", mass);
-  EXPECT_THAT(refusal_of([&] { read.finish(); }),
+  EXPECT_THAT(test::error_of([&] { read.finish(); }),
               HasSubstr("contains more than this program reads"));
   Checkpoint again("part", bytes.data(), bytes.size());
   Vector3 three;
-  EXPECT_THAT(refusal_of([&] { again.values("mass", three); }),
+  EXPECT_THAT(test::error_of([&] { again.values("mass", three); }),
               HasSubstr("has 1 numbers of 'mass' instead of 3"));
 }
 

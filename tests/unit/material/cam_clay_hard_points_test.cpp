@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "material/models/cohesive_cam_clay/cohesive_cam_clay.h"
 #include "sound_steps.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::cam_clay_hard_points_test {
 namespace {
@@ -148,12 +149,11 @@ TEST(CamClayHardPoints, OutsideTheTableExtrapolatesAndSaysSoOrStops) {
     EXPECT_EQ(direction < 0 ? report.below_data : report.beyond_data, 0u);
     const auto stopping = material_of(snow(shape, "linear", "beyond stop below stop"));
     state = stopping->initial_state();
-    try {
-      for (int step = 0; step < 20; ++step) stopping->update_point(stretch(strain), state);
-      ADD_FAILURE() << "went outside the table";
-    } catch (const StateError& error) {
-      EXPECT_THAT(error.what(), ::testing::HasSubstr("the hardening table ends"));
-    }
+    EXPECT_THAT(test::error_of<StateError>([&] {
+                  for (int step = 0; step < 20; ++step)
+                    stopping->update_point(stretch(strain), state);
+                }),
+                ::testing::HasSubstr("the hardening table ends"));
   }
 }
 

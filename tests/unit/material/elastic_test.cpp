@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::elastic_test {
 namespace {
@@ -62,12 +63,8 @@ TEST(Elastic, RefusesAFoldedStepWithItsCause) {
   VectorX state = material->initial_state();
   Matrix3 gradient = Matrix3::Zero();
   gradient(0, 0) = -1.5;
-  try {
-    material->update_point(gradient, state);
-    FAIL() << "a folded step was accepted";
-  } catch (const StateError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("folded"));
-  }
+  EXPECT_THAT(test::error_of<StateError>([&] { material->update_point(gradient, state); }),
+              ::testing::HasSubstr("folded"));
 }
 
 }  // namespace

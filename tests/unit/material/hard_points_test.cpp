@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "sound_steps.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::hard_points_test {
 namespace {
@@ -215,15 +216,12 @@ TEST(HardPoints, BeyondTheTableExtrapolatesAndSaysSoOrStops) {
     report += going->update_point(stretch(strain_of(0, 0, -0.5)), first);
   EXPECT_GT(report.beyond_data, 0u);
   EXPECT_GT(report.beyond_ice, 0u);
-  try {
-    for (int step = 0; step < 20; ++step)
-      stopping->update_point(stretch(strain_of(0, 0, -0.5)), second);
-    ADD_FAILURE() << "went beyond the table";
-  } catch (const StateError& error) {
-    EXPECT_THAT(
-        error.what(),
-        ::testing::HasSubstr("the hardening table ends (its rule beyond the table is 'stop')"));
-  }
+  EXPECT_THAT(
+      test::error_of<StateError>([&] {
+        for (int step = 0; step < 20; ++step)
+          stopping->update_point(stretch(strain_of(0, 0, -0.5)), second);
+      }),
+      ::testing::HasSubstr("the hardening table ends (its rule beyond the table is 'stop')"));
 }
 
 /// Where (16) loosens faster than friction, plastic work is negative; frozen energy pays for it,

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::active_ground_test {
 namespace {
@@ -248,12 +249,7 @@ template <class Change>
 std::string refusal(Change change) {
   TerrainParameters parameters = strip(0.01);
   change(parameters);
-  try {
-    const ContinuumTerrain ground(parameters, Communicator());
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return test::error_of<InputError>([&] { ContinuumTerrain(parameters, Communicator()); });
 }
 
 TEST(ActiveGround, RefusesWindowSheetAndCreep) {

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::continuum_terrain_test {
 namespace {
@@ -106,12 +107,8 @@ TEST(TerrainRestart, NamesTheKeyOfTheLawThatDiffers) {
   ContinuumTerrain ground(parameters, Communicator());
   parameters.layers[0].description[1].values = {"30e3"};
   ContinuumTerrain other(parameters, Communicator());
-  try {
-    test::hand_over(ground, other);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("'law.d' of a layer is '30e3', and was '5e3' when"));
-  }
+  EXPECT_THAT(test::error_of<Error>([&] { test::hand_over(ground, other); }),
+              HasSubstr("'law.d' of a layer is '30e3', and was '5e3' when"));
 }
 
 TEST(TerrainRestart, RefusesTheStateOfOtherGround) {
@@ -119,12 +116,8 @@ TEST(TerrainRestart, RefusesTheStateOfOtherGround) {
   TerrainParameters other = snow_bed();
   other.x = even(-0.1, 0.2, cell);
   ContinuumTerrain wider(other, Communicator());
-  try {
-    test::hand_over(ground, wider);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("cells is 12, and was 8 when the checkpoint was written"));
-  }
+  EXPECT_THAT(test::error_of<Error>([&] { test::hand_over(ground, wider); }),
+              HasSubstr("cells is 12, and was 8 when the checkpoint was written"));
 }
 
 /// Ground that follows a wheel: fresh ground ahead, what is behind is dropped and leaves its
@@ -171,12 +164,11 @@ TEST(MovingTerrain, ParticleOutsideInYStopsTheRun) {
   Particles& particles = ground.groups()[0].particles;
   Eigen::Map<Vector3>(particles.data(column::velocity)).y() = -1e4;  // in the first layer
   particles.data(column::y)[0] = ground.grid().axis(1).lower() + 1e-6;
-  try {
-    for (int step = 0; step < 2 * parameters.remap_interval; ++step) ground.advance(1e-7);
-    FAIL() << "the particle is still inside";
-  } catch (const StateError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("outside of the grid"));
-  }
+  EXPECT_THAT(test::error_of<StateError>([&] {
+                for (int step = 0; step < 2 * parameters.remap_interval; ++step)
+                  ground.advance(1e-7);
+              }),
+              HasSubstr("outside of the grid"));
 }
 
 TEST(MovingTerrain, RefusesAGradedAxisAlongItsWay) {
@@ -184,12 +176,9 @@ TEST(MovingTerrain, RefusesAGradedAxisAlongItsWay) {
   parameters.window = true;
   set_boundary(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   parameters.x = {-0.2, 0.2, cell, -0.1, 0.1, 1.2};
-  try {
-    ContinuumTerrain ground(parameters, Communicator(), "fix soil");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("fix soil moves along a graded x axis"));
-  }
+  EXPECT_THAT(test::error_of<InputError>(
+                  [&] { ContinuumTerrain ground(parameters, Communicator(), "fix soil"); }),
+              HasSubstr("fix soil moves along a graded x axis"));
 }
 
 TEST(Terrain, StableStepIsTheCourantNumberOfTheShortestCell) {
@@ -209,14 +198,11 @@ TEST(Terrain, StopsWhenParticlesLeaveTheGrid) {
       box(material_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
   ContinuumTerrain ground(parameters, Communicator());
   set_motion(ground, {10.0, 0, 0});  // all faces are free
-  try {
-    for (int n = 0; n < 1000; ++n) ground.advance(1e-4);
-    FAIL();
-  } catch (const StateError& error) {
-    EXPECT_THAT(error.what(),
-                HasSubstr("outside of the grid (x 0 to 0.2, y 0 to 0.2, z 0 to 0.2 "
-                          "m): enlarge the grid ('clearance_above', 'length', 'width')"));
-  }
+  EXPECT_THAT(test::error_of<StateError>([&] {
+                for (int n = 0; n < 1000; ++n) ground.advance(1e-4);
+              }),
+              HasSubstr("outside of the grid (x 0 to 0.2, y 0 to 0.2, z 0 to 0.2 "
+                        "m): enlarge the grid ('clearance_above', 'length', 'width')"));
 }
 
 /// A particle close to a wall that moves towards it is stopped there, whatever the remap
@@ -236,13 +222,10 @@ TEST(Terrain, RefusesASurfaceInsideACell) {
   TerrainParameters parameters =
       box(material_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
   parameters.z = even(0, 0.32, 0.05);  // becomes six cells of 5.3 cm
-  try {
-    ContinuumTerrain ground(parameters, Communicator(), "fix soil");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("fix soil has its surface at z = 0.2 m, inside of a cell; "
-                                        "allowed: the height of an end of a cell"));
-  }
+  EXPECT_THAT(test::error_of<InputError>(
+                  [&] { ContinuumTerrain ground(parameters, Communicator(), "fix soil"); }),
+              HasSubstr("fix soil has its surface at z = 0.2 m, inside of a cell; "
+                        "allowed: the height of an end of a cell"));
 }
 
 TEST(Terrain, LayersAreFilledWithTheirLaws) {
@@ -266,13 +249,9 @@ TEST(Terrain, ALawsRefusalNamesTheParticle) {
       std::nan("");
   const Vector3 x = particles.position(broken);
   set_motion(ground, Vector3::Zero(), Vector3(0.0, 0.0, -10.0).asDiagonal());  // all yield
-  try {
-    ground.advance(1e-5);
-    ADD_FAILURE() << "accepted";
-  } catch (const StateError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(fmt::format("the particle at {:.4g} {:.4g} {:.4g} m: law",
-                                                    x[0], x[1], x[2])));
-  }
+  EXPECT_THAT(
+      test::error_of<StateError>([&] { ground.advance(1e-5); }),
+      HasSubstr(fmt::format("the particle at {:.4g} {:.4g} {:.4g} m: law", x[0], x[1], x[2])));
 }
 
 }  // namespace

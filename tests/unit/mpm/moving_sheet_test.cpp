@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::moving_sheet_test {
 namespace {
@@ -193,12 +194,9 @@ TEST(MovingSheet, ARunThatIsContinuedIsTheSame) {
 }
 
 void expect_refusal(const TerrainParameters& parameters, const std::string& text) {
-  try {
-    const ContinuumTerrain ground(parameters, Communicator());
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(text));
-  }
+  EXPECT_THAT(test::error_of<InputError>(
+                  [&] { const ContinuumTerrain ground(parameters, Communicator()); }),
+              HasSubstr(text));
 }
 
 TEST(MovingSheet, SlabsAreWholeCells) {

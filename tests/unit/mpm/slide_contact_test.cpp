@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "terrain_scene.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::slide_contact_test {
 namespace {
@@ -96,12 +97,8 @@ TEST(SlideContact, LeavesToWallsWhatTheyHold) {
 TEST(SlideContact, NeedsGroundOnBothSides) {
   TerrainParameters p = box(material_of(elastic(1e6, 0, 1000)), {0, 0, 0}, {1, 1, 1}, 0.25);
   p.slide = SlideSurface{SlideCylinder{3, 3, 1}, 0.0};
-  try {
-    ContinuumTerrain(p, Communicator());
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("leaves all of it on one side"));
-  }
+  EXPECT_THAT(test::error_of<InputError>([&] { ContinuumTerrain(p, Communicator()); }),
+              ::testing::HasSubstr("leaves all of it on one side"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "mpm/continuum_terrain.h"
 #include "terrain_scene.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::terrain_size_test {
 namespace {
@@ -47,13 +48,9 @@ TEST(TerrainSize, MoreThanTheMachineHasIsRefusedWithTheEstimate) {
   TerrainParameters parameters = some_terrain();
   parameters.z.upper = 1e12;
   parameters.z.fine_upper = 1e12;
-  try {
-    ContinuumTerrain terrain(parameters, Communicator(), "snow");
-    FAIL() << "made";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("snow would have"));
-    EXPECT_THAT(error.what(), HasSubstr("GiB on this machine"));
-  }
+  EXPECT_THAT(test::error_of<InputError>(
+                  [&] { ContinuumTerrain terrain(parameters, Communicator(), "snow"); }),
+              ::testing::AllOf(HasSubstr("snow would have"), HasSubstr("GiB on this machine")));
 }
 
 }  // namespace

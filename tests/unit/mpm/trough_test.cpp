@@ -9,6 +9,7 @@
 #include "mpm/terrain_size.h"
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::trough_test {
 namespace {
@@ -177,12 +178,11 @@ TEST(Trough, RefusesWhatTheParticlesCannotHave) {
            Case{{0.4, 0.25}, "has 1 cell(s) below its trough; allowed: at least 2"},
            Case{{0.4, 0.5}, "has 0 cell(s) below its trough"},
        }) {
-    try {
-      ContinuumTerrain ground(ground_with_trough(refused.shape), Communicator(), "sand");
-      FAIL() << refused.said;
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr(refused.said));
-    }
+    EXPECT_THAT(test::error_of<InputError>([&] {
+                  ContinuumTerrain ground(ground_with_trough(refused.shape), Communicator(),
+                                          "sand");
+                }),
+                HasSubstr(refused.said));
   }
 }
 

@@ -9,6 +9,7 @@
 #include "bodies/rigid_plate.h"
 #include "bodies/rigid_wheel.h"
 #include "core/error.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::hard_cases_test {
 namespace {
@@ -210,17 +211,15 @@ TEST(HardCase, WheelThatLeavesTheGroundStopsTheRun) {
   Bed bed;
   bed.length = 0.1;
   Scene scene(bed);
-  try {
-    scene.run(0.05);
-    scene.roll(3.0, 1.0, 0.2);
-    FAIL() << "no error";
-  } catch (const StateError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("contact 'contact': the middle of the body is at x = 0.1"));
-    EXPECT_THAT(
-        error.what(),
-        HasSubstr(
-            "beyond the ground that reaches from -0.6 to 0.1 m; give the ground more length"));
-  }
+  EXPECT_THAT(
+      test::error_of<StateError>([&] {
+        scene.run(0.05);
+        scene.roll(3.0, 1.0, 0.2);
+      }),
+      ::testing::AllOf(
+          HasSubstr("contact 'contact': the middle of the body is at x = 0.1"),
+          HasSubstr(
+              "beyond the ground that reaches from -0.6 to 0.1 m; give the ground more length")));
 }
 
 /// Compacted to a tenth of its height: denser than ice, which is reported and not clamped.
@@ -263,13 +262,9 @@ TEST(HardCase, CompactionBy90Percent) { expect_sound_at_90_percent(3.6); }
 /// The contact's springs are made for the snow's elasticity; ice at tens of megapascals presses
 /// through them.
 TEST(HardCase, CompactionBy90PercentUnderASoftLidStopsWithItsCause) {
-  try {
-    expect_sound_at_90_percent(0.4);
-    FAIL() << "no error";
-  } catch (const StateError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("contact 'lid': the surface is 0.01"));
-    EXPECT_THAT(error.what(), HasSubstr("raise 'stiffness'"));
-  }
+  EXPECT_THAT(test::error_of<StateError>([&] { expect_sound_at_90_percent(0.4); }),
+              ::testing::AllOf(HasSubstr("contact 'lid': the surface is 0.01"),
+                               HasSubstr("raise 'stiffness'")));
 }
 
 }  // namespace

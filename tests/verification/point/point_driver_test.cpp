@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "io/material_file.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::point_driver_test {
 namespace {
@@ -203,13 +204,7 @@ TEST(PointDriver, AnUnreachableStressIsAnErrorWithItsCause) {
   // stress.
   const PointPath beyond =
       path("cyclic", {{"upper", {"1e6"}}, {"cycles", {"1"}}, {"lateral", {"free"}}});
-  std::string message;
-  try {
-    drive_point(*snow, beyond);
-  } catch (const StateError& error) {
-    message = error.what();
-  }
-  EXPECT_THAT(message,
+  EXPECT_THAT(test::error_of<StateError>([&] { drive_point(*snow, beyond); }),
               AllOf(HasSubstr("path cyclic, segment 2, step "),
                     HasSubstr("cannot reach stress_xx = 0 Pa"), HasSubstr("the point is at p = ")));
   const PointPath tension = path("hydrostatic", {{"pressure", {"-1e6"}}});
@@ -222,13 +217,8 @@ TEST(PointDriver, ChannelsAreNamed) {
   record.state = sand->initial_state();
   EXPECT_EQ(find_point_channel(*sand, "density").value(record), 1800.0);
   EXPECT_EQ(find_point_channel(*sand, "eps_vol_pl").value(record), 0.001);
-  try {
-    find_point_channel(*sand, "rho");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(),
-                HasSubstr("has no channel 'rho'; allowed: segment, step, axial_strain"));
-  }
+  EXPECT_THAT(test::error_of<InputError>([&] { find_point_channel(*sand, "rho"); }),
+              HasSubstr("has no channel 'rho'; allowed: segment, step, axial_strain"));
 }
 
 }  // namespace

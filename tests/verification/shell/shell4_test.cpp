@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "core/error.h"
 #include "core/symmetric_eigenvalues.h"
 #include "shell_model.h"
 #include "tests/support/max_error.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::test::shell4_test {
 namespace {
@@ -474,12 +475,8 @@ TEST(Shell4, RefusesWhatIsNoShell) {
   ShellModel model = mapped_shell(
       2, 2, [](double s, double t) { return Vector3(s, t, 0); }, section, along_y);
   model.nodes.set_rotation(4, Quaternion(Eigen::AngleAxisd(2.5, Vector3::UnitX())));
-  try {
-    model.compute();
-    FAIL();
-  } catch (const StateError& error) {
-    EXPECT_NE(std::string(error.what()).find("is folded"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(test::error_of<StateError>([&] { model.compute(); }),
+              ::testing::HasSubstr("is folded"));
   EXPECT_THROW(model.solve(), StateError);  // no supports
 }
 
