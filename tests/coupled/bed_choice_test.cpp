@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "coupling/base/time_step_check.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::coupling::bed_choice_test {
 namespace {
@@ -63,13 +64,8 @@ TEST(BedChoice, ALineWithoutAutoStaysAsItIs) {
 }
 
 TEST(BedChoice, SaysWhatItNeeds) {
-  const auto refusal = [](BedWords words) -> std::string {
-    try {
-      choose_bed_values(words);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "accepted";
+  const auto refusal = [](BedWords words) {
+    return test::error_of<InputError>([&] { choose_bed_values(words); });
   };
   EXPECT_THAT(refusal(line({{"young", "auto"}})), HasSubstr("keyword 'pressure' is missing"));
   EXPECT_THAT(refusal(line({{"young", "auto"}, {"pressure", "-1"}})), HasSubstr("number > 0 [Pa]"));

@@ -72,8 +72,7 @@ TEST_P(BedWindow, RenewedSlabsFitWithoutAJolt) {
                                surface.v.setZero();
                                surface.v.row(0).setConstant(v);
                              }));
-  scene.command("fix skin all mesh/body body kite type 2");
-  scene.command(fmt::format("fix wall all wall/gran/body {} mesh n_meshes 1 meshes skin", contact));
+  scene.wall_of_body("kite", contact, "wall");
   scene.command("fix renew all bed/window body kite slabs 8 behind 0.06");
   MaxError kinetic_energy;
   scene.at_end_of_step([&] { kinetic_energy.add(scene.grain_kinetic_energy()); });

@@ -36,8 +36,7 @@ TEST(BrickTyreOnBed, KeepsMomentumOnGrainsInItsGrooves) {
       "fix rig all wheel/rig wheel tyre load_force {} speed 0.4 mode towed settle_time 0.3 "
       "load_ramp_time 0.001 accelerate_time 0.1 ground_level 0.0115 damping 0",
       load));
-  scene.command("fix skin all mesh/body body tyre type 2");
-  scene.command(fmt::format("fix tread all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
+  scene.wall_of_body("tyre", hertz, "tread");
   BrickTyre& tyre =
       dynamic_cast<coupling::FixTyreBrick*>(scene.lammps().modify->find_fix_id("tyre"))->tyre();
   double impulse = 0.0, time = 0.0;

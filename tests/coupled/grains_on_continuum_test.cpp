@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "atom.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
@@ -20,13 +19,6 @@ namespace {
 constexpr double gravity = 9.81, side = 0.08, step = 1e-5;
 constexpr const char* hertz = "model hertz tangential history";
 
-double upward_momentum(Scene& scene) {
-  const LAMMPS_NS::Atom& atom = *scene.lammps().atom;
-  double momentum = 0.0;
-  for (int i = 0; i < atom.nlocal; ++i) momentum += atom.rmass[i] * atom.v[i][2];
-  return scene.sum(momentum);
-}
-
 /// Further keywords of the ground.
 class GrainsOnContinuum : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Sheets, GrainsOnContinuum,
@@ -37,34 +29,22 @@ TEST_P(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
   Scene scene;
   scene.granular_box(Vector3(-0.041, -0.041, -0.01), Vector3(0.041, 0.041, 0.15), 0.002);
   scene.contact_properties(5e6, 0.3, 0.5, 0.0);  // walls without friction carry no weight
-  scene.commands(fmt::format(
-      "pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1",
-      hertz, step, gravity));
+  scene.grains_fall(hertz, step, gravity);
   scene.command(
       fmt::format("fix soil all terrain/continuum material {}/inputs/materials/rubber.yaml length "
                   "{} width {} depth 0.03 "
                   "surface 0.03 cell 0.01 "
                   "gravity {} surface_mesh yes{}",
                   FURROW_SOURCE_DIR, side, side, gravity, GetParam()));
-  scene.command("fix skin all mesh/body body soil type 2");
-  scene.command(fmt::format("fix top all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
-  for (const char* wall : {"x1", "x2", "y1", "y2"})
-    scene.command(fmt::format("fix {} all wall/gran {} primitive type 1 {}plane {}", wall, hertz,
-                              wall[0], wall[1] == '1' ? -side / 2 : side / 2));
-  scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
-      "constant 0.005\n"
-      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
-      "region fill block -0.04 0.04 -0.04 0.04 0.035 0.1 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
-      "overlapcheck yes all_in yes "
-      "particles_in_region 120 region fill\n"
-      "fix move all nve/sphere\nfix calm all viscous 0.03\nthermo 100000\nrun 15000\nunfix calm");
+  scene.wall_of_body("soil", hertz, "top");
+  scene.flat_walls(hertz, {"xplane -0.04", "xplane 0.04", "yplane -0.04", "yplane 0.04"});
+  scene.pour(0.005, "block -0.04 0.04 -0.04 0.04 0.035 0.1", "particles_in_region 120");
+  scene.commands("fix calm all viscous 0.03\nthermo 100000\nrun 15000\nunfix calm");
 
   auto& ground = static_cast<coupling::FixTerrainContinuum*>(
                      scene.lammps().modify->find_fix_id(const_cast<char*>("soil")))
                      ->terrain();
-  const double before = upward_momentum(scene);
+  const double before = scene.upward_momentum();
   const Vector3 ground_before = ground.energy_budget().momentum,
                 base_before = ground.boundary_impulse(Face::z_lower);
   double impulse = 0.0;
@@ -76,7 +56,7 @@ TEST_P(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
   // the ground's).
   const double weight = scene.grain_mass() * gravity, time = steps * step;
   EXPECT_GT(weight, 1.0);
-  const double grains_gain = upward_momentum(scene) - before;
+  const double grains_gain = scene.upward_momentum() - before;
   EXPECT_NEAR(-impulse, weight * time + grains_gain, 1e-3 * weight * time);
   // What the base gave carries the ground, its grains and their change of momentum.
   double mass = 0.0;

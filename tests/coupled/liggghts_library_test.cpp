@@ -29,6 +29,7 @@
 #include "neighbor.h"
 #include "tests/coupled/support/scene.h"
 #include "universe.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::test::liggghts_library_test {
 namespace {
@@ -51,12 +52,7 @@ TEST(LiggghtsLibrary, AnotherVersionIsRefusedWithWhatToInstall) {
   Scene scene;
   std::string other = "Version 3.9.1";
   char* version = std::exchange(scene.lammps().universe->version, other.data());
-  std::string message;
-  try {
-    check_library(scene.lammps());
-  } catch (const Error& error) {
-    message = error.what();
-  }
+  const std::string message = test::error_of([&] { check_library(scene.lammps()); });
   scene.lammps().universe->version = version;
   EXPECT_THAT(message, HasSubstr("it calls itself 'Version 3.9.1'"));
   EXPECT_THAT(message, HasSubstr("install liggghts 3.8.0 of Debian 12 or 13"));

@@ -4,10 +4,8 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "atom.h"
 #include "tests/support/membrane.h"
 #include "tests/coupled/support/scene.h"
 #include "tests/support/max_error.h"
@@ -39,26 +37,12 @@ void make_bed_on_membrane(Scene& scene, const MembraneMaterial& material, double
   scene.granular_box(Vector3(-side / 2 - 0.001, -side / 2 - 0.001, 0),
                      Vector3(side / 2 + 0.001, side / 2 + 0.001, 0.2), 0.002);
   scene.contact_properties(young, 0.3, 0.5, 0.0);
-  scene.commands(fmt::format(
-      "pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1",
-      hertz, step, gravity));
+  scene.grains_fall(hertz, step, gravity);
   scene.add_body("cover", make_cover(0.03, material, pressure));
-  scene.command("fix skin all mesh/body body cover type 2");
-  scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
-  for (const char* wall : {"x1 all", "x2 all", "y1 all", "y2 all"}) {
-    const std::string name = std::string(wall).substr(0, 2);
-    scene.command(fmt::format("fix {} wall/gran {} primitive type 1 {}plane {}", wall, hertz,
-                              name[0], name[1] == '1' ? -side / 2 : side / 2));
-  }
-  scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
-      "constant 0.004\n"
-      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
-      "region fill block -0.04 0.04 -0.04 0.04 0.045 0.15 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
-      "overlapcheck yes all_in yes "
-      "particles_in_region 300 region fill\n"
-      "fix move all nve/sphere\nthermo 100000");
+  scene.wall_of_body("cover", hertz, "walls");
+  scene.flat_walls(hertz, {"xplane -0.04", "xplane 0.04", "yplane -0.04", "yplane 0.04"});
+  scene.pour(0.004, "block -0.04 0.04 -0.04 0.04 0.045 0.15", "particles_in_region 300");
+  scene.commands("thermo 100000");
 }
 
 TEST(MembraneOnBed, InflatedAgainstABedCarriesItsWeight) {
@@ -69,12 +53,6 @@ TEST(MembraneOnBed, InflatedAgainstABedCarriesItsWeight) {
   scene.command("fix calm all viscous 0.02");
   scene.command("run 50000");
   scene.command("unfix calm");
-  const auto upward_momentum = [&] {
-    const LAMMPS_NS::Atom& atom = *scene.lammps().atom;
-    double momentum = 0.0;
-    for (int i = 0; i < atom.nlocal; ++i) momentum += atom.rmass[i] * atom.v[i][2];
-    return scene.sum(momentum);
-  };
   double sum = 0.0;
   int samples = 0;
   auto& membrane = static_cast<Membrane&>(scene.body("cover"));
@@ -82,12 +60,12 @@ TEST(MembraneOnBed, InflatedAgainstABedCarriesItsWeight) {
     sum += membrane.surface().total_force()[2];
     ++samples;
   });
-  const double momentum_before = upward_momentum();
+  const double momentum_before = scene.upward_momentum();
   scene.command("run 1000");
   // Impulse of the membrane = weight x time + change of the bed's momentum: holds also while grains
   // still tremble.
   const double weight = scene.grain_mass() * gravity,
-               momentum_rate = (upward_momentum() - momentum_before) / (1000 * 2e-5);
+               momentum_rate = (scene.upward_momentum() - momentum_before) / (1000 * 2e-5);
   const double carried = -sum / samples / (weight + momentum_rate);
   EXPECT_GT(membrane.surface().x.row(2).maxCoeff(), 0.031);  // it does bulge
   EXPECT_NEAR(carried, 1.0, 1e-5);

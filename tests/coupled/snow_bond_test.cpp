@@ -163,9 +163,7 @@ TEST(SnowBondModel, AWallIsHalfOfAContact) {
     if (mesh) {
       scene.add_body("sheet", std::make_unique<PrescribedBody>(make_sheet(8, 0.16, 0.0),
                                                                [](double, Surface&) {}));
-      scene.command("fix skin all mesh/body body sheet type 2");
-      scene.command(
-          fmt::format("fix floor all wall/gran/body {} mesh n_meshes 1 meshes skin", snow_model));
+      scene.wall_of_body("sheet", snow_model, "floor");
     } else {
       scene.command(
           fmt::format("fix floor all wall/gran {} primitive type 2 zplane 0", snow_model));

@@ -13,7 +13,6 @@
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 #include "tests/coupled/support/snow.h"
-#include "tests/support/max_error.h"
 
 namespace furrow::test::snow_hard_cases_test {
 namespace {
@@ -97,10 +96,7 @@ void add_plate(Scene& scene, const std::vector<Stroke>& strokes) {
   };
   scene.add_body("plate",
                  std::make_unique<PrescribedBody>(make_sheet(6, 0.2, start_height), motion));
-  scene.commands(
-      fmt::format("fix skin all mesh/body body plate type 2\n"
-                  "fix face all wall/gran/body {} mesh n_meshes 1 meshes skin",
-                  snow_model));
+  scene.wall_of_body("plate", snow_model, "face");
 }
 
 class SnowHardCase : public testing::TestWithParam<Case> {};
@@ -178,10 +174,9 @@ TEST(SnowHardCases, AWheelThatSpins) {
                   "2.5e-3 segments 48 axle -0.05 0 {0}\n"
                   "fix rig all wheel/rig wheel wheel load_force 25 speed 0.1 mode slip slip 0.9 "
                   "settle_time 0.08 load_ramp_time 0.04 accelerate_time 0.03 ground_level {1} "
-                  "damping 20\n"
-                  "fix skin all mesh/body body wheel type 2\n"
-                  "fix tread all wall/gran/body {2} mesh n_meshes 1 meshes skin",
-                  level + 0.055, level, snow_model));
+                  "damping 20",
+                  level + 0.055, level));
+  scene.wall_of_body("wheel", snow_model, "tread");
   const RigidWheel& wheel =
       dynamic_cast<coupling::FixWheelRigid*>(scene.lammps().modify->find_fix_id("wheel"))->wheel();
   const double clusters = scene.sum(scene.lammps().atom->nlocal), energy = energy_of_snow(scene);

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "atom.h"
 #include "coupling/bodies/fix_tyre_darnell.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "modify.h"
@@ -25,34 +24,16 @@ constexpr double load = 1500.0, dt = 5e-5, damping = 500.0;
 void make_bed(Scene& scene) {
   scene.granular_box(Vector3(-0.45, -0.25, -0.02), Vector3(0.45, 0.25, 0.95), 0.008);
   scene.contact_properties(1e7, 0.3, 0.3, 0.6);
-  scene.commands(fmt::format(
-      "pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity 9.81 vector 0 0 -1",
-      hertz, dt));
-  for (const char* wall : {"xplane -0.4", "xplane 0.4", "yplane -0.16", "yplane 0.16", "zplane 0"})
-    scene.command(fmt::format("fix {0:.1}{1} all wall/gran {2} primitive type 1 {0}", wall,
-                              wall[7] == '-' ? 1 : 2, hertz));
-  scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
-      "constant 0.015\n"
-      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
-      "region fill block -0.4 0.4 -0.16 0.16 0 0.25 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
-      "overlapcheck yes all_in yes "
-      "particles_in_region 1300 region fill\n"
-      "fix move all nve/sphere\nfix calm all viscous 0.5\nthermo 100000\nrun 8000\nunfix calm");
-}
-
-double top_of(Scene& scene) {
-  const LAMMPS_NS::Atom& atom = *scene.lammps().atom;
-  double top = 0.0;
-  for (int i = 0; i < atom.nlocal; ++i) top = std::max(top, atom.x[i][2] + atom.radius[i]);
-  return scene.max(top);
+  scene.grains_fall(hertz, dt);
+  scene.flat_walls(hertz, {"xplane -0.4", "xplane 0.4", "yplane -0.16", "yplane 0.16", "zplane 0"});
+  scene.pour(0.015, "block -0.4 0.4 -0.16 0.16 0 0.25", "particles_in_region 1300");
+  scene.commands("fix calm all viscous 0.5\nthermo 100000\nrun 8000\nunfix calm");
 }
 
 TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
   Scene scene;
   make_bed(scene);
-  const double level = top_of(scene);
+  const double level = scene.top_of_grains();
   scene.command(
       fmt::format("fix tyre all tyre/darnell file {}/inputs/tyres/p235_75r15.yaml pressure 4e4 "
                   "mesh 4 36 mass 20 inertia 0.6 "
@@ -63,8 +44,7 @@ TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
                   "0.3 load_ramp_time 0.15 "
                   "accelerate_time 0.1 ground_level {:.9f} damping {}",
                   load, level, damping));
-  scene.command("fix skin all mesh/body body tyre type 2");
-  scene.command(fmt::format("fix tread all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
+  scene.wall_of_body("tyre", hertz, "tread");
   DarnellTyre& tyre =
       dynamic_cast<coupling::FixTyreDarnell*>(scene.lammps().modify->find_fix_id("tyre"))->tyre();
 

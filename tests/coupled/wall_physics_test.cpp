@@ -35,9 +35,7 @@ TEST(WallPhysics, BedOnADeformingFloorWeighsItsWeight) {
   scene.granular_box(Vector3(-side / 2, -side / 2, 0), Vector3(side / 2, side / 2, 0.2), 0.002,
                      "p p f");
   scene.contact_properties(5e6, 0.3, 0.3, 0.5);
-  scene.commands(fmt::format(
-      "pair_style gran {}\npair_coeff * *\ntimestep 2e-5\nfix weight all gravity {} vector 0 0 -1",
-      hertz, gravity));
+  scene.grains_fall(hertz, 2e-5, gravity);
   // Heave that fades to a fixed wave; both edges of the periodic sheet move alike.
   const Surface flat = make_sheet(8, side, 0.02);
   const auto heave = [=](double time, Surface& surface) {
@@ -50,17 +48,9 @@ TEST(WallPhysics, BedOnADeformingFloorWeighsItsWeight) {
     }
   };
   scene.add_body("floor", std::make_unique<PrescribedBody>(flat, heave));
-  scene.command("fix skin all mesh/body body floor type 2");
-  scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
-  scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
-      "constant 0.004\n"
-      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
-      "region fill block -0.04 0.04 -0.04 0.04 0.035 0.15 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
-      "overlapcheck yes all_in no "
-      "particles_in_region 400 region fill\n"
-      "fix move all nve/sphere\nfix calm all viscous 0.02\nthermo 100000");
+  scene.wall_of_body("floor", hertz, "walls");
+  scene.pour(0.004, "block -0.04 0.04 -0.04 0.04 0.035 0.15", "particles_in_region 400", "no");
+  scene.commands("fix calm all viscous 0.02\nthermo 100000");
   scene.command("run 60000");
   double sum = 0.0;
   int samples = 0;
@@ -81,13 +71,10 @@ TEST(WallPhysics, SphereRollsOverAFlatSheetAsOverAPlane) {
   Scene scene;
   scene.granular_box(Vector3(-0.11, -0.11, 0), Vector3(0.11, 0.11, 0.2), 0.0015);
   scene.contact_properties(5e6, 0.3, 0.3, 0.5);
-  scene.commands(fmt::format(
-      "pair_style gran {}\npair_coeff * *\ntimestep 1e-5\nfix weight all gravity {} vector 0 0 -1",
-      hertz, gravity));
+  scene.grains_fall(hertz, 1e-5, gravity);
   scene.add_body("sheet", std::make_unique<PrescribedBody>(make_sheet(20, 0.2, 0.1, true),
                                                            [](double, Surface&) {}));
-  scene.command("fix skin all mesh/body body sheet type 2");
-  scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
+  scene.wall_of_body("sheet", hertz, "walls");
   const double radius = 0.004, density = 2500.0,
                mass = density * 4.0 / 3.0 * pi * std::pow(radius, 3), speed = 0.3;
   const double e_star = 5e6 / (2.0 * (1.0 - 0.09));
@@ -151,8 +138,7 @@ TEST(WallPhysics, PeriodicSheetRunsUnderASphere) {
                    surface.v.row(0).setConstant(speed);
                    surface.v.row(1).setConstant(0.37 * speed);
                  }));
-  scene.command("fix skin all mesh/body body belt type 2");
-  scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
+  scene.wall_of_body("belt", hertz, "walls");
   scene.command(fmt::format("create_atoms 1 single 0.0012 0.0007 {:.17g}", 0.1 + radius - overlap));
   scene.command("set group all density 2500 diameter 0.008");
   const double expected =
@@ -189,8 +175,7 @@ TEST(WallPhysics, WorkOnAGrainIsItsEnergy) {
                    surface.x = start.x.colwise() + speed * time;
                    surface.v.colwise() = speed;
                  }));
-  scene.command("fix skin all mesh/body body bat type 2");
-  scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
+  scene.wall_of_body("bat", hertz, "walls");
   scene.command("create_atoms 1 single 0.011 0.007 0.055");
   scene.command("set group all density 2500 diameter 0.008");
   scene.command("fix move all nve/sphere");

@@ -96,10 +96,7 @@ TEST(WheelArc, SumsToForceAndTorqueOnGrains) {
   Scene scene;
   make_sand_bed(scene);
   add_wheel(scene, 0.075);
-  scene.commands(
-      fmt::format("fix skin all mesh/body body wheel type 2\n"
-                  "fix tread all wall/gran/body {} mesh n_meshes 1 meshes skin",
-                  hertz));
+  scene.wall_of_body("wheel", hertz, "tread");
   compare(scene, 6000, 2000, 0.0);  // grains stick and roll
 }
 

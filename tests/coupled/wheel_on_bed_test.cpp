@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "atom.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/bodies/fix_wheel_rigid.h"
 #include "modify.h"
@@ -26,30 +25,11 @@ constexpr double load = 8.0, wheel_mass = 0.5, damping = 10.0;
 void make_bed(Scene& scene) {
   scene.granular_box(Vector3(-0.13, -0.06, -0.01), Vector3(0.13, 0.06, 0.25), 0.003);
   scene.contact_properties(5e6, 0.3, 0.3, 0.5);
-  scene.commands(
-      fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 4e-5\nfix weight all gravity 9.81 "
-                  "vector 0 0 -1",
-                  hertz));
-  for (const char* wall :
-       {"xplane -0.12", "xplane 0.12", "yplane -0.05", "yplane 0.05", "zplane 0"})
-    scene.command(fmt::format("fix {0:.1}{1} all wall/gran {2} primitive type 1 {0}", wall,
-                              wall[7] == '-' ? 1 : 2, hertz));
-  scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
-      "constant 0.004\n"
-      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
-      "region fill block -0.12 0.12 -0.05 0.05 0 0.12 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
-      "overlapcheck yes all_in yes "
-      "particles_in_region 1500 region fill\n"
-      "fix move all nve/sphere\nfix calm all viscous 0.02\nthermo 100000\nrun 12000\nunfix calm");
-}
-
-double top_of(Scene& scene) {
-  const LAMMPS_NS::Atom& atom = *scene.lammps().atom;
-  double top = 0.0;
-  for (int i = 0; i < atom.nlocal; ++i) top = std::max(top, atom.x[i][2] + atom.radius[i]);
-  return scene.max(top);
+  scene.grains_fall(hertz, 4e-5);
+  scene.flat_walls(hertz,
+                   {"xplane -0.12", "xplane 0.12", "yplane -0.05", "yplane 0.05", "zplane 0"});
+  scene.pour(0.004, "block -0.12 0.12 -0.05 0.05 0 0.12", "particles_in_region 1500");
+  scene.commands("fix calm all viscous 0.02\nthermo 100000\nrun 12000\nunfix calm");
 }
 
 struct Outcome {
@@ -65,7 +45,7 @@ struct Outcome {
 
 Outcome roll(Scene& scene, double slip) {
   make_bed(scene);
-  const double level = top_of(scene);
+  const double level = scene.top_of_grains();
   scene.command(
       fmt::format("fix wheel all wheel/rigid diameter 0.1 width 0.05 shoulder 0.005 mass 0.5 "
                   "inertia 6e-4 segments 48 axle "
@@ -76,8 +56,7 @@ Outcome roll(Scene& scene, double slip) {
                   "settle_time 0.4 load_ramp_time 0.1 "
                   "accelerate_time 0.1 ground_level {:.9f} damping 10",
                   load, slip, level));
-  scene.command("fix skin all mesh/body body wheel type 2");
-  scene.command(fmt::format("fix tread all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
+  scene.wall_of_body("wheel", hertz, "tread");
   const coupling::FixWheelRig& rig =
       *dynamic_cast<coupling::FixWheelRig*>(scene.lammps().modify->find_fix_id("rig"));
   const RigidWheel& wheel =

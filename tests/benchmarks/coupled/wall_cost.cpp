@@ -121,9 +121,7 @@ void make_body(Scene& scene) {
                      surface.v.col(n) = velocity + spin * Vector3::UnitY().cross(arm);
                    }
                  }));
-  scene.command("fix skin all mesh/body body wheel type 2");
-  scene.command(
-      fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", contact));
+  scene.wall_of_body("wheel", contact, "walls");
   scene.command("fix move all nve/sphere");
   scene.command(fmt::format("run {}", sink_steps + warm_steps));
 }

@@ -14,22 +14,13 @@ void make_sand_bed(Scene& scene, double beside) {
   scene.contact_properties(5e6, 0.3, 0.3, 0.5);
   scene.command(
       "fix roll all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1");
-  scene.commands(fmt::format(
-      "pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1",
-      hertz, SandBed::step, SandBed::gravity));
+  scene.grains_fall(hertz, SandBed::step, SandBed::gravity);
   using Wall = std::pair<const char*, const char*>;
   for (const auto& [id, plane] :
        {Wall{"left", "yplane -0.03"}, Wall{"right", "yplane 0.03"}, Wall{"floor", "zplane 0"}})
     scene.command(fmt::format("fix {} all wall/gran {} primitive type 1 {}", id, hertz, plane));
-  scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
-      "constant 0.004\n"
-      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
-      "region fill block -0.12 0.12 -0.03 0.03 0 0.08 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
-      "overlapcheck yes all_in no "
-      "particles_in_region 1000 region fill\n"
-      "fix move all nve/sphere\nfix calm all viscous 0.05\nthermo 100000\nrun 24000\nunfix calm");
+  scene.pour(0.004, "block -0.12 0.12 -0.03 0.03 0 0.08", "particles_in_region 1000", "no");
+  scene.commands("fix calm all viscous 0.05\nthermo 100000\nrun 24000\nunfix calm");
 }
 
 }  // namespace furrow::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/coupled/support/scene.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fcntl.h>
@@ -184,6 +185,20 @@ double Scene::grain_kinetic_energy() const {
   return sum(energy);
 }
 
+double Scene::upward_momentum() const {
+  const LAMMPS_NS::Atom& atom = *lammps_->atom;
+  double momentum = 0.0;
+  for (int i = 0; i < atom.nlocal; ++i) momentum += atom.rmass[i] * atom.v[i][2];
+  return sum(momentum);
+}
+
+double Scene::top_of_grains() const {
+  const LAMMPS_NS::Atom& atom = *lammps_->atom;
+  double top = 0.0;
+  for (int i = 0; i < atom.nlocal; ++i) top = std::max(top, atom.x[i][2] + atom.radius[i]);
+  return max(top);
+}
+
 void Scene::granular_box(const Vector3& lower, const Vector3& upper, double skin,
                          const std::string& boundary) {
   commands("atom_style granular\natom_modify map array\nboundary " + boundary +
@@ -204,6 +219,37 @@ void Scene::contact_properties(double young, double poisson, double restitution,
   command(fmt::format(
       "fix m4 all property/global coefficientFriction peratomtypepair 2 {0} {0} {0} {0}",
       friction));
+}
+
+void Scene::grains_fall(const std::string& contact, double step, double gravity) {
+  commands(fmt::format(
+      "pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1",
+      contact, step, gravity));
+}
+
+void Scene::flat_walls(const std::string& contact, const std::vector<std::string>& planes) {
+  for (const std::string& plane : planes)
+    command(fmt::format("fix {0:.1}{1} all wall/gran {2} primitive type 1 {0}", plane,
+                        plane[7] == '-' ? 1 : 2, contact));
+}
+
+void Scene::wall_of_body(const std::string& body, const std::string& contact,
+                         const std::string& wall) {
+  command(fmt::format("fix skin all mesh/body body {} type 2", body));
+  command(fmt::format("fix {} all wall/gran/body {} mesh n_meshes 1 meshes skin", wall, contact));
+}
+
+void Scene::pour(double radius, const std::string& region, const std::string& amount,
+                 const std::string& all_in) {
+  commands(fmt::format(
+      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
+      "constant {}\n"
+      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
+      "region fill {} units box\n"
+      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
+      "overlapcheck yes all_in {} {} region fill\n"
+      "fix move all nve/sphere",
+      radius, region, all_in, amount));
 }
 
 }  // namespace furrow::test

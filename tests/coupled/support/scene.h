@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <mpi.h>
 
@@ -71,12 +72,27 @@ class Scene {
   double grain_mass() const;
   /// Kinetic energy of all grains, rotation included [J].
   double grain_kinetic_energy() const;
+  /// Of all grains, along z [N s].
+  double upward_momentum() const;
+  /// z of the highest point of a grain [m].
+  double top_of_grains() const;
 
   /// Header of a granular scene in SI units: box corners, atom types, skin.
   void granular_box(const Vector3& lower, const Vector3& upper, double skin,
                     const std::string& boundary = "f f f");
   /// Hertz contact properties alike for all types.
   void contact_properties(double young, double poisson, double restitution, double friction);
+  /// The contact model of grains, the step [s], and gravity [m/s^2] downwards.
+  void grains_fall(const std::string& contact, double step, double gravity = 9.81);
+  /// Flat walls for grains, each as "xplane -0.1". Their fixes are x1, x2, y1, y2 and z2: 1 below
+  /// 0.
+  void flat_walls(const std::string& contact, const std::vector<std::string>& planes);
+  /// The surface of a body as fix skin, and its wall for grains as fix <wall>.
+  void wall_of_body(const std::string& body, const std::string& contact, const std::string& wall);
+  /// Spheres of 2500 kg/m3 at random places of a region; fix move moves them.
+  /// @param amount "particles_in_region N" or "volumefraction_region SHARE"
+  void pour(double radius, const std::string& region, const std::string& amount,
+            const std::string& all_in = "yes");
 
   // For the fixes of a scene, which find it by its address in their line.
   std::unique_ptr<Body> hand_over_body(const std::string& id);
