@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include "bodies/rigid_plate.h"
 #include "core/error.h"
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
@@ -31,17 +30,10 @@ TerrainParameters strip(double tolerance) {
 }
 
 /// A plate near the lower end of the strip.
-struct Scene {
+struct Scene : PressedGround {
   explicit Scene(double tolerance, double at = 0.2)
-      : ground(strip(tolerance), Communicator()),
-        plate({PlateShape::square, 0.1, 0.05, 4}, {at, 0.05, depth + 1e-4}) {
-    system.add(plate, "plate");
-    system.add(ground, "ground");
-  }
-  void touch() {
-    contact = std::make_unique<TerrainContact>(plate, ground, ContactParameters{}, false, "foot");
-    system.add(*contact, "foot");
-  }
+      : PressedGround(strip(tolerance), {PlateShape::square, 0.1, 0.05, 4},
+                      {at, 0.05, depth + 1e-4}) {}
   void run(double time, double speed) {
     for (double t = 0.0; t < time - 0.5 * interval; t += interval) {
       plate.prescribe(speed);
@@ -49,10 +41,6 @@ struct Scene {
       force = contact->force().z();
     }
   }
-  ContinuumTerrain ground;
-  RigidPlate plate;
-  std::unique_ptr<TerrainContact> contact;
-  CoupledSystem system;
   double force = 0.0;  // [N]
 };
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "bodies/rigid_plate.h"
 #include "core/error.h"
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
@@ -30,27 +29,15 @@ TerrainParameters snow_bed(const std::string& material = snow()) {
 
 /// A plate that is pushed into a bed, with all that a restart must carry: friction, absorbing
 /// faces, sorting.
-struct Scene {
+struct Scene : PressedGround {
   explicit Scene(const TerrainParameters& parameters)
-      : ground(parameters, Communicator()),
-        plate({PlateShape::square, 0.1, 0.05, 4}, {0, 0, depth + 1e-4}) {
-    system.add(plate, "plate");
-    system.add(ground, "ground");
-  }
-  void touch() {
-    contact = std::make_unique<TerrainContact>(plate, ground, ContactParameters{}, false, "foot");
-    system.add(*contact, "foot");
-  }
+      : PressedGround(parameters, {PlateShape::square, 0.1, 0.05, 4}, {0, 0, depth + 1e-4}) {}
   void run(int intervals) {
     for (int n = 0; n < intervals; ++n) {
       plate.prescribe(-1.0);
       system.advance(2e-4);
     }
   }
-  ContinuumTerrain ground;
-  RigidPlate plate;
-  std::unique_ptr<TerrainContact> contact;
-  CoupledSystem system;
 };
 
 template <class Part>

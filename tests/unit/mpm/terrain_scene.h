@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bodies/coupled_system.h"
+#include "bodies/rigid_plate.h"
 #include "mpm/contact/terrain_contact.h"
 #include "mpm/continuum_terrain.h"
 #include "tests/support/paths.h"
@@ -79,6 +80,24 @@ inline TerrainParameters ground_with_trough(const std::string& material, const V
   ground.trough = trough;
   return ground;
 }
+
+/// Ground and a plate that may touch it.
+struct PressedGround {
+  PressedGround(const TerrainParameters& parameters, const PlateGeometry& geometry,
+                const Vector3& place)
+      : ground(parameters, Communicator()), plate(geometry, place) {
+    system.add(plate, "plate");
+    system.add(ground, "ground");
+  }
+  void touch(const ContactParameters& parameters = {}) {
+    contact = std::make_unique<TerrainContact>(plate, ground, parameters, false, "foot");
+    system.add(*contact, "foot");
+  }
+  ContinuumTerrain ground;
+  RigidPlate plate;
+  std::unique_ptr<TerrainContact> contact;
+  CoupledSystem system;
+};
 
 /// Calls visit(particles, index) for all particles of this rank.
 template <class Visit>

@@ -78,21 +78,16 @@ TEST_P(Column, FollowsTheLawInConfinedCompression) {
   parameters.surface = height;
   parameters.remap_interval = GetParam().remap_interval;
   set_boundary(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
-  ContinuumTerrain ground(parameters, Communicator());
-  PlateGeometry geometry{PlateShape::square, 6 * cell, 2 * cell, 3};
-  RigidPlate plate(geometry, {cell, cell, height + 1e-5});
+  PressedGround press(parameters, {PlateShape::square, 6 * cell, 2 * cell, 3},
+                      {cell, cell, height + 1e-5});
   ContactParameters smooth;
   smooth.friction = 0.0;
-  TerrainContact contact(plate, ground, smooth, false, "lid");
-  CoupledSystem system;
-  system.add(plate, "plate");
-  system.add(ground, "ground");
-  system.add(contact, "lid");
+  press.touch(smooth);
   const double end = GetParam().strain * height;
   const Confined reference(*material, -std::log(1.0 - GetParam().strain) * 1.5, 60000);
   const auto mean_volume_ratio = [&] {
     double sum = 0.0, volume = 0.0;
-    for_particles(ground, [&](Particles& particles, std::size_t p) {
+    for_particles(press.ground, [&](Particles& particles, std::size_t p) {
       const double v = particles.data(column::volume)[p];
       sum += v * particles.data(column::state + field::volume_ratio)[p];
       volume += v;
@@ -101,17 +96,17 @@ TEST_P(Column, FollowsTheLawInConfinedCompression) {
   };
   double time = 0.0, force = 0.0, expected_force = 0.0;
   const double interval = 0.01 * end / GetParam().speed;
-  while (height - plate.centre().z() < end) {
-    plate.prescribe(-GetParam().speed * std::min(1.0, time / (20 * interval)));
-    system.advance(interval);
+  while (height - press.plate.centre().z() < end) {
+    press.plate.prescribe(-GetParam().speed * std::min(1.0, time / (20 * interval)));
+    press.system.advance(interval);
     time += interval;
-    if (height - plate.centre().z() > 0.97 * end) {
-      force += contact.force().z();
+    if (height - press.plate.centre().z() > 0.97 * end) {
+      force += press.contact->force().z();
       expected_force -= reference.stress(mean_volume_ratio(), 2) * 4 * cell * cell;
     }
   }
   test::MaxError axial, lateral, skew;
-  for_particles(ground, [&](Particles& particles, std::size_t p) {
+  for_particles(press.ground, [&](Particles& particles, std::size_t p) {
     const VectorX state = particles.state(p);
     const double J = state[field::volume_ratio], expected = reference.stress(J, 2);
     axial.add(state[2] / expected - 1.0);
@@ -121,13 +116,14 @@ TEST_P(Column, FollowsTheLawInConfinedCompression) {
   // Mass is kept, so the mean density is that of the height that the plate leaves; its spring gives
   // way by the penetration.
   const double mean = mean_volume_ratio(),
-               left = (plate.centre().z() + contact.penetration()) / height;
+               left = (press.plate.centre().z() + press.contact->penetration()) / height;
   RecordProperty("worst_axial", fmt::format("{:.2e}", axial.max()));
   RecordProperty("worst_lateral", fmt::format("{:.2e}", lateral.max()));
   RecordProperty("force_over_law", fmt::format("{:.4f}", force / expected_force));
   RecordProperty("mean_volume_ratio", fmt::format("{:.5f}, height {:.5f}", mean, left));
-  RecordProperty("deepest_penetration", fmt::format("{:.2e}", contact.deepest_penetration()));
-  const EnergyBudget b = ground.energy_budget();
+  RecordProperty("deepest_penetration",
+                 fmt::format("{:.2e}", press.contact->deepest_penetration()));
+  const EnergyBudget b = press.ground.energy_budget();
   RecordProperty("energies", fmt::format("contact {:.4g} stored {:.4g} dissipated {:.4g} kinetic "
                                          "{:.2g} numerical {:.2g} residual {:.2g}",
                                          b.contact_work, b.stored_energy, b.dissipated_energy,
@@ -141,7 +137,7 @@ TEST_P(Column, FollowsTheLawInConfinedCompression) {
       0.03);  // the particles under the lid are not strained as those below: one layer of ten
   EXPECT_LT(std::abs(b.residual()), 1e-3 * b.contact_work);
   // ground that is confined only compacts
-  const TerrainWork work = ground.work();
+  const TerrainWork work = press.ground.work();
   EXPECT_NEAR(work.compaction, b.stored_energy + b.dissipated_energy, 2e-3 * b.contact_work);
   EXPECT_LT(std::abs(work.bulldozing), 1e-6 * b.contact_work);
   EXPECT_EQ(work.contact, b.contact_work);
@@ -157,26 +153,21 @@ double force_at_given_height(double cell, double stiffness) {
   parameters.z = even(0, height + 2 * cell, cell);
   parameters.surface = height;
   set_boundary(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
-  ContinuumTerrain ground(parameters, Communicator());
-  RigidPlate plate({PlateShape::square, 6 * cell, 2 * cell, 3},
-                   {0.5 * cell, 0.5 * cell, height + 1e-6});
+  PressedGround press(parameters, {PlateShape::square, 6 * cell, 2 * cell, 3},
+                      {0.5 * cell, 0.5 * cell, height + 1e-6});
   ContactParameters lid;
   lid.friction = 0.0;
   lid.stiffness = stiffness;
-  TerrainContact contact(plate, ground, lid, false, "lid");
-  CoupledSystem system;
-  system.add(plate, "plate");
-  system.add(ground, "ground");
-  system.add(contact, "lid");
+  press.touch(lid);
   double time = 0.0, sum = 0.0, expected = 0.0;
   const double interval = 2e-4;
-  while (height - plate.centre().z() < strain * height) {
-    plate.prescribe(-speed * std::min(1.0, time / 0.02));
-    system.advance(interval);
+  while (height - press.plate.centre().z() < strain * height) {
+    press.plate.prescribe(-speed * std::min(1.0, time / 0.02));
+    press.system.advance(interval);
     time += interval;
-    if (height - plate.centre().z() < 0.9 * strain * height) continue;
-    sum += contact.force().z();
-    expected -= M * std::log(plate.centre().z() / height) * cell * cell;
+    if (height - press.plate.centre().z() < 0.9 * strain * height) continue;
+    sum += press.contact->force().z();
+    expected -= M * std::log(press.plate.centre().z() / height) * cell * cell;
   }
   return sum / expected;
 }

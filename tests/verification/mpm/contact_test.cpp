@@ -54,20 +54,25 @@ struct Incline {
   double time = 0.0, mass, start, normal_impulse = 0.0, friction_impulse = 0.0;
 };
 
-class Enforcements : public ::testing::TestWithParam<std::string> {};
+class Enforcements : public ::testing::TestWithParam<std::string> {
+ protected:
+  static ContactParameters law(double friction, double damping = ContactParameters().damping) {
+    ContactParameters parameters;
+    parameters.enforcement = GetParam();
+    parameters.friction = friction;
+    parameters.damping = damping;
+    return parameters;
+  }
+};
 INSTANTIATE_TEST_SUITE_P(Contact, Enforcements, ::testing::ValuesIn(contact_law_names()),
                          [](const auto& one) { return one.param; });
 
 /// a = g (sin(slope) - mu cos(slope)); every particle slides, so the friction is mu times the
 /// normal force, exactly.
 TEST_P(Enforcements, SlidesAsCoulombSays) {
-  ContactParameters parameters;
-  parameters.enforcement = GetParam();
-  parameters.friction = 0.3;
-  // of a block that bounces and shakes, the base slips less than the middle while it presses more
-  parameters.damping = 1.0;
   const double slope = std::atan(0.6), duration = 0.2;
-  Incline incline(slope, parameters);
+  // of a block that bounces and shakes, the base slips less than the middle while it presses more
+  Incline incline(slope, law(0.3, 1.0));
   incline.run(duration);
   const double a = standard_gravity * (std::sin(slope) - 0.3 * std::cos(slope));
   RecordProperty("distance_over_closed_form",
@@ -84,12 +89,8 @@ TEST_P(Enforcements, SlidesAsCoulombSays) {
 /// Below the angle of friction it does not slide once the first bounce is over. Springs hold it;
 /// impulses take away the velocity of each particle again in every step and let it creep.
 TEST_P(Enforcements, SticksBelowTheAngleOfFriction) {
-  ContactParameters parameters;
-  parameters.enforcement = GetParam();
-  parameters.friction = 0.3;
-  parameters.damping = 1.0;
   const double slope = std::atan(0.2), duration = 0.4;
-  Incline incline(slope, parameters);
+  Incline incline(slope, law(0.3, 1.0));
   incline.run(0.5 * duration);
   const double at_half = incline.moved();
   incline.run(duration);
@@ -102,12 +103,9 @@ TEST_P(Enforcements, SticksBelowTheAngleOfFriction) {
 /// tau = mu sigma (1 - exp(-j/k)), [Shoop2001] eq 26: the distance slid solves
 /// s'' = g sin - mu g cos (1 - exp(-s/k)).
 TEST_P(Enforcements, SlidesAsEquation26Says) {
-  ContactParameters parameters;
-  parameters.enforcement = GetParam();
-  parameters.friction = 0.8;
-  parameters.slip_length = 0.05;
   // the block is put on the plate with its whole weight: a bounce would start the slip again
-  parameters.damping = 1.0;
+  ContactParameters parameters = law(0.8, 1.0);
+  parameters.slip_length = 0.05;
   const double slope = std::atan(0.5), duration = 0.2;
   Incline incline(slope, parameters);
   incline.run(duration);
@@ -127,10 +125,7 @@ TEST_P(Enforcements, SlidesAsEquation26Says) {
 /// touches is stopped by its mass in every step, F = m v/dt. N_c of N equal particles touch: the
 /// block creeps with g sin(slope) dt N/N_c.
 TEST_P(Enforcements, RoughSurfaceHoldsOrCreepsWithTheStep) {
-  ContactParameters parameters;
-  parameters.enforcement = GetParam();
-  parameters.friction = std::numeric_limits<double>::infinity();
-  parameters.damping = 1.0;
+  const ContactParameters parameters = law(std::numeric_limits<double>::infinity(), 1.0);
   const double slope = std::atan(0.6), half_duration = 0.1;
   const double g = standard_gravity * std::sin(slope);
   Incline rough(slope, parameters);
@@ -162,11 +157,8 @@ TEST_P(Enforcements, RoughSurfaceHoldsOrCreepsWithTheStep) {
 }
 
 TEST_P(Enforcements, SmoothSurfaceDoesNotHold) {
-  ContactParameters parameters;
-  parameters.enforcement = GetParam();
-  parameters.friction = 0.0;
   const double slope = std::atan(1.5);
-  Incline smooth(slope, parameters);
+  Incline smooth(slope, law(0.0));
   smooth.run(0.1);
   const double free_fall = 0.5 * standard_gravity * std::sin(slope) * smooth.time * smooth.time;
   EXPECT_NEAR(smooth.moved() / free_fall, 1.0, 0.01);

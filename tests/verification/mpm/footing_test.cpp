@@ -31,28 +31,23 @@ Punch punch_force(double cells_per_radius, double size, const char* far) {
   p.surface = 0.0;
   p.cfl = 0.35;
   set_boundary(p, {"smooth", far, "smooth", far, far, "free"});
-  ContinuumTerrain ground(p, Communicator());
-  RigidPlate plate({PlateShape::circle, 2 * a, 0.5 * a, 12}, {0, 0, 1e-9});
+  PressedGround press(p, {PlateShape::circle, 2 * a, 0.5 * a, 12}, {0, 0, 1e-9});
   ContactParameters smooth;
   smooth.friction = 0.0;
   smooth.stiffness = 2.0;
   smooth.damping = 0.5;
-  TerrainContact contact(plate, ground, smooth, false, "punch");
-  CoupledSystem system;
-  system.add(plate, "punch");
-  system.add(ground, "ground");
-  system.add(contact, "punch");
+  press.touch(smooth);
   const double ramp = 0.08, hold = 0.16, interval = 5e-4;
   double time = 0.0, sum = 0.0, count = 0.0;
   while (time < hold) {
-    plate.prescribe(time < ramp ? -(d + 1e-9) / ramp : 0.0);
-    system.advance(interval);
+    press.plate.prescribe(time < ramp ? -(d + 1e-9) / ramp : 0.0);
+    press.system.advance(interval);
     time += interval;
     if (time < 0.75 * hold) continue;
-    sum += contact.force().z();
+    sum += press.contact->force().z();
     count += 1.0;
   }
-  return {4.0 * sum / count / (2.0 * a * E / (1 - nu * nu) * d), contact.penetration() / d};
+  return {4.0 * sum / count / (2.0 * a * E / (1 - nu * nu) * d), press.contact->penetration() / d};
 }
 
 /// F = 2 a E d/(1 - nu^2) (J. Boussinesq; K. L. Johnson, Contact Mechanics, eq 3.36). The particles
@@ -87,22 +82,17 @@ double bearing_factor(int cells_per_half_width) {
   set_boundary(p, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   p.particles_per_cell = {2, 1, 2};
   p.cfl = 0.6;
-  ContinuumTerrain ground(p, Communicator());
-  RigidPlate plate({PlateShape::square, 2 * b, 0.3, 4}, {0, 0.5 * cell, 1e-6});
+  PressedGround press(p, {PlateShape::square, 2 * b, 0.3, 4}, {0, 0.5 * cell, 1e-6});
   ContactParameters rough;
   rough.friction = std::numeric_limits<double>::infinity();
-  TerrainContact contact(plate, ground, rough, false, "strip");
-  CoupledSystem system;
-  system.add(plate, "strip");
-  system.add(ground, "ground");
-  system.add(contact, "strip");
+  press.touch(rough);
   double time = 0.0, sum = 0.0, count = 0.0;
-  while (-plate.centre().z() < settlement) {
-    plate.prescribe(-speed * std::min(1.0, time / 0.1));
-    system.advance(2e-3);
+  while (-press.plate.centre().z() < settlement) {
+    press.plate.prescribe(-speed * std::min(1.0, time / 0.1));
+    press.system.advance(2e-3);
     time += 2e-3;
-    if (-plate.centre().z() < 0.95 * settlement) continue;
-    sum += contact.force().z();
+    if (-press.plate.centre().z() < 0.95 * settlement) continue;
+    sum += press.contact->force().z();
     count += 1.0;
   }
   return sum / count / (b * cell * c);

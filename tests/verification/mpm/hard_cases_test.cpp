@@ -230,26 +230,21 @@ void expect_sound_at_90_percent(double stiffness) {
   p.z = even(0, height + 2 * cell, cell);
   p.surface = height;
   set_boundary(p, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
-  ContinuumTerrain ground(p, Communicator());
-  RigidPlate plate({PlateShape::square, 6 * cell, 2 * cell, 3},
-                   {0.5 * cell, 0.5 * cell, height + 1e-5});
+  PressedGround press(p, {PlateShape::square, 6 * cell, 2 * cell, 3},
+                      {0.5 * cell, 0.5 * cell, height + 1e-5});
   ContactParameters lid;
   lid.stiffness = stiffness;
-  TerrainContact contact(plate, ground, lid, false, "lid");
-  CoupledSystem system;
-  system.add(plate, "plate");
-  system.add(ground, "ground");
-  system.add(contact, "lid");
-  while (plate.centre().z() > 0.1 * height) {
-    plate.prescribe(-std::min(1.0, 20 * plate.centre().z()));
-    system.advance(1e-4);
+  press.touch(lid);
+  while (press.plate.centre().z() > 0.1 * height) {
+    press.plate.prescribe(-std::min(1.0, 20 * press.plate.centre().z()));
+    press.system.advance(1e-4);
   }
-  const EnergyBudget b = ground.energy_budget();
+  const EnergyBudget b = press.ground.energy_budget();
   ::testing::Test::RecordProperty(
       "energies", fmt::format("contact {:.4g}, residual {:.2g}, numerical {:.2g} J", b.contact_work,
                               b.residual(), b.numerical_loss));
   EXPECT_LT(std::abs(b.residual()), 0.01 * b.contact_work);
-  for_particles(ground, [&](Particles& particles, std::size_t n) {
+  for_particles(press.ground, [&](Particles& particles, std::size_t n) {
     const double J = particles.data(column::state + field::volume_ratio)[n];
     EXPECT_GT(J, 0.03);
     EXPECT_LT(J, 0.2);
@@ -263,7 +258,7 @@ TEST(HardCase, CompactionBy90Percent) { expect_sound_at_90_percent(3.6); }
 /// through them.
 TEST(HardCase, CompactionBy90PercentUnderASoftLidStopsWithItsCause) {
   EXPECT_THAT(test::error_of<StateError>([&] { expect_sound_at_90_percent(0.4); }),
-              ::testing::AllOf(HasSubstr("contact 'lid': the surface is 0.01"),
+              ::testing::AllOf(HasSubstr("contact 'foot': the surface is 0.01"),
                                HasSubstr("raise 'stiffness'")));
 }
 
