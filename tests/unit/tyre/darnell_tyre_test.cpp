@@ -11,11 +11,11 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "io/tyre_file.h"
 #include "tyre/contact_patch.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/max_error.h"
 #include "tests/support/error_of.h"
+#include "tyres.h"
 
 namespace furrow::darnell_tyre_test {
 namespace {
@@ -23,21 +23,6 @@ namespace {
 using test::error_of;
 
 using testing::HasSubstr;
-
-TyreParameters p235(double pressure) {
-  TyreParameters tyre =
-      read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
-  tyre.pressure = pressure;
-  return tyre;
-}
-
-DarnellTyreSettings coarse(bool half = false) {
-  DarnellTyreSettings settings;
-  settings.across = 4;
-  settings.around = 36;
-  settings.half = half;
-  return settings;
-}
 
 const HubParameters rim{{20.0, 0.6, 0.4}, {0.0, 0.0, 0.4}};
 
@@ -82,7 +67,7 @@ Wrench wrench_on_rim(DarnellTyre& tyre) {
 
 /// Inflated, thrown and spinning at ten turns a second, without damping: ten turns.
 TEST(DarnellTyre, FliesAndSpinsWithoutLosingAnything) {
-  DarnellTyreSettings settings = coarse();
+  DarnellTyreSettings settings = coarse(false);
   settings.damping_rate = 0.0;
   DarnellTyre tyre(p235(1.5e5), settings, rim);
   tyre.settle(nullptr, {1e-6});
@@ -108,7 +93,7 @@ TEST(DarnellTyre, FliesAndSpinsWithoutLosingAnything) {
 }
 
 TEST(DarnellTyre, CarriesItsLoadOnAPlane) {
-  DarnellTyre tyre(p235(1.79e5), coarse(), rim);
+  DarnellTyre tyre(p235(1.79e5), coarse(false), rim);
   tyre.settle(nullptr);
   RigidPlane plane = plane_under(tyre);
   tyre.release(Coordinate::z);
@@ -203,7 +188,7 @@ TEST(DarnellTyre, TableAndChainAgree) {
 /// Forces on sidewall nodes: whole force and moment arrive at rim and tread, and their power is
 /// that of the velocities shown.
 TEST(DarnellTyre, SidewallContactKeepsForceMomentAndPower) {
-  DarnellTyreSettings settings = coarse();
+  DarnellTyreSettings settings = coarse(false);
   settings.damping_rate = 0.0;
   DarnellTyre tyre(p235(1.5e5), settings, rim);
   tyre.settle(nullptr, {1e-6});
@@ -268,7 +253,7 @@ TEST(DarnellTyre, ContinuesExactlyFromItsState) {
 }
 
 TEST(DarnellTyre, PlacementCarriesTheInflatedShapeAlong) {
-  DarnellTyre tyre(p235(1.5e5), coarse(), rim);
+  DarnellTyre tyre(p235(1.5e5), coarse(false), rim);
   tyre.settle(nullptr, {1e-5});
   const Vector3 force_before = wrench_on_rim(tyre).force;
   const Matrix3X before = tyre.tread().x.colwise() - tyre.centre();
@@ -287,7 +272,7 @@ TEST(DarnellTyre, RefusesWhatCannotBe) {
   const auto refusal =
       [](const std::function<void(TyreParameters&, DarnellTyreSettings&, HubParameters&)>& change) {
         TyreParameters tyre = p235(1.5e5);
-        DarnellTyreSettings settings = coarse();
+        DarnellTyreSettings settings = coarse(false);
         HubParameters hub = rim;
         change(tyre, settings, hub);
         return error_of([&] { DarnellTyre(tyre, settings, hub); });
@@ -313,7 +298,7 @@ TEST(DarnellTyre, RefusesWhatCannotBe) {
 /// The rim is pulled away from the tread until a sidewall is straight: the error says what and
 /// where.
 TEST(DarnellTyre, AStretchedSidewallStopsTheRun) {
-  DarnellTyreSettings settings = coarse();
+  DarnellTyreSettings settings = coarse(false);
   settings.direct = true;
   settings.damping_rate = 0.0;  // or it drags the tread along
   DarnellTyre tyre(p235(1.5e5), settings, rim);

@@ -22,13 +22,6 @@ SidewallResponse cold(SidewallChain& chain, const SidewallEnd& end, double press
   return chain.solve(end, pressure, angles);
 }
 
-/// Ends from a nearly stretched sidewall to one folded by a deep dent.
-const std::vector<SidewallEnd> ends = {{-0.004, 0.1395, 0.0},
-                                       {-0.004, 0.155, 0.05},
-                                       {0.02, 0.1, -0.2},
-                                       {-0.03, 0.07, 0.3},
-                                       {0.02, 0.05, 0.1}};
-
 TEST(SidewallChain, StiffnessIsTheDerivativeOfTheForces) {
   for (const auto& make : {tr_sidewall, tr_sector})
     for (const double k : {0.0, 1.0, 100.0})

@@ -6,15 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "io/tyre_file.h"
 #include "tyre/sidewall_direct.h"
+#include "tyres.h"
 
 namespace furrow::sidewall_ring_test {
 namespace {
-
-TyreParameters tyre() {
-  return read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
-}
 
 /// Edge nodes of 12 stations, a little displaced and turned, on a rim that stands askew.
 struct Ring {
@@ -22,8 +18,8 @@ struct Ring {
   RimPose rim{Vector3(0.3, -0.2, 0.5),
               Quaternion(Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized())).toRotationMatrix()};
   ShellNodes nodes{Matrix3X::Zero(3, n)};
-  TyreParameters parameters = tyre();
   double pressure = 2e5;
+  TyreParameters parameters = p235(pressure);
 
   explicit Ring(int side, const Vector2& link = Vector2::Zero()) {
     parameters.link = link;

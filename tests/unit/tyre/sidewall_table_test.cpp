@@ -22,12 +22,6 @@ SidewallResponse at(Sidewall& sidewall, const SidewallEnd& end, bool with_stiffn
   return response;
 }
 
-const std::vector<SidewallEnd> ends = {{-0.004, 0.1395, 0.0},
-                                       {-0.004, 0.155, 0.05},
-                                       {0.02, 0.1, -0.2},
-                                       {-0.03, 0.07, 0.3},
-                                       {0.02, 0.05, 0.1}};
-
 TEST(SidewallTable, ForcesAndStiffnessAreExactDerivativesOfItsPotential) {
   for (const auto& make : {tr_sidewall, tr_sector}) {
     const SidewallParameters sidewall = make(5.0, 5.0);

@@ -1,11 +1,31 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Sidewalls that tests share, and finite differences of their responses.
+/// Tyres and sidewalls that tests share, and finite differences of the responses of sidewalls.
 
+#include <string>
+#include <vector>
+
+#include "io/tyre_file.h"
+#include "tyre/darnell_tyre.h"
 #include "tyre/sidewall.h"
 #include "tyre/tyre_parameters.h"
 
 namespace furrow {
+
+/// Tyre of shells 235/75 R15. @param pressure [Pa]
+inline TyreParameters p235(double pressure) {
+  TyreParameters tyre = read_tyre_file(FURROW_SOURCE_DIR "/inputs/tyres/p235_75r15.yaml");
+  tyre.pressure = pressure;
+  return tyre;
+}
+
+inline DarnellTyreSettings coarse(bool half) {
+  DarnellTyreSettings settings;
+  settings.across = 4;
+  settings.around = 36;
+  settings.half = half;
+  return settings;
+}
 
 /// 235/75 R15, [Shoop2001] Table 8 (inputs/tyres/p235_75r15.yaml), with end springs of one's choice
 /// [N m/rad per m].
@@ -38,6 +58,13 @@ inline SidewallParameters uniform_sidewall(int segments, double length, double b
   sidewall.curvature.assign(static_cast<std::size_t>(segments - 1), curvature);
   return sidewall;
 }
+
+/// Ends from a nearly stretched sidewall to one folded by a deep dent.
+inline const std::vector<SidewallEnd> ends = {{-0.004, 0.1395, 0.0},
+                                              {-0.004, 0.155, 0.05},
+                                              {0.02, 0.1, -0.2},
+                                              {-0.03, 0.07, 0.3},
+                                              {0.02, 0.05, 0.1}};
 
 inline SidewallEnd moved(SidewallEnd end, int component, double by) {
   (component == 0 ? end.a : component == 1 ? end.r : end.phi) += by;

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "../../unit/mpm/terrain_scene.h"
-#include "io/tyre_file.h"
+#include "../../unit/tyre/tyres.h"
 #include "tyre/darnell_tyre.h"
 
 namespace furrow::half_on_ground_test {
@@ -20,15 +20,9 @@ struct Outcome {
 /// Inflated without a disturbance, so that the whole tyre stays symmetric, dropped on snow and
 /// pulled along with friction.
 Outcome drop_and_pull(bool half) {
-  TyreParameters parameters =
-      read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
-  parameters.pressure = 4e4;
-  DarnellTyreSettings settings;
-  settings.across = 4;
-  settings.around = 36;
-  settings.half = half;
+  DarnellTyreSettings settings = coarse(half);
   settings.damping_rate = 2000.0;
-  DarnellTyre tyre(parameters, settings, {{20.0, 0.6, 0.4}, {0.0, 0.0, 0.36}});
+  DarnellTyre tyre(p235(4e4), settings, {{20.0, 0.6, 0.4}, {0.0, 0.0, 0.36}});
   const double dt = 0.9 * tyre.stable_time_step();
   for (int i = 0; i < 1500; ++i) tyre.advance(dt);
 

@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../../unit/tyre/tyres.h"
 #include "core/error.h"
-#include "io/tyre_file.h"
 #include "tyre/contact_patch.h"
 #include "tyre/darnell_tyre.h"
 #include "tests/support/error_of.h"
@@ -31,9 +31,7 @@ struct Rest {
 /// At rest on a smooth plane; half model. @param edit changes the tyre file's parameters
 Rest press(double pressure, double load, int across, int around,
            const std::function<void(TyreParameters&)>& edit = {}) {
-  TyreParameters parameters =
-      read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
-  parameters.pressure = pressure;
+  TyreParameters parameters = p235(pressure);
   if (edit) edit(parameters);
   DarnellTyreSettings settings;
   settings.across = across;

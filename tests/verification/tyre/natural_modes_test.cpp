@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../../unit/tyre/tyres.h"
 #include "io/brick_tyre_file.h"
-#include "io/tyre_file.h"
 #include "tests/support/error_of.h"
 #include "tyre/brick_tyre.h"
 #include "tyre/darnell_tyre.h"
@@ -22,16 +22,10 @@ namespace {
 constexpr double pressure = 20e3;  // [Pa]
 
 DarnellTyre inflated(bool half = false) {
-  TyreParameters parameters =
-      read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
-  parameters.pressure = pressure;
-  DarnellTyreSettings settings;
-  settings.across = 4;
-  settings.around = 36;
-  settings.half = half;
+  DarnellTyreSettings settings = coarse(half);
   settings.sidewall_rows = 0;
   settings.damping_rate = 0.0;
-  DarnellTyre tyre(parameters, settings, {{30.0, 1.0, 0.6}, Vector3::Zero()});
+  DarnellTyre tyre(p235(pressure), settings, {{30.0, 1.0, 0.6}, Vector3::Zero()});
   SettleOptions precisely;
   precisely.tolerance = 1e-6;
   tyre.settle(nullptr, precisely);

@@ -8,10 +8,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "../../unit/tyre/tyres.h"
 #include "io/brick_tyre_file.h"
-#include "io/tyre_file.h"
 #include "rig/wheel_rig.h"
 #include "tests/support/max_error.h"
+#include "tests/support/words.h"
 #include "tyre/brick_tyre.h"
 #include "tyre/darnell_tyre.h"
 
@@ -25,18 +26,11 @@ struct Outcome {
 
 const HubParameters rim = {{30.0, 1.0, 0.6}, {0.0, 0.0, 0.4}};
 
-std::string tyre_file(const std::string& name) {
-  return FURROW_SOURCE_DIR "/inputs/tyres/" + name + ".yaml";
-}
-
 /// 4 x 36, half model.
 DarnellTyre darnell() {
-  DarnellTyreSettings settings;
-  settings.across = 4;
-  settings.around = 36;
-  settings.half = true;
+  DarnellTyreSettings settings = coarse(true);
   settings.sidewall_rows = 0;
-  return {read_tyre_file(tyre_file("p235_75r15")), settings, rim};
+  return {read_tyre_file(FURROW_SOURCE_DIR "/inputs/tyres/p235_75r15.yaml"), settings, rim};
 }
 
 /// 24 sections, half model.
@@ -44,7 +38,8 @@ BrickTyre bricks() {
   BrickTyreSettings settings;
   settings.sections = 24;
   settings.half = true;
-  return {read_brick_tyre_file(tyre_file("p235_75r15_smooth")), settings, rim};
+  return {read_brick_tyre_file(FURROW_SOURCE_DIR "/inputs/tyres/p235_75r15_smooth.yaml"), settings,
+          rim};
 }
 
 /// On a plane with friction; means over the last turn.
@@ -54,23 +49,12 @@ Outcome roll(Tyre& tyre, const std::string& mode, double value, double speed, do
   road.height = tyre.lowest_tread_height() - 1e-4;
   road.friction = 0.8;
   RigidPlane plane(road, tyre.surface());
-  std::vector<std::string> words{"load_force",
-                                 "6227",
-                                 "speed",
-                                 fmt::to_string(speed),
-                                 "mode",
-                                 mode,
-                                 "settle_time",
-                                 "0.25",
-                                 "accelerate_time",
-                                 "0.25",
-                                 "ground_level",
-                                 fmt::to_string(road.height),
-                                 "damping",
-                                 "3000"};
-  if (!mode.empty() && mode != "towed")
-    words.insert(words.end(), {mode == "slip" ? "slip" : "torque", fmt::to_string(value)});
-  WheelRig rig(WheelRig::schema().read(words), tyre);
+  std::string options = fmt::format(
+      "load_force 6227 speed {} mode {} settle_time 0.25 accelerate_time 0.25 ground_level {} "
+      "damping 3000",
+      speed, mode, road.height);
+  if (mode != "towed") options += fmt::format(" {} {}", mode == "slip" ? "slip" : "torque", value);
+  WheelRig rig(WheelRig::schema().read(test::words(options)), tyre);
   const double dt = 0.9 * tyre.stable_time_step(), start = tyre.energy_budget().residual(),
                average_from = time - 2.0 * pi * 0.3475 / speed;
   Outcome run{};

@@ -11,7 +11,7 @@
 
 #include <Eigen/LU>
 
-#include "io/tyre_file.h"
+#include "../../unit/tyre/tyres.h"
 #include "tests/support/max_error.h"
 #include "tyre/sidewall_chain.h"
 #include "tyre/sidewall_direct.h"
@@ -19,14 +19,6 @@
 
 namespace furrow::sidewall_test {
 namespace {
-
-SidewallParameters uniform(int segments, double length, double bending, double curvature) {
-  SidewallParameters sidewall;
-  sidewall.length = length;
-  sidewall.bending.assign(static_cast<std::size_t>(segments - 1), bending);
-  sidewall.curvature.assign(static_cast<std::size_t>(segments - 1), curvature);
-  return sidewall;
-}
 
 /// The strip between two meridians, whatever the file says.
 SidewallParameters sector_of(const TyreParameters& tyre) {
@@ -57,7 +49,7 @@ TEST(Sidewall, MembraneTensionIsPressureTimesRadius) {
   const double radius = 0.5 * length / alpha;
   std::vector<double> errors;
   for (const int n : {10, 20, 40, 80}) {
-    SidewallChain chain(uniform(n, length, 0.0, 0.0));
+    SidewallChain chain(uniform_sidewall(n, length, 0.0, 0.0));
     VectorX angles;
     const SidewallResponse response = chain.solve(end, p, angles);
     const double turn = angles[1] - angles[0], L = length / n;
@@ -81,7 +73,7 @@ TEST(Sidewall, SectorMembraneHasTheNaturalShape) {
   const double p = 241e3, length = 0.161, R_bead = 0.208, R_tread = 0.3475;
   std::vector<double> tensions, shapes;
   for (const int n : {10, 20, 40, 80}) {
-    SidewallParameters sidewall = uniform(n, length, 0.0, 0.0);
+    SidewallParameters sidewall = uniform_sidewall(n, length, 0.0, 0.0);
     sidewall.bead_width = R_bead / R_tread;
     sidewall.taper = 1.0 / R_tread;
     SidewallChain chain(sidewall);
@@ -122,7 +114,7 @@ TEST(Sidewall, WithoutPressureItIsTheElastica) {
                  rise = k * l / K;
     std::vector<double> force_errors, rise_errors;
     for (const int n : {10, 20, 40, 80}) {
-      SidewallChain chain(uniform(n, l, EI, 0.0));
+      SidewallChain chain(uniform_sidewall(n, l, EI, 0.0));
       VectorX angles;
       const SidewallResponse response =
           chain.solve({0.3 * chord, std::sqrt(0.91) * chord, 0.0}, 0.0, angles);
