@@ -21,11 +21,8 @@ class BrickTyreFileTest : public ::testing::Test {
  protected:
   /// What the reader says of the ribbed tyre with one text replaced by another.
   std::string refusal(const std::string& from, const std::string& to) {
-    std::string text = read_text_file(inputs + "p235_75r15_ribbed.yaml");
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    write_text_file(scratch_.path("tyre.yaml"), text.replace(at, from.size(), to));
-    return error_of([&] { read_brick_tyre_file(scratch_.path("tyre.yaml")); });
+    const std::string text = with(read_text_file(inputs + "p235_75r15_ribbed.yaml"), from, to);
+    return error_of([&] { read_brick_tyre_file(scratch_.file("tyre.yaml", text)); });
   }
   Scratch scratch_;
 };
@@ -49,8 +46,7 @@ TEST_F(BrickTyreFileTest, EffectiveValuesReadBackAsTheSameTyre) {
   for (const char* name : {"smooth", "ribbed", "lugged", "equivalent"}) {
     const std::string text =
         brick_tyre_file_text(read_brick_tyre_file(inputs + "p235_75r15_" + name + ".yaml"));
-    write_text_file(scratch_.path("back.yaml"), text);
-    EXPECT_EQ(brick_tyre_file_text(read_brick_tyre_file(scratch_.path("back.yaml"))), text);
+    EXPECT_EQ(brick_tyre_file_text(read_brick_tyre_file(scratch_.file("back.yaml", text))), text);
   }
 }
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Heightmaps: both formats give the same surface, and faulty files are refused with their line.
 #include "io/heightmap_file.h"
-
-#include <fstream>
-
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -19,11 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 struct HeightmapFile : ::testing::Test {
-  std::string write(const std::string& text) const {
-    const std::string path = scratch.path("map");
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
+  std::string write(const std::string& text) const { return scratch.file("map", text); }
   std::string refusal(const std::string& text) const {
     const std::string path = write(text);
     return error_of<InputError>([&] { read_heightmap(path); });
@@ -50,27 +43,26 @@ TEST_F(HeightmapFile, GridAndPointsInAnyOrderGiveTheSameBilinearSurface) {
 }
 
 TEST_F(HeightmapFile, CornerAndCentreOfACellAreToldApart) {
-  std::string text = grid;
-  text.replace(text.find("xllcorner 9.75"), 14, "xllcenter 10.0");
-  text.replace(text.find("yllcorner 19.75"), 15, "yllcenter 20.0");
+  const std::string text =
+      with(with(grid, "xllcorner 9.75", "xllcenter 10.0"), "yllcorner 19.75", "yllcenter 20.0");
   EXPECT_EQ(read_heightmap(write(text)).lower, read_heightmap(write(grid)).lower);
 }
 
 TEST_F(HeightmapFile, FaultyFilesAreRefusedWithTheirLine) {
-  const auto with = [](const std::string& from, const std::string& to) {
-    std::string text = grid;
-    return text.replace(text.find(from), from.size(), to);
+  const auto changed = [](const std::string& from, const std::string& to) {
+    return with(grid, from, to);
   };
-  EXPECT_THAT(refusal(with("1.46", "-9999")), AllOf(HasSubstr("line 7"), HasSubstr("no height")));
-  EXPECT_THAT(refusal(with("1.40", "nan")), AllOf(HasSubstr("line 8"), HasSubstr("no height")));
-  EXPECT_THAT(refusal(with("1.45", "1,45x")), HasSubstr("line 8"));
-  EXPECT_THAT(refusal(with(" 1.50", "")), HasSubstr("has 5 heights"));
-  EXPECT_THAT(refusal(with("1.50", "1.50 1.6")), HasSubstr("more heights"));
-  EXPECT_THAT(refusal(with("cellsize 0.5\n", "")), HasSubstr("no 'cellsize'"));
-  EXPECT_THAT(refusal(with("ncols 3", "ncols 3e9")), HasSubstr("columns"));
+  EXPECT_THAT(refusal(changed("1.46", "-9999")),
+              AllOf(HasSubstr("line 7"), HasSubstr("no height")));
+  EXPECT_THAT(refusal(changed("1.40", "nan")), AllOf(HasSubstr("line 8"), HasSubstr("no height")));
+  EXPECT_THAT(refusal(changed("1.45", "1,45x")), HasSubstr("line 8"));
+  EXPECT_THAT(refusal(changed(" 1.50", "")), HasSubstr("has 5 heights"));
+  EXPECT_THAT(refusal(changed("1.50", "1.50 1.6")), HasSubstr("more heights"));
+  EXPECT_THAT(refusal(changed("cellsize 0.5\n", "")), HasSubstr("no 'cellsize'"));
+  EXPECT_THAT(refusal(changed("ncols 3", "ncols 3e9")), HasSubstr("columns"));
   for (const char* wrong : {"inf", "nan", "1e300"}) {
-    EXPECT_THAT(refusal(with("9.75", wrong)), HasSubstr("corner or a cellsize"));
-    EXPECT_THAT(refusal(with("cellsize 0.5", std::string("cellsize ") + wrong)),
+    EXPECT_THAT(refusal(changed("9.75", wrong)), HasSubstr("corner or a cellsize"));
+    EXPECT_THAT(refusal(changed("cellsize 0.5", std::string("cellsize ") + wrong)),
                 HasSubstr("corner or a cellsize"));
     EXPECT_THAT(refusal(std::string("0 0 1\n") + wrong + " 0 1\n"),
                 AllOf(HasSubstr("line 2"), HasSubstr("up to 1e+09 m")));

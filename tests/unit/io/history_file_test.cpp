@@ -43,7 +43,19 @@ void expect_rows(const History& history, int count) {
       EXPECT_EQ(history.at(std::size_t(i), j), row(i)[j]);
 }
 
-TEST(HistoryFile, RowsChannelsAndRunComeBack) {
+class HistoryFiles : public ::testing::Test {
+  const Scratch scratch_;
+
+ protected:
+  const std::string path = scratch_.path("history.h5");
+
+  void write_rows(int count) {
+    HistoryFile file = HistoryFile::create(path, channels, {});
+    append_rows(file, 0, count);
+  }
+};
+
+TEST_F(HistoryFiles, RowsChannelsAndRunComeBack) {
   const Scratch scratch;
   RunInfo info;
   info.title = "rigid wheel on sand";
@@ -73,9 +85,7 @@ TEST(HistoryFile, RowsChannelsAndRunComeBack) {
               ::testing::MatchesRegex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z"));
 }
 
-TEST(HistoryFile, StylesAreKeptAsText) {
-  const Scratch scratch;
-  const std::string path = scratch.path("history.h5");
+TEST_F(HistoryFiles, StylesAreKeptAsText) {
   RunInfo info;
   info.styles = {{"wheel", "all", "wheel/rigid", "wheel", {{"mass", {636.0}}}}};
   HistoryFile::create(path, channels, info);
@@ -84,9 +94,7 @@ TEST(HistoryFile, StylesAreKeptAsText) {
 }
 
 /// A file of an earlier version is still evaluated, but not continued.
-TEST(HistoryFile, FormerNamesOfChannelsAreRead) {
-  const Scratch scratch;
-  const std::string path = scratch.path("history.h5");
+TEST_F(HistoryFiles, FormerNamesOfChannelsAreRead) {
   const std::vector<Channel> now = {{"time", "s", ""}, {"stage", "", ""}, {"hub_drop", "m", ""}};
   const std::vector<Channel> former = {{"time", "s", ""}, {"phase", "", ""}, {"sinkage", "m", ""}};
   {
@@ -100,9 +108,7 @@ TEST(HistoryFile, FormerNamesOfChannelsAreRead) {
   EXPECT_THROW(HistoryFile::resume(path, now, 1.0), Error);
 }
 
-TEST(HistoryFile, ParticlesOfTheTerrainHaveUnitsAndMeanings) {
-  const Scratch scratch;
-  const std::string path = scratch.path("terrain.h5");
+TEST_F(HistoryFiles, ParticlesOfTheTerrainHaveUnitsAndMeanings) {
   TerrainSnapshot snapshot;
   snapshot.x = snapshot.initial_position = snapshot.v = snapshot.principal_stress =
       snapshot.tension_axis = snapshot.compression_axis = Matrix3X::Ones(3, 2);
@@ -126,9 +132,7 @@ TEST(HistoryFile, ParticlesOfTheTerrainHaveUnitsAndMeanings) {
   EXPECT_EQ(file.read_numbers("/rut/density"), std::vector<double>{400.0});
 }
 
-TEST(HistoryFile, AKilledRunLeavesItsLastFlush) {
-  const Scratch scratch;
-  const std::string path = scratch.path("history.h5");
+TEST_F(HistoryFiles, AKilledRunLeavesItsLastFlush) {
   const pid_t child = fork();
   if (child == 0) {
     HistoryFile file = HistoryFile::create(path, channels, {});
@@ -143,9 +147,7 @@ TEST(HistoryFile, AKilledRunLeavesItsLastFlush) {
   expect_rows(read_history(path), 300);
 }
 
-TEST(HistoryFile, IsCompleteWheneverItIsKilledOrRead) {
-  const Scratch scratch;
-  const std::string path = scratch.path("history.h5");
+TEST_F(HistoryFiles, IsCompleteWheneverItIsKilledOrRead) {
   HistoryFile::create(path, channels, {});
   for (int trial = 0; trial < 5; ++trial) {
     const pid_t child = fork();
@@ -170,9 +172,7 @@ TEST(HistoryFile, IsCompleteWheneverItIsKilledOrRead) {
   }
 }
 
-TEST(HistoryFile, ContinuesAfterARestartAsIfNotStopped) {
-  const Scratch scratch;
-  const std::string path = scratch.path("history.h5");
+TEST_F(HistoryFiles, ContinuesAfterARestartAsIfNotStopped) {
   Grains grains;
   grains.resize(1);
   {
@@ -195,24 +195,18 @@ TEST(HistoryFile, ContinuesAfterARestartAsIfNotStopped) {
   expect_rows(read_history(path), 3000);
 }
 
-TEST(HistoryFile, TheRowOfTheCheckpointsInstantIsKept) {
-  const Scratch scratch;
-  const std::string path = scratch.path("history.h5");
-  {
-    HistoryFile file = HistoryFile::create(path, channels, {});
-    append_rows(file, 0, 50);
-  }
+TEST_F(HistoryFiles, TheRowOfTheCheckpointsInstantIsKept) {
+  write_rows(50);
   EXPECT_EQ(HistoryFile::resume(path, channels, row(30)[0] * (1.0 - 1e-15)).size(), 31u);
   EXPECT_EQ(HistoryFile::resume(path, channels, 0.0).size(), 1u);
   EXPECT_EQ(HistoryFile::resume(path, channels, -1.0).size(), 0u);
 }
 
 /// A long run must not fill the memory with rows that are in the file.
-TEST(HistoryFile, MemoryDoesNotGrowWithTheLengthOfTheRun) {
-  const Scratch scratch;
+TEST_F(HistoryFiles, MemoryDoesNotGrowWithTheLengthOfTheRun) {
   std::vector<Channel> wide = {{"time", "s", ""}};
   for (int i = 1; i < 50; ++i) wide.push_back({fmt::format("channel_{}", i), "N", ""});
-  HistoryFile file = HistoryFile::create(scratch.path("history.h5"), wide, {});
+  HistoryFile file = HistoryFile::create(path, wide, {});
   constexpr int rows = 1000;  // between flushes
   std::vector<double> row(wide.size(), 1.0);
   const auto part = [&] {
@@ -230,13 +224,8 @@ TEST(HistoryFile, MemoryDoesNotGrowWithTheLengthOfTheRun) {
   EXPECT_LT(mallinfo2().uordblks, before + rows * wide.size() * sizeof(double));
 }
 
-TEST(HistoryFile, RefusesToContinueWithAGapOrOtherChannels) {
-  const Scratch scratch;
-  const std::string path = scratch.path("history.h5");
-  {
-    HistoryFile file = HistoryFile::create(path, channels, {});
-    append_rows(file, 0, 11);
-  }
+TEST_F(HistoryFiles, RefusesToContinueWithAGapOrOtherChannels) {
+  write_rows(11);
   EXPECT_EQ(error_of([&] { HistoryFile::resume(path, channels, 0.0109); }), "no error");
   EXPECT_THAT(error_of([&] { HistoryFile::resume(path, channels, 0.011); }),
               AllOf(HasSubstr("ends at t = 0.01 s but the run continues from t = 0.011 s: rows "
@@ -250,9 +239,8 @@ TEST(HistoryFile, RefusesToContinueWithAGapOrOtherChannels) {
   expect_rows(read_history(path), 11);  // a refusal leaves the file as it was
 }
 
-TEST(HistoryFile, RefusesRowsThatAreNotFiniteOrNotLater) {
-  const Scratch scratch;
-  HistoryFile file = HistoryFile::create(scratch.path("history.h5"), channels, {});
+TEST_F(HistoryFiles, RefusesRowsThatAreNotFiniteOrNotLater) {
+  HistoryFile file = HistoryFile::create(path, channels, {});
   append_rows(file, 0, 3);
   EXPECT_THAT(error_of([&] {
                 file.append({0.003, std::nan(""), 1.0});
@@ -267,14 +255,9 @@ TEST(HistoryFile, RefusesRowsThatAreNotFiniteOrNotLater) {
   expect_rows(read_history(file.path()), 3);
 }
 
-TEST(HistoryFile, TimeThatRunsBackwardsIsNamed) {
+TEST_F(HistoryFiles, TimeThatRunsBackwardsIsNamed) {
   for (const double time : {0.0015, 0.002, std::nan("")}) {
-    const Scratch scratch;
-    const std::string path = scratch.path("history.h5");
-    {
-      HistoryFile file = HistoryFile::create(path, channels, {});
-      append_rows(file, 0, 3);
-    }
+    write_rows(3);
     {
       Hdf5File file(path, Hdf5File::Mode::edit);
       file.append("/history/time", {time});
@@ -287,9 +270,7 @@ TEST(HistoryFile, TimeThatRunsBackwardsIsNamed) {
   }
 }
 
-TEST(HistoryFile, GrainsSurfaceAuditAndCostComeBack) {
-  const Scratch scratch;
-  const std::string path = scratch.path("history.h5");
+TEST_F(HistoryFiles, GrainsSurfaceAuditAndCostComeBack) {
   Grains grains;
   grains.resize(2);
   grains.id = {8, 2};
@@ -348,9 +329,7 @@ TEST(HistoryFile, GrainsSurfaceAuditAndCostComeBack) {
   EXPECT_THAT(read.warnings, ElementsAre("first warning.", "second warning."));
 }
 
-TEST(HistoryFile, FinalVirialStaysWhenTheRunIsContinuedByNoStep) {
-  const Scratch scratch;
-  const std::string path = scratch.path("history.h5");
+TEST_F(HistoryFiles, FinalVirialStaysWhenTheRunIsContinuedByNoStep) {
   Grains grains;
   grains.resize(2);
   grains.id = {8, 2};
@@ -373,9 +352,7 @@ TEST(HistoryFile, FinalVirialStaysWhenTheRunIsContinuedByNoStep) {
   EXPECT_EQ(read_final_grains(path).virial.cols(), 0);
 }
 
-TEST(HistoryFile, MissingAndForeignFilesAreNamed) {
-  const Scratch scratch;
-  const std::string path = scratch.path("history.h5");
+TEST_F(HistoryFiles, MissingAndForeignFilesAreNamed) {
   EXPECT_THAT(error_of([&] { read_history(path); }),
               HasSubstr(path + ": cannot open as an HDF5 file"));
   Hdf5File(path, Hdf5File::Mode::create).close();

@@ -34,24 +34,13 @@ const std::string sand =
     "  interpolation: linear\n"                         // 14
     "  beyond: extrapolate\n";                          // 15
 
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 class MaterialFileTest : public ::testing::Test {
  protected:
   std::string file(const std::string& text, const std::string& name = "sand.yaml") {
-    write_text_file(scratch_.path(name), text);
-    return scratch_.path(name);
+    return scratch_.file(name, text);
   }
   std::string refusal(const std::string& text) {
-    const std::string path = file(text);
-    std::string message = error_of([&] { read_material_file(path); });
-    for (std::size_t at = 0; (at = message.find(scratch_.folder() + "/")) != std::string::npos;)
-      message.erase(at, scratch_.folder().size() + 1);
-    return message;
+    return scratch_.without_folder(error_of([&] { read_material_file(file(text)); }));
   }
   Scratch scratch_;
 };
@@ -393,8 +382,7 @@ TEST_F(MaterialFileTest, SectionsOfAFoamThatHardlyBelongTogetherAreReadWithAWarn
 TEST(CsvFile, ReadsNumbersAndNamesWhatIsWrong) {
   const Scratch scratch;
   const auto read = [&](const std::string& text) {
-    write_text_file(scratch.path("a.csv"), text);
-    return CsvTable::read(scratch.path("a.csv"));
+    return CsvTable::read(scratch.file("a.csv", text));
   };
   const CsvTable table = read("# made by hand\np_Pa, name ,rho\n1e5,a,\n-2,b,3\n");
   EXPECT_EQ(table.rows(), 2u);

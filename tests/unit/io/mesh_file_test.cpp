@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "io/input_text.h"
 #include "io/replace_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
@@ -55,8 +54,7 @@ TEST(MeshFile, EveryFormatGivesTheSameSurface) {
   test::write_stl(scratch.path("a.stl"), brick);
   expect_brick(read_mesh_file(scratch.path("a.stl")));
   // some programs begin binary files as if they were text
-  write_text_file(scratch.path("b.STL"), binary_stl(brick, "solid brick"));
-  const SolidMesh binary = read_mesh_file(scratch.path("b.STL"));
+  const SolidMesh binary = read_mesh_file(scratch.file("b.STL", binary_stl(brick, "solid brick")));
   expect_brick(binary);
   EXPECT_EQ(binary.facets.back(), 12);
 
@@ -65,16 +63,15 @@ TEST(MeshFile, EveryFormatGivesTheSameSurface) {
     text += fmt::format("v {} {} {} 1\r\n", x.x(), x.y(), x.z());
   for (const Vector3i& t : brick.triangles)
     text += fmt::format("f {}/1/1 {}//2 {}\r\n", t[0] + 1, t[1] - 8, t[2] + 1);
-  write_text_file(scratch.path("c.obj"), text);
-  expect_brick(read_mesh_file(scratch.path("c.obj")));
+  expect_brick(read_mesh_file(scratch.file("c.obj", text)));
 }
 
 TEST(MeshFile, PolygonsOfAnObjFileAreDividedAndKeepTheirNumber) {
   const Scratch scratch;
-  write_text_file(scratch.path("a.obj"),
-                  "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 1\n"
-                  "f 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
-  const SolidMesh pyramid = read_mesh_file(scratch.path("a.obj"));
+  const std::string file = scratch.file("a.obj",
+                                        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 1\n"
+                                        "f 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+  const SolidMesh pyramid = read_mesh_file(file);
   EXPECT_THAT(pyramid.facets, testing::ElementsAre(1, 1, 2, 3, 4, 5));
   EXPECT_NO_THROW(check_solid(pyramid));
   EXPECT_NEAR(pyramid.surface.enclosed_volume(), 1.0 / 3.0, 1e-15);
@@ -85,10 +82,9 @@ TEST(MeshFile, NodesThatDifferByRoundingAreOne) {
   const Scratch scratch;
   Surface rounded = brick;
   test::write_stl(scratch.path("a.stl"), rounded);
-  std::string text = read_input_text(scratch.path("a.stl"), "a file", 100000);
-  text.replace(text.find("vertex 1.5"), 10, "vertex 1.5000001");
-  write_text_file(scratch.path("a.stl"), text);
-  const SolidMesh mesh = read_mesh_file(scratch.path("a.stl"));
+  const std::string text =
+      with(read_text_file(scratch.path("a.stl")), "vertex 1.5", "vertex 1.5000001");
+  const SolidMesh mesh = read_mesh_file(scratch.file("a.stl", text));
   EXPECT_EQ(mesh.surface.node_count(), 8u);
   EXPECT_NO_THROW(check_solid(mesh));
 }
@@ -131,9 +127,8 @@ TEST(MeshFile, BadFilesAreRefusedWithPlaceAndRemedy) {
       {"a.obj", "v 0 0 0\n", "has no facets"},
   };
   for (const auto& one : cases) {
-    write_text_file(scratch.path(one.name), one.content);
-    EXPECT_THAT(error_of<InputError>([&] { read_mesh_file(scratch.path(one.name)); }),
-                HasSubstr(one.message));
+    const std::string file = scratch.file(one.name, one.content);
+    EXPECT_THAT(error_of<InputError>([&] { read_mesh_file(file); }), HasSubstr(one.message));
   }
   EXPECT_THAT(error_of<InputError>([&] { read_mesh_file(scratch.path("absent.stl")); }),
               HasSubstr("absent.stl does not exist; allowed: a mesh file, STL or OBJ"));

@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include "io/replace_file.h"
 #include "material/point/point_driver.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
@@ -21,19 +20,13 @@ class PointFileTest : public ::testing::Test {
     file("data.csv", "sigma_Pa,rho,hole\n1e4,1008,1\n2e4,1017,\n");
   }
   std::string file(const std::string& name, const std::string& text) {
-    write_text_file(scratch_.path(name), text);
-    return scratch_.path(name);
-  }
-  std::string without_folder(std::string message) const {
-    for (std::size_t at = 0; (at = message.find(scratch_.folder() + "/")) != std::string::npos;)
-      message.erase(at, scratch_.folder().size() + 1);
-    return message;
+    return scratch_.file(name, text);
   }
   std::string run_refusal(const std::string& text) {
-    return without_folder(error_of([&] { read_point_run(file("run.yaml", text)); }));
+    return scratch_.without_folder(error_of([&] { read_point_run(file("run.yaml", text)); }));
   }
   std::string fit_refusal(const std::string& text) {
-    return without_folder(error_of([&] { read_point_fit(file("fit.yaml", text)); }));
+    return scratch_.without_folder(error_of([&] { read_point_fit(file("fit.yaml", text)); }));
   }
   Scratch scratch_;
 };

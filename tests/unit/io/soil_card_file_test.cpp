@@ -9,7 +9,6 @@
 
 #include <gmock/gmock.h>
 
-#include "io/replace_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
@@ -39,10 +38,7 @@ notes: []
 class SoilCardFile : public ::testing::Test {
  protected:
   std::string written(const std::string& old = "", const std::string& now = "") {
-    std::string text = card;
-    if (!old.empty()) text.replace(text.find(old), old.size(), now);
-    write_text_file(scratch_.path("card.yaml"), text);
-    return scratch_.path("card.yaml");
+    return scratch_.file("card.yaml", with(card, old, now));
   }
   std::string refusal(const std::string& old, const std::string& now) {
     return test::error_of([&] { read_soil_card(written(old, now)); });

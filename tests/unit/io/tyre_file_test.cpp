@@ -19,11 +19,8 @@ class TyreFileTest : public ::testing::Test {
  protected:
   /// What the reader says of the 235/75 R15 with one text replaced by another.
   std::string refusal(const std::string& from, const std::string& to) {
-    std::string text = read_text_file(inputs + "p235_75r15.yaml");
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    write_text_file(scratch_.path("tyre.yaml"), text.replace(at, from.size(), to));
-    return error_of([&] { read_tyre_file(scratch_.path("tyre.yaml")); });
+    const std::string text = with(read_text_file(inputs + "p235_75r15.yaml"), from, to);
+    return error_of([&] { read_tyre_file(scratch_.file("tyre.yaml", text)); });
   }
   Scratch scratch_;
 };
@@ -44,8 +41,7 @@ TEST_F(TyreFileTest, TheTyresOfTheInputsAreRead) {
 TEST_F(TyreFileTest, EffectiveValuesReadBackAsTheSameTyre) {
   for (const char* name : {"p235_75r15.yaml", "generic_195_65r15.yaml"}) {
     const std::string text = tyre_file_text(read_tyre_file(inputs + name));
-    write_text_file(scratch_.path("back.yaml"), text);
-    EXPECT_EQ(tyre_file_text(read_tyre_file(scratch_.path("back.yaml"))), text);
+    EXPECT_EQ(tyre_file_text(read_tyre_file(scratch_.file("back.yaml", text))), text);
     EXPECT_THAT(text, HasSubstr("[Pa] inflation pressure above atmospheric pressure"));
   }
 }

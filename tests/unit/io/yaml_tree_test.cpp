@@ -5,7 +5,6 @@
 
 #include <chrono>
 
-#include "io/replace_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
@@ -17,10 +16,7 @@ using ::testing::HasSubstr;
 
 class YamlTreeTest : public ::testing::Test {
  protected:
-  YamlTree read(const std::string& text) {
-    write_text_file(scratch_.path("a.yaml"), text);
-    return read_yaml(scratch_.path("a.yaml"));
-  }
+  YamlTree read(const std::string& text) { return read_yaml(scratch_.file("a.yaml", text)); }
   std::string refusal(const std::string& text) {
     return error_of([&] { read(text); });
   }

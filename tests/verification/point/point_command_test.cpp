@@ -111,10 +111,7 @@ TEST(PointCommand, ListsLawsAndPathsFromTheirDeclarations) {
 
 TEST(PointCommand, FailuresHaveTheirMessageAndStatus) {
   const Scratch scratch;
-  const auto file = [&](const std::string& text) {
-    write_text_file(scratch.path("bad.yaml"), text);
-    return scratch.path("bad.yaml");
-  };
+  const auto file = [&](const std::string& text) { return scratch.file("bad.yaml", text); };
   const std::string out = " -o " + scratch.path("r");
   const auto expect_failure = [&](const std::string& arguments, const std::string& message) {
     const Outcome outcome = furrow_point(arguments);
