@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Stress at depth against closed forms, and the report on ground that bears by Boussinesq."""
 
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -17,6 +16,7 @@ from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from support.command import run_post
+from support.folder import FolderTest
 from support.runs import rig, rigid_wheel, style, write_run
 
 A, B, PRESSURE = 0.12, 0.08, 1e5  # [m], [m], [Pa] of the footprint
@@ -165,12 +165,7 @@ def write_pressed(folder: Path, loaded: bool = True) -> None:
         content["history/x"][:] = 0.0  # pressed only
 
 
-class Report(unittest.TestCase):
-    def setUp(self) -> None:
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.folder = Path(place.name)
-
+class Report(FolderTest):
     def test_elastic_ground_gives_boussinesq(self) -> None:
         write_pressed(self.folder / "a")
         found = read_compaction(self.folder / "a")

@@ -2,11 +2,8 @@
 """furrow-post compare, report and choose on made runs with known answers; refusals."""
 
 import csv
-import shutil
-import tempfile
 import unittest
 from html.parser import HTMLParser
-from pathlib import Path
 from subprocess import CompletedProcess
 from typing import Any
 
@@ -15,6 +12,7 @@ import h5py
 from furrow_post.analyse import cost_table
 from furrow_post.csv_table import read_rows
 from support.command import run_post
+from support.folder import SharedFolderTest
 from support.laboratory import write_plate
 from support.runs import add_parts, write_run
 from support.tables import made_runs
@@ -38,13 +36,10 @@ class Balanced(HTMLParser):
         assert self.open.pop() == tag, tag
 
 
-class CompareCommandTest(unittest.TestCase):
-    folder: Path
-
+class CompareCommandTest(SharedFolderTest):
     @classmethod
     def setUpClass(cls) -> None:
-        cls.folder = Path(tempfile.mkdtemp())
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        super().setUpClass()
         write_run(cls.folder / "a")
         add_parts(cls.folder / "a", {"compaction": 150.0, "friction of wheel and ground": 50.0})
         write_run(cls.folder / "b", sinkage=0.051)

@@ -4,7 +4,6 @@ errors."""
 
 import json
 import shutil
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -13,6 +12,7 @@ import matplotlib.image
 import numpy as np
 
 from support.command import run_post
+from support.folder import SharedFolderTest
 from support.runs import write_noisy_history
 from support.rut import write_rut
 
@@ -33,13 +33,10 @@ SUMMARY = {
 }
 
 
-class SingleRunTest(unittest.TestCase):
-    folder: Path
-
+class SingleRunTest(SharedFolderTest):
     @classmethod
     def setUpClass(cls) -> None:
-        cls.folder = Path(tempfile.mkdtemp())
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        super().setUpClass()
         write_noisy_history(cls.folder / "history.h5")
         write_rut(cls.folder / "history.h5", diameter=0.016)
 

@@ -18,6 +18,7 @@ from furrow_post.cli.main import main
 from furrow_post.errors import ResultsError
 from furrow_post.read.hdf5 import opened
 from support.faults import FaultsTest, outcome
+from support.folder import SharedFolderTest
 from support.runs import write_noisy_history, write_run
 from support.rut import write_rut
 
@@ -173,13 +174,10 @@ def damaged(intact: bytes) -> Iterator[tuple[str, bytes]]:
         yield f"60 bits of the head, {seed}", bytes(content)
 
 
-class ResultsFaultsTest(FaultsTest):
-    folder: Path
-
+class ResultsFaultsTest(FaultsTest, SharedFolderTest):
     @classmethod
     def setUpClass(cls) -> None:
-        cls.folder = Path(tempfile.mkdtemp())
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        super().setUpClass()
         write_run(cls.folder / "good")
         write_run(cls.folder / "other", sinkage=0.051)
         (cls.folder / "grains").mkdir()

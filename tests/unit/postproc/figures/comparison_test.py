@@ -2,7 +2,6 @@
 """Figures with more panels than anybody has drawn yet, and with nothing to show."""
 
 import itertools
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from furrow_post.figures.comparison import draw_comparison
 from furrow_post.figures.cost import Answer, draw_cost, draw_models
 from furrow_post.figures.style import panel_letters
 from furrow_post.read.wheel_run import read_wheel_run
+from support.folder import FolderTest
 from support.runs import rig, rigid_wheel, style, write_run
 from support.tables import row
 
@@ -39,17 +39,16 @@ def write_wheel_on_terrain(folder: Path) -> None:
             content[f"terrain/{name}"] = values
 
 
-class ComparisonFigureTest(unittest.TestCase):
+class ComparisonFigureTest(FolderTest):
     def test_five_grounds_have_panels_too(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            runs = []
-            for name in "abcde":
-                write_wheel_on_terrain(Path(folder) / name)
-                runs.append(read_wheel_run(Path(folder) / name))
-            self.assertAlmostEqual(runs[0].number("density"), 200)
-            target = Path(folder) / "compare.png"
-            draw_comparison(compare(runs), target)
-            self.assertGreater(target.stat().st_size, 50000)
+        runs = []
+        for name in "abcde":
+            write_wheel_on_terrain(self.folder / name)
+            runs.append(read_wheel_run(self.folder / name))
+        self.assertAlmostEqual(runs[0].number("density"), 200)
+        target = self.folder / "compare.png"
+        draw_comparison(compare(runs), target)
+        self.assertGreater(target.stat().st_size, 50000)
 
     def test_letters_do_not_end(self) -> None:
         letters = list(itertools.islice(panel_letters(), 30))
@@ -57,13 +56,12 @@ class ComparisonFigureTest(unittest.TestCase):
         self.assertEqual(len(set(letters)), 30)
 
 
-class CostFigureTest(unittest.TestCase):
+class CostFigureTest(FolderTest):
     def test_table_without_a_known_error_is_drawn(self) -> None:
         assessed = cost.assess([row("a", "grains", 0.04, 0.1, 0.2, 1.0)])
-        with tempfile.TemporaryDirectory() as folder:
-            target = Path(folder) / "cost.png"
-            draw_cost(assessed, 0.1, target)
-            self.assertGreater(target.stat().st_size, 10000)
+        target = self.folder / "cost.png"
+        draw_cost(assessed, 0.1, target)
+        self.assertGreater(target.stat().st_size, 10000)
 
     def test_models_with_and_without_a_numerical_error_are_drawn(self) -> None:
         answers = [
@@ -71,10 +69,9 @@ class CostFigureTest(unittest.TestCase):
             Answer("continuum", "50 mm", 20.0, 0.07, 0.01),
             Answer("continuum", "40 mm", 40.0, 0.08, 0.01),
         ]
-        with tempfile.TemporaryDirectory() as folder:
-            target = Path(folder) / "models.png"
-            draw_models(answers, (0.08, 0.01), "hub drop", target)
-            self.assertGreater(target.stat().st_size, 10000)
+        target = self.folder / "models.png"
+        draw_models(answers, (0.08, 0.01), "hub drop", target)
+        self.assertGreater(target.stat().st_size, 10000)
 
 
 if __name__ == "__main__":

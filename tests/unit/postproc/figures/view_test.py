@@ -2,16 +2,14 @@
 """The page in 3D in headless Chromium: it needs no network, shows what the run did, and is operated."""
 
 import re
-import shutil
-import tempfile
 import unittest
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from support.browser import Browser
 from support.command import run_post
+from support.folder import SharedFolderTest
 from support.motion import (
     FRAMES,
     INTERVAL,
@@ -30,21 +28,16 @@ READY = "document.querySelector('.furrow-view')?.dataset.ready == 'yes'"
 STAGE = (slice(50, 280), slice(30, 610))  # rows and columns of a screenshot inside the canvas
 
 
-class ViewTest(unittest.TestCase):
-    folder: Path
+class ViewTest(SharedFolderTest):
     browser: Browser
 
     @classmethod
     def setUpClass(cls) -> None:
-        cls.folder = Path(tempfile.mkdtemp())
+        super().setUpClass()
         for kind in ("grains", "continuum"):
             write_moving_run(cls.folder / kind, kind)
         cls.browser = Browser(640, 560)
-
-    @classmethod
-    def tearDownClass(cls) -> None:
-        cls.browser.close()
-        shutil.rmtree(cls.folder)
+        cls.addClassCleanup(cls.browser.close)
 
     def show(self, *folders: str) -> None:
         """Writes the page of these runs, once, and opens it."""

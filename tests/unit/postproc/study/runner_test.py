@@ -5,11 +5,9 @@ import fcntl
 import json
 import os
 import signal
-import tempfile
 import threading
 import unittest
 from dataclasses import replace
-from pathlib import Path
 from unittest import mock
 
 from furrow_post.errors import ResultsError
@@ -20,17 +18,15 @@ from furrow_post.study import launch as module
 from furrow_post.study.launch import launch
 from furrow_post.study.runner import Runner, State
 from support.fake import FakeTree
+from support.folder import FolderTest
 
 
-class RunnerTest(unittest.TestCase):
+class RunnerTest(FolderTest):
     def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.tree = FakeTree(Path(self.temporary.name))
-        self.results = Path(self.temporary.name) / "results"
+        super().setUp()
+        self.tree = FakeTree(self.folder)
+        self.results = self.folder / "results"
         self.runner = Runner(self.results, self.tree.tools)
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
 
     def test_what_is_there_is_not_made_again(self) -> None:
         cases = [self.tree.case("a", value=2), self.tree.case("b/c")]

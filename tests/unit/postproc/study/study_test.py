@@ -3,11 +3,9 @@
 
 import contextlib
 import io
-import tempfile
 import unittest
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
@@ -16,6 +14,7 @@ from furrow_post.study.runs import Runs
 from furrow_post.study.study import Study
 from support.evaluation import run_study
 from support.fake import FakeTree
+from support.folder import FolderTest
 
 
 def evaluate(runs: Runs, output: Output) -> Sequence[str]:
@@ -26,16 +25,13 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     return [f"{row['run']} is below 1" for row in rows if float(str(row["value"])) < 1]
 
 
-class StudyTest(unittest.TestCase):
+class StudyTest(FolderTest):
     def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.tree = FakeTree(Path(self.temporary.name))
-        self.results = Path(self.temporary.name) / "results"
+        super().setUp()
+        self.tree = FakeTree(self.folder)
+        self.results = self.folder / "results"
         self.page = self.tree.study / "README.md"
         self.page.write_text("# Made\n\n<!-- written by the study -->\nold\n<!-- end -->\n\nAfter.\n")
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
 
     def run_study(self, *words: str, **values: float) -> tuple[int, str]:
         """Runs of these values; status and what was printed."""

@@ -9,7 +9,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from furrow_post.arrays import Floats
+from furrow_post.arrays import Floats, Integers
 
 RADIUS, WIDTH = 0.3, 0.2  # [m] of the rigid wheel
 
@@ -177,8 +177,11 @@ def write_noisy_history(path: Path, rows: int = 4000) -> None:
         write_columns(content.create_group("history", track_order=True), columns)
 
 
-def write_grains(group: Any, x: Floats, radius: Floats, bed_level: float) -> None:
-    """/grains/reference or /grains/final."""
-    group["id"], group["x"], group["radius"] = np.arange(len(x)), x, radius
+def write_grains(
+    group: Any, x: Floats, radius: Floats, bed_level: float, identity: Integers | None = None
+) -> None:
+    """/grains/reference or /grains/final; identity: 0, 1, 2 ... if it is not given."""
+    group["id"] = np.arange(len(x)) if identity is None else identity
+    group["x"], group["radius"] = x, radius
     group["period"] = np.zeros(3)
     group.attrs["bed_level"] = bed_level

@@ -2,13 +2,13 @@
 """A rut in closed form: grains on a jittered lattice, pushed down and aside under a wheel's path."""
 
 from pathlib import Path
-from typing import Any
 
 import h5py
 import numpy as np
 import numpy.typing as npt
 
 from furrow_post.arrays import Floats, Integers
+from support.runs import write_grains
 
 
 def bed(
@@ -79,12 +79,6 @@ def wheel(
     return triangles, x
 
 
-def _write_grains(group: Any, identity: Integers, x: Floats, radius: Floats, level: float) -> None:
-    group["id"], group["x"], group["radius"] = identity, x, radius
-    group["period"] = np.zeros(3)
-    group.attrs["bed_level"] = level
-
-
 def write_rut(path: Path, diameter: float) -> None:
     """Adds /grains and /surface to a results file. diameter: of the grains [m]"""
     length, breadth, depth = 0.8, 0.3, 0.12
@@ -97,10 +91,10 @@ def write_rut(path: Path, diameter: float) -> None:
     shuffled = random.permutation(len(x))
     with h5py.File(path, "a") as content:
         reference = content.create_group("grains/reference")
-        _write_grains(reference, identity, x, radius, depth)
+        write_grains(reference, x, radius, depth, identity)
         final = content.create_group("grains/final")
         after = (x + moved)[shuffled]
-        _write_grains(final, identity[shuffled], after, radius[shuffled], depth)
+        write_grains(final, after, radius[shuffled], depth, identity[shuffled])
         final["v"] = np.zeros_like(x)
         centre = [axle, 0, depth - sinkage + wheel_radius]
         triangles, nodes = wheel(wheel_radius, wheel_width, centre)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """From a command line to the runs of a sweep, by a fake program: checked, kept, continued."""
 
-import tempfile
 import unittest
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +10,7 @@ from furrow_post.study.runner import Runner, State
 from furrow_post.sweep.cases import Request, case_of, plan_of
 from furrow_post.sweep.plan import Plan, read_plan
 from support.fake import FakeTree
+from support.folder import FolderTest
 
 SCRIPT = """variable results index x
 variable value index 1
@@ -36,17 +36,14 @@ REFUSED: tuple[tuple[dict[str, object], str], ...] = (
 )
 
 
-class CasesTest(unittest.TestCase):
+class CasesTest(FolderTest):
     def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.tree = FakeTree(Path(self.temporary.name))
+        super().setUp()
+        self.tree = FakeTree(self.folder)
         self.tree.script.write_text(SCRIPT)
         self.sand = self.tree.script.with_name("sand.yaml")
         self.sand.write_text("loose")
-        self.results = Path(self.temporary.name) / "results"
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
+        self.results = self.folder / "results"
 
     def plan(self, *sweep: str, **more: object) -> Plan:
         return plan_of(replace(Request(self.tree.script, sweep), **more))[0]
