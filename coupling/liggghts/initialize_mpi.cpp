@@ -43,6 +43,9 @@ void initialize_mpi(int* argc, char*** argv) {
     environment.set_default("OMPI_MCA_orte_create_session_dirs", "0");
     environment.set_default("OMPI_MCA_pml", "ob1");
     environment.set_default("OMPI_MCA_btl", "self");
+    environment.set_default("OMPI_MCA_coll", "^adapt,han,inter,monitoring,sm,sync,tuned");
+    environment.set_default("HWLOC_COMPONENTS", "-linuxio,-pci");
+    environment.set_default("HWLOC_PLUGINS_PATH", "none");
   }
   MPI_Init(argc, argv);
 }
