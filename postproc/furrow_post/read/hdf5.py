@@ -2,12 +2,14 @@
 """Opening HDF5 files that may be damaged: the HDF5 library may crash, or never end, on those.
 
 A file is therefore read once from end to end by a child process, before this process opens it.
+The child reads further files until one is damaged.
 """
 
 import contextlib
 import multiprocessing
 import os
 import resource
+import threading
 from collections.abc import Iterator
 from functools import lru_cache
 from multiprocessing.connection import Connection
@@ -45,39 +47,72 @@ def opened(file: Path) -> Iterator[Any]:
 @lru_cache(maxsize=None)
 def _require_sound(file: Path, modified: int, size: int) -> None:
     """@raises ResultsError"""
-    receiver, sender = multiprocessing.Pipe(duplex=False)
-    child = multiprocessing.get_context("fork").Process(
-        target=_read_all, args=(file, size, sender), daemon=True
-    )
-    child.start()
-    sender.close()
-    child.join(PATIENCE + size / SLOWEST)
-    if child.exitcode is None:
-        child.kill()
-        child.join()
-        raise ResultsError(f"{file}: is damaged, reading it does not end; {REMEDY}")
     try:
-        trouble: str = receiver.recv()
-    except EOFError:  # it died before it could say anything
-        trouble = "is damaged, the HDF5 library cannot read it"
+        trouble = _reader_of(os.getpid()).trouble(file, size)
+    except EOFError:  # perhaps not because of this file
+        _reader_of.cache_clear()
+        try:
+            trouble = _reader_of(os.getpid()).trouble(file, size)
+        except EOFError:
+            trouble = "is damaged, the HDF5 library cannot read it"
     if trouble:
+        _reader_of.cache_clear()  # a library that met a damaged file reads no other
         raise ResultsError(f"{file}: {trouble}; {REMEDY}")
 
 
-def _read_all(file: Path, size: int, sender: Connection) -> None:
-    """In the child: sends what is wrong, or an empty text."""
+class _Reader:
+    """A child process that reads one file after another. It ends when this one closes its pipe."""
+
+    def __init__(self) -> None:
+        context = multiprocessing.get_context("fork")
+        self._pipe, other = context.Pipe()
+        self._child = context.Process(target=_read_all, args=(other, self._pipe), daemon=True)
+        self._child.start()
+        other.close()
+        self._in_use = threading.Lock()
+
+    def trouble(self, file: Path, size: int) -> str:
+        """What is wrong with a file, or an empty text.
+
+        @raises EOFError if the child dies before it answers
+        """
+        with self._in_use:
+            try:
+                self._pipe.send((file, size))
+                if self._pipe.poll(PATIENCE + size / SLOWEST):
+                    return str(self._pipe.recv())
+            except OSError as error:
+                raise EOFError from error
+            self._child.kill()
+        return "is damaged, reading it does not end"
+
+
+@lru_cache(maxsize=1)
+def _reader_of(process: int) -> _Reader:
+    """Of this process: a copy of it needs another."""
+    return _Reader()
+
+
+def _read_all(pipe: Connection, other: Connection) -> None:
+    """In the child: of each file asked for, sends what is wrong, or an empty text."""
+    other.close()
     with open(os.devnull, "w", encoding="utf-8") as nowhere:
         os.dup2(nowhere.fileno(), 2)  # what the C library says when it stops the process
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    with contextlib.suppress(EOFError):
+        while True:
+            pipe.send(_trouble_of(*pipe.recv()))
+
+
+def _trouble_of(file: Path, size: int) -> str:
     try:
         with h5py.File(file, "r") as content:
             _walk(content, size)
     except PermissionError as error:
-        sender.send(f"{error.strerror}, check the rights")
+        return f"{error.strerror}, check the rights"
     except Exception as error:
-        sender.send(f"is not a results file of Furrow, or damaged ({' '.join(str(error).split())})")
-    else:
-        sender.send("")
+        return f"is not a results file of Furrow, or damaged ({' '.join(str(error).split())})"
+    return ""
 
 
 def _walk(content: Any, size: int) -> None:
