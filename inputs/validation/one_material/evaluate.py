@@ -2,7 +2,7 @@
 """The matrix of tests and materials: two laws, friction that slip mobilises, grains, measurements."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,31 +10,44 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from furrow_post.analyse.empirical import snow_traction
-from furrow_post.analyse.evaluations import last_piece_of, path_states, plate_curve, pressure_near, steady_columns
-from furrow_post.arrays import Floats
+from furrow_post.analyse.evaluations import (
+    fine_grains,
+    last_piece_of,
+    path_states,
+    pressure_near,
+    steady_columns,
+    whole_plate_curve,
+)
 from furrow_post.csv_table import read_rows
 from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
+from furrow_post.read.laboratory import LaboratoryTest, cell_curve
 from furrow_post.read.results import Results
 from furrow_post.study.output import Output
 from furrow_post.study.runs import Run, Runs
 
 HERE = Path(__file__).resolve().parent
-REFERENCE = read_rows(HERE / "reference.csv")
 # End of a run's name -> legend. 4 cm: slip length of the contact with the wheel
 LAWS = {"snow": "snow", "clay": "Cam clay", "snow4cm": "snow, 4 cm", "clay4cm": "Cam clay, 4 cm"}
+GRAINS = "grains"  # the same of runs on clusters, whose names go on with "/diameter_seed"
 STRESSES = (10, 50, 100, 200, 500, 1000)  # [kPa] of the oedometer
 PRESSURES = (2, 10, 30)  # [kPa] from all sides
 STEPS, STRAIN = 200, 0.2
 SINKAGES = (25, 50, 100, 228)  # [mm]
 NEAR = 2.5  # [mm] of sinkage around it that is averaged
 MODES = {"towed": "towed", "slip_0": "slip 0", "slip_10": "slip 0.1", "slip_30": "slip 0.3", "slip_60": "slip 0.6"}
-WINDOW = 0.5  # [m] of travel
+WINDOW, WINDOW_ON_GRAINS = 0.5, 2.0  # [m] of travel; single grains make the forces scatter
 LOAD, RADIUS, WIDTH = 6237.0, 0.37, 0.272  # [N], [m] of the wheel
 TYRE_LOAD, TYRE_RADIUS = 6227.0, 0.3483  # [N], [m]
 TYRE_AREA = 0.03645  # [m2] on a hard surface at 179 kPa [Shoop2001] Table 6
 MEASURED_SNOW = 220.0  # [kg/m3] of the field tests that the stage field repeats
 Key = tuple[str, str, str]  # test, at, quantity
 Values = dict[Key, float]
+Row = Mapping[str, Any]
+
+
+def subject(name: str) -> str:
+    """Of a run: "slip_10_grains" of "slip_10_grains/0.05_86028121"."""
+    return name.partition("/")[0]
 
 
 def oedometer(run: Run) -> Values:
@@ -80,26 +93,38 @@ def tension(run: Run) -> Values:
 
 
 def plate(run: Run) -> Values:
-    curve = plate_curve(run.folder)
+    curve = whole_plate_curve(run.folder)
     return {("plate", f"{mm} mm", "pressure"): pressure_near(curve, 1e-3 * mm, 1e-3 * NEAR) for mm in SINKAGES}
 
 
 def wheel(run: Run, test: str = "wheel") -> Values:
     history = Results(run.folder).columns
-    means = steady_columns(history, WINDOW)
+    mode, _, ground = subject(run.name).removeprefix("tyre_").rpartition("_")
+    window, at = WINDOW_ON_GRAINS if ground == GRAINS else WINDOW, MODES[mode]
+    means = steady_columns(history, window)
     x = history["x"] - history["x"][0]
-    at = MODES[run.name.removeprefix("tyre_").rpartition("_")[0]]
     found: Values = {
         (test, at, "hub drop"): means["sinkage_m"],
         (test, at, "traction"): -means["resistance"],
     }
     if at != "towed":
-        found[test, at, "torque"] = float(history["drive_torque"][x > x[-1] - WINDOW].mean())
+        found[test, at, "torque"] = float(history["drive_torque"][x > x[-1] - window].mean())
     return found
 
 
 def tyre(run: Run) -> Values:
     return wheel(run, "tyre")
+
+
+def cell_of_grains(run: Run) -> Values:
+    """Triaxial compression, or where it starts: pressed from all sides."""
+    strain, stress, density = cell_curve(LaboratoryTest(run.folder).curve())
+    confinement = run.number("confinement")
+    if run.number("strain") < STRAIN:
+        return {("all-round", f"{1e-3 * confinement:.0f} kPa", "density"): float(density[0])}
+    near = np.abs(strain[:, 2] - STRAIN) < 0.05 * STRAIN
+    deviator = stress[near, 2] - 0.5 * (stress[near, 0] + stress[near, 1])
+    return {("triaxial", f"{confinement:.0f} Pa", "deviator at 0.2"): float(deviator.mean())}
 
 
 def field_tests(runs: Sequence[Run]) -> list[dict[str, Any]]:
@@ -121,7 +146,7 @@ def field_tests(runs: Sequence[Run]) -> list[dict[str, Any]]:
     return rows
 
 
-def field_errors(rows: Sequence[dict[str, Any]], law: str) -> Values:
+def field_errors(rows: Sequence[Row], law: str) -> Values:
     """Root mean squares over the tests."""
     found: Values = {}
     for name, quantity in (("sinkage_m", "rms of hub drop"), ("resistance", "rms of traction")):
@@ -150,7 +175,51 @@ EVALUATIONS: dict[str, Callable[[Run], Values]] = {
     "wheel_clay": wheel,
     "wheel_mobilised": wheel,
     "tyre": tyre,
+    "wheel_grains": wheel,
+    "tyre_grains": tyre,
+    "plate_grains": plate,
+    "cell_grains": cell_of_grains,
 }
+
+
+def values_of_runs(runs: Runs, tests: Sequence[Row]) -> list[dict[str, Any]]:
+    """A row for each run and value; the runs of the field tests have one together for each law."""
+    found = [(run.name, EVALUATIONS[stage](run)) for stage in EVALUATIONS for run in runs.done(stage)]
+    found += [(f"field_{law}", field_errors(tests, law)) for law in LAWS]
+    return [
+        {"run": name, "test": test, "at": at, "quantity": quantity, "value": f"{value:.6g}"}
+        for name, values in found
+        for (test, at, quantity), value in values.items()
+    ]
+
+
+def values_of_laws(rows: Sequence[Row]) -> dict[str, Values]:
+    laws: dict[str, Values] = {law: {} for law in LAWS}
+    for row in rows:
+        if (law := str(row["run"]).rpartition("_")[2]) in laws:
+            laws[law][row["test"], row["at"], row["quantity"]] = float(row["value"])
+    return laws
+
+
+def values_of_grains(rows: Sequence[Row]) -> dict[Key, tuple[float, float]]:
+    """Means of the packings of the finest clusters, with their errors."""
+    found: dict[Key, dict[str, list[float]]] = {}  # -> diameter -> packings
+    for row in rows:
+        name, _, packing = str(row["run"]).partition("/")
+        if name.endswith(f"_{GRAINS}"):
+            sizes = found.setdefault((row["test"], row["at"], row["quantity"]), {})
+            sizes.setdefault(packing.partition("_")[0], []).append(float(row["value"]))
+    return {key: fine_grains(sizes) for key, sizes in found.items()}
+
+
+def references(grains: Mapping[Key, tuple[float, float]]) -> list[dict[str, str]]:
+    """The rows of reference.csv; grains have their own values where it has none."""
+    rows = read_rows(HERE / "reference.csv")
+    for row in rows:
+        key = row["test"], row["at"], row["quantity"]
+        if key in grains and not row[GRAINS]:
+            row[GRAINS], row[f"{GRAINS}_error"] = (f"{value:.4g}" for value in grains[key])
+    return rows
 
 
 def rounded(value: float) -> float:
@@ -183,15 +252,15 @@ def verdict(value: float, row: dict[str, str]) -> str:
     return "" if math.isnan(off) else ("met" if abs(off) <= float(row["goal"]) else "missed")
 
 
-def matrix(laws: dict[str, Values]) -> list[dict[str, Any]]:
+def matrix(laws: dict[str, Values], beside: Sequence[dict[str, str]]) -> list[dict[str, Any]]:
     rows = []
-    for reference in REFERENCE:
+    for reference in beside:
         key: Key = (reference["test"], reference["at"], reference["quantity"])
         row: dict[str, Any] = {name: reference[name] for name in ("test", "at", "quantity", "unit")}
         for law, values in laws.items():
             row[law] = rounded(values[key]) if key in values else ""
         row |= {name: reference[name] for name in ("grains", "grains_error", "measured", "measured_to")}
-        row |= {name: reference[name] for name in ("goal", "kind", "label", "note")}
+        row |= {name: reference[name] for name in ("goal", "kind", "label")}
         for law, values in laws.items():
             value = values.get(key, math.nan)
             off = distance(value, reference)
@@ -223,69 +292,56 @@ def traction(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     return table
 
 
-def reference_points(test: str, quantity: str, column: str) -> tuple[list[float], list[float]]:
-    """Where a test was made, as its first number, and the values of a column."""
-    rows = [r for r in REFERENCE if (r["test"], r["quantity"]) == (test, quantity) and r[column]]
-    return [position(row["at"]) for row in rows], [float(row[column]) for row in rows]
-
-
 def position(at: str) -> float:
     return float(next(word for word in at.split() if word.replace(".", "").isdigit()))
 
 
-def draw(laws: dict[str, Values], runs: Runs, target: Path) -> None:
+def draw(laws: dict[str, Values], beside: Sequence[dict[str, str]], target: Path) -> None:
     use_style()
     figure, grid = plt.subplots(2, 2, figsize=(8.4, 6.4), layout="constrained")
-    letters = dict(zip(("shear", "oedometer", "plate", "wheel"), panel_letters()))
     panels = (
-        (grid[0, 0], "shear", "strength", 1e-3, "density, kg/m³", "shear strength, kPa"),
-        (grid[0, 1], "oedometer", "K0", 1.0, "axial stress, kPa", "K0"),
-        (grid[1, 1], "wheel", "torque", 1.0, "slip", "torque of the wheel, N m"),
+        ("shear", "strength", 1e-3, "density, kg/m³", "shear strength, kPa"),
+        ("oedometer", "K0", 1.0, "axial stress, kPa", "K0"),
+        ("plate", "pressure", 1e-3, "sinkage, mm", "pressure of the plate, kPa"),
+        ("wheel", "torque", 1.0, "slip", "torque of the wheel, N m"),
     )
-    for axes, test, quantity, scale, x_label, text in panels:
+    for axes, (test, quantity, scale, x_label, text), letter in zip(grid.flat, panels, panel_letters()):
         for (law, values), colour in zip(laws.items(), RUN_COLOURS):
             found = [(position(at), scale * v) for (t, at, q), v in values.items() if (t, q) == (test, quantity)]
             if found:
                 axes.plot(*zip(*sorted(found)), "o-", color=colour, label=LAWS[law])
-        x, y = reference_points(test, quantity, "grains")
-        axes.plot(x, [scale * value for value in y], "s", color=RUN_COLOURS[4], label="grains")
+        shown = [row for row in beside if (row["test"], row["quantity"]) == (test, quantity)]
+        points = [[scale * number(row[name]) for row in shown] for name in (GRAINS, f"{GRAINS}_error")]
+        places = [position(row["at"]) for row in shown]
+        axes.errorbar(places, points[0], np.nan_to_num(points[1]), fmt="s", color=RUN_COLOURS[4], label="grains")
+        for row in shown:
+            if row["measured"]:
+                low, high = (scale * number(row[name] or row["measured"]) for name in ("measured", "measured_to"))
+                label = "" if "measured" in axes.get_legend_handles_labels()[1] else "measured"
+                place, middle, half = position(row["at"]), (low + high) / 2, (high - low) / 2
+                axes.errorbar(place, middle, half, fmt="*", color="0.5", lw=4, alpha=0.7, label=label)
         axes.set(xlabel=x_label)
-        annotate_panel(axes, letters[test], text)
-    x, low = reference_points("shear", "strength", "measured")
-    high = reference_points("shear", "strength", "measured_to")[1]
-    grid[0, 0].vlines(x, [1e-3 * v for v in low], [1e-3 * v for v in high], color="0.6", lw=4, alpha=0.5, label="measured")
+        annotate_panel(axes, letter, text)
     grid[0, 0].set(yscale="log")
     grid[0, 1].set(xscale="log", ylim=(0, 0.5))
-    axes = grid[1, 0]
-    for law, colour in zip(laws, RUN_COLOURS):
-        if run := runs.one(f"plate_{law}"):
-            curve = plate_curve(run.folder)
-            axes.plot(1e3 * curve[:, 1], 1e-3 * curve[:, 3], color=colour, label=LAWS[law])
-    for column, marker, colour in (("grains", "s", RUN_COLOURS[4]), ("measured", "*", "k")):
-        x, y = reference_points("plate", "pressure", column)
-        axes.plot(x, [1e-3 * value for value in y], marker, color=colour, label=column)
-    axes.set(xlabel="sinkage, mm", ylim=(0, None))
-    annotate_panel(axes, letters["plate"], "pressure of the plate, kPa")
-    grid[0, 0].legend()
-    grid[1, 1].legend()
-    axes.legend()
+    grid[1, 0].set(ylim=(0, None))
+    for axes in grid.flat:
+        axes.legend()
     save(figure, target, dpi=110)
 
 
 def evaluate(runs: Runs, output: Output) -> Sequence[str]:
-    laws: dict[str, Values] = {law: {} for law in LAWS}
-    for stage, evaluation in EVALUATIONS.items():
-        for run in runs.done(stage):
-            laws[run.name.rpartition("_")[2]].update(evaluation(run))
     tests = field_tests(runs.done("field"))
-    for law, values in laws.items():
-        values.update(field_errors(tests, law))
     output.table("tyre_tests.csv", tests)
-    rows = matrix(laws)
-    output.table("results.csv", rows)
-    output.table("traction.csv", traction(rows))
+    values = values_of_runs(runs, tests)
+    output.table("values.csv", values)
+    known = output.known("values.csv", values)
+    laws, beside = values_of_laws(known), references(values_of_grains(known))
+    rows = matrix(laws, beside)
+    output.table(output.of_all_runs("results.csv"), rows)
+    output.table(output.of_all_runs("traction.csv"), traction(rows))
     output.table("choices.csv", [choice_row(run) for run in runs.done("choices", "towed_snow")])
     field = runs.done("field_choices", "field_20cm_*")
     output.table("field_choices.csv", [choice_row(run) for run in field])
-    draw(laws, runs, output.path("matrix.png"))
+    draw(laws, beside, output.path(output.of_all_runs("matrix.png")))
     return []

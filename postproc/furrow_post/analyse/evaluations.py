@@ -5,6 +5,7 @@ import csv
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from statistics import mean, stdev
 
 import numpy as np
 
@@ -127,3 +128,16 @@ def cost_ratio(
             "ratio_error": round(float(error), 3),
         }
     ]
+
+
+def mean_of_packings(values: Sequence[float]) -> tuple[float, float]:
+    """Mean and its standard error; NaN of one packing alone."""
+    return mean(values), stdev(values) / math.sqrt(len(values)) if len(values) > 1 else math.nan
+
+
+def fine_grains(sizes: Mapping[str, Sequence[float]]) -> tuple[float, float]:
+    """Mean of the packings of the finest grains, by diameter. Its error has their scatter, and the step from the next
+    coarser grains where there are any."""
+    finest, *coarser = sorted(sizes, key=float)
+    fine, scatter = mean_of_packings(sizes[finest])
+    return fine, math.hypot(scatter, fine - mean(sizes[coarser[0]])) if coarser else scatter
