@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Python programs in copies of this process, which has their modules: no start waits for its imports."""
 
+import gc
 import os
 import re
 import runpy
@@ -85,6 +86,7 @@ def run_copy(
     """The status. files: descriptors of the standard output and of that of errors"""
     sys.stdout.flush()
     sys.stderr.flush()
+    gc.freeze()  # or a search for unused objects would write to all pages that the copy shares
     copy = os.fork()
     if copy == 0:
         _become(program, command, folder, files, environment)
