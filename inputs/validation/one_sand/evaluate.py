@@ -5,21 +5,30 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from statistics import mean, stdev
 from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from furrow_post.analyse.evaluations import last_piece_of, pressure_near, steady_columns, whole_plate_curve
+from furrow_post.analyse.evaluations import (
+    fine_grains,
+    last_piece_of,
+    mean_of_packings,
+    pressure_near,
+    steady_columns,
+    whole_plate_curve,
+)
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_columns, read_rows
 from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
-from furrow_post.laboratory.deposit import outer_radius
+from furrow_post.laboratory.deposit import outer_radius, slope_angle
 from furrow_post.laboratory.evaluation import values_of
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve
 from furrow_post.read.results import Results
+from furrow_post.read.soil_card import Cone, read_card
 from furrow_post.read.terrain import Terrain
+from furrow_post.soil.fits import cone_index
+from furrow_post.soil.instruments import cone_curve, read_curve
 from furrow_post.study.case import FOLDER, Case, Value
 from furrow_post.study.furrow_cases import laboratory_case, point_case, script_case
 from furrow_post.study.output import Output
@@ -51,7 +60,10 @@ STEPS = 400
 PLATES = (0.06, 0.08, 0.10)  # [m]
 BED = (0.30, 0.12)  # [m] width, depth
 CELLS = {"plate": (0.01, 0.015), "collapse": (0.01, 0.015), "wheel": (0.03, 0.04)}  # [m] fine, coarse
+CELLS["cone"] = (4, 3)  # across the base
 SINKAGES = (0.01, 0.02)  # [m]
+CONE = 0.08  # [m] base, to which depth it goes; as the widest one of the card of the grains
+CONE_AT = f"{1e3 * CONE:.0f} mm wide"
 COLUMNS = {1: 0.42, 2: 0.60}  # height over radius of a column -> length of the layer [m]
 COLUMN_RADIUS, LAYER, MAP_STEP = 0.08, 0.03, 0.005  # [m]
 THIN = 0.005  # [m], half a grain: the deposit ends where it is thinner
@@ -78,8 +90,10 @@ GOALS = {  # quantity -> allowed difference, and how it is measured
     "K0": (0.05, "absolute"),
     "axial strain": (0.15, "relative"),
     "pressure": (0.20, "relative"),
+    "index": (0.20, "relative"),
     "run-out over height": (0.20, "relative"),
     "height over radius": (0.20, "relative"),
+    "slope": (0.10, "relative"),
     "hub drop": (0.03, "relative"),
     "lateral force over load": (0.15, "relative"),
     "resistance coefficient": (0.01, "absolute"),
@@ -182,6 +196,11 @@ def body_cases() -> Iterator[Case]:
                 plate |= {"width": BED[0], "depth": BED[1]}
                 name = f"plate_{size}/{law}_{cell}"
                 yield script_case(name, HERE / "plate.lig", plate, files=files, stage="plate")
+        for cells in CELLS["cone"]:
+            cone: dict[str, Value] = {"material": given["material"], "size": CONE, "depth_of_base": CONE}
+            cone |= {"cells": cells, "speed": 0.4}
+            script = INPUTS / "soils" / "instruments" / "cone.lig"
+            yield script_case(f"cone/{law}_{cells}", script, cone, files=files, stage="cone")
         for aspect, length in COLUMNS.items():
             for cell in CELLS["collapse"]:
                 height = aspect * COLUMN_RADIUS
@@ -326,8 +345,20 @@ def plate_values(run: Run) -> Iterator[tuple[Key, float]]:
         yield ("plate", f"{1e3 * size:.0f} mm at {1e3 * sinkage:.0f} mm", "pressure"), pressure_near(curve, sinkage, NEAR)
 
 
+def cone_values(run: Run) -> Iterator[tuple[Key, float]]:
+    curve = cone_curve(read_curve(run.folder), CONE).down_to(CONE)
+    yield ("cone", CONE_AT, "index"), cone_index(curve).index.value
+
+
+def cone_of_grains() -> Iterator[tuple[Key, float, float]]:
+    """Of their soil card."""
+    cone = read_card(INPUTS / "soils" / "sand_dry.yaml").cone
+    if isinstance(cone, Cone) and math.isclose(cone.size, CONE):
+        yield ("cone", CONE_AT, "index"), cone.index.value, cone.index.error
+
+
 def deposit_of_law(run: Run) -> dict[str, float]:
-    """Of a column: distance from its edge to where the deposit is thin, and height of its middle."""
+    """Of a column: distance from its edge to where the deposit is thin, height of its middle, and slope [degrees]."""
     terrain = Terrain.read(run.folder)
     aspect = int(run.name.partition("/")[0].partition("_")[2])
     edges = np.arange(0.0, COLUMNS[aspect] / 2, RING)
@@ -336,7 +367,11 @@ def deposit_of_law(run: Run) -> dict[str, float]:
     thickness = volume / (np.pi * np.diff(edges**2)) - LAYER
     runout = outer_radius(thickness, edges, THIN) - COLUMN_RADIUS
     middle = volume[:2].sum() / (np.pi * edges[2] ** 2) - LAYER
-    return {"run-out over height": runout / (aspect * COLUMN_RADIUS), "height over radius": middle / COLUMN_RADIUS}
+    return {
+        "run-out over height": runout / (aspect * COLUMN_RADIUS),
+        "height over radius": middle / COLUMN_RADIUS,
+        "slope": slope_angle(thickness, edges)[0],
+    }
 
 
 def collapse_values(run: Run) -> Iterator[tuple[Key, float]]:
@@ -344,8 +379,8 @@ def collapse_values(run: Run) -> Iterator[tuple[Key, float]]:
     at = f"height {name.partition('_')[2]} radii"
     if column.startswith("grains"):
         found = values_of(LaboratoryTest(run.folder))
-        height = found["height_over_r0"]
-        values = {"run-out over height": found["runout"] / found["aspect"], "height over radius": height}
+        values = {"run-out over height": found["runout"] / found["aspect"], "height over radius": found["height_over_r0"]}
+        values["slope"] = found["slope"]
     else:
         values = deposit_of_law(run)
     for quantity, value in values.items():
@@ -363,13 +398,6 @@ def wheel_values(run: Run) -> Iterator[tuple[Key, float]]:
         last = columns["x"] > columns["x"][-1] - WINDOW
         side = abs(float((columns["lateral_force"][last] / columns["load"][last]).mean()))
         yield ("wheel", at, "lateral force over load"), side
-
-
-def fine_grains(sizes: Mapping[str, Sequence[float]]) -> tuple[float, float]:
-    """Mean of the packings of the finest grains. Its error has their scatter and the step from coarser grains."""
-    finest, next_one = sorted(sizes, key=float)[:2]
-    fine, scatter = mean_of_packings(sizes[finest])
-    return fine, math.hypot(scatter, fine - mean(sizes[next_one]))
 
 
 def wheel_of_grains() -> Iterator[tuple[Key, float, float]]:
@@ -422,11 +450,6 @@ def matrix(
     return rows
 
 
-def mean_of_packings(values: Sequence[float]) -> tuple[float, float]:
-    """Mean and its standard error; NaN of one packing alone."""
-    return mean(values), stdev(values) / math.sqrt(len(values)) if len(values) > 1 else math.nan
-
-
 def draw(rows: Sequence[Mapping[str, Any]], target: Path) -> None:
     use_style()
     figure, grid = plt.subplots(1, 3, figsize=(10.5, 3.6), layout="constrained")
@@ -466,7 +489,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
         for name, value in grain_values(run).items():
             packings.setdefault(element_key(run, name), []).append(value)
     sizes: dict[Key, dict[str, list[float]]] = {}  # of grains at the slip angle -> values of the packings
-    values_of_stage = {"plate": plate_values, "collapse": collapse_values, "wheel": wheel_values, "angle": wheel_values}
+    values_of_stage = {"plate": plate_values, "cone": cone_values, "collapse": collapse_values, "wheel": wheel_values, "angle": wheel_values}
     for run in runs.done(*values_of_stage):
         column, size, *_ = run.name.partition("/")[2].split("_")
         for key, value in values_of_stage[run.case.stage](run):
@@ -478,7 +501,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
                 packings.setdefault(key, []).append(value)
     grains = {key: mean_of_packings(values) for key, values in packings.items()}
     grains |= {key: fine_grains(values) for key, values in sizes.items() if len(values) > 1}
-    grains |= {key: (value, error) for key, value, error in wheel_of_grains()}
+    grains |= {key: (value, error) for key, value, error in (*wheel_of_grains(), *cone_of_grains())}
     rows = matrix(laws, coarse, grains)
     output.table("results.csv", rows)
     for test in ("triaxial", "oedometer"):

@@ -25,6 +25,7 @@ def collapse(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     final, wide, narrow = (
         outer_radius(height, edges, share * diameter) for share in (0.5, 0.25, 1.0)
     )
+    slope, slope_error = slope_angle(height, edges)
     near = deposit[distance < 2 * diameter]
     top = float(np.percentile(near[:, 2] + near[:, 3], 95))
     aspect = h0 / r0
@@ -40,6 +41,7 @@ def collapse(test: LaboratoryTest) -> list[LaboratoryQuantity]:
         quantity("runout", runout, error, "", thick),
         quantity("runout_over_Lube", runout / expected, error / expected, "", lube),
         quantity("height_over_r0", top / r0, height_error, "", "top of the deposit"),
+        quantity("slope", slope, slope_error, "deg", "between 20 and 80 % of the height of the deposit"),
     ]
     if aspect > 1.7:
         ratio = top / r0 / (0.88 * aspect ** (1 / 6))
@@ -85,6 +87,22 @@ def thickness_profile(
     volume, _ = np.histogram(distance, bins=edges, weights=solid)
     height: Floats = volume / areas / solid_fraction
     return height
+
+
+def slope_angle(height: Floats, edges: Floats) -> tuple[float, float]:
+    """Slope [degrees] of a profile of heights (m) in rings, between 20 and 80 % of the highest; error: from 10 to 90 %."""
+    centre, top = 0.5 * (edges[1:] + edges[:-1]), float(height.max())
+
+    def between(low: float, high: float) -> float:
+        first = int(np.flatnonzero(height < high * top)[0])
+        last = int(np.flatnonzero(height > low * top)[-1])
+        if last <= first:  # a cliff between two rings
+            return 90.0
+        part = slice(first, last + 1)
+        return -math.degrees(math.atan(np.polyfit(centre[part], height[part], 1)[0]))
+
+    angle = between(0.2, 0.8)
+    return angle, abs(angle - between(0.1, 0.9))
 
 
 def outer_radius(height: Floats, edges: Floats, level: float) -> float:

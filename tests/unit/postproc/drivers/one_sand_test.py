@@ -59,6 +59,7 @@ class MatrixTest(unittest.TestCase):
             found = study.deposit_of_law(SimpleNamespace(name="collapse_1/norsand_0.01", folder=None))
         self.assertAlmostEqual(found["run-out over height"], (0.15 - 0.08) / 0.08, delta=0.03)
         self.assertAlmostEqual(found["height over radius"], (0.08 - 0.02 / 3) / 0.08, delta=0.01)
+        self.assertAlmostEqual(found["slope"], math.degrees(math.atan(0.5)), delta=0.3)
 
 
 if __name__ == "__main__":
