@@ -231,12 +231,17 @@ def number(text: str) -> float:
     return float(text) if text else math.nan
 
 
+def measured_range(row: Mapping[str, str]) -> tuple[float, float]:
+    """Least and largest measured value, the same where there is one; NaN where there is none."""
+    return number(row["measured"]), number(row["measured_to"] or row["measured"])
+
+
 def distance(value: float, row: dict[str, str]) -> float:
     """From the grains, else from the measurement or its range, in the measure of the goal."""
     low = number(row["grains"])
     high = low
     if math.isnan(low):
-        low, high = number(row["measured"]), number(row["measured_to"] or row["measured"])
+        low, high = measured_range(row)
     if math.isnan(low):
         return low
     off = value - min(max(value, low), high)
@@ -314,12 +319,11 @@ def draw(laws: dict[str, Values], beside: Sequence[dict[str, str]], target: Path
         points = [[scale * number(row[name]) for row in shown] for name in (GRAINS, f"{GRAINS}_error")]
         places = [position(row["at"]) for row in shown]
         axes.errorbar(places, points[0], np.nan_to_num(points[1]), fmt="s", color=RUN_COLOURS[4], label="grains")
-        for row in shown:
-            if row["measured"]:
-                low, high = (scale * number(row[name] or row["measured"]) for name in ("measured", "measured_to"))
-                label = "" if "measured" in axes.get_legend_handles_labels()[1] else "measured"
-                place, middle, half = position(row["at"]), (low + high) / 2, (high - low) / 2
-                axes.errorbar(place, middle, half, fmt="*", color="0.5", lw=4, alpha=0.7, label=label)
+        ranges = [(position(row["at"]), *measured_range(row)) for row in shown if row["measured"]]
+        if ranges:
+            place, low, high = np.array(ranges).T
+            middle, half = scale * (low + high) / 2, scale * (high - low) / 2
+            axes.errorbar(place, middle, half, fmt="*", color="0.5", lw=4, alpha=0.7, label="measured")
         axes.set(xlabel=x_label)
         annotate_panel(axes, letter, text)
     grid[0, 0].set(yscale="log")

@@ -59,8 +59,12 @@ AXIAL = (10e3, 100e3)  # [Pa] of the oedometer at which it is compared
 STEPS = 400
 PLATES = (0.06, 0.08, 0.10)  # [m]
 BED = (0.30, 0.12)  # [m] width, depth
-CELLS = {"plate": (0.01, 0.015), "collapse": (0.01, 0.015), "wheel": (0.03, 0.04)}  # [m] fine, coarse
-CELLS["cone"] = (4, 3)  # across the base
+CELLS: dict[str, tuple[float, float]] = {  # [m] fine, coarse; of the cone: across its base
+    "plate": (0.01, 0.015),
+    "cone": (4, 3),
+    "collapse": (0.01, 0.015),
+    "wheel": (0.03, 0.04),
+}
 SINKAGES = (0.01, 0.02)  # [m]
 CONE = 0.08  # [m] base, to which depth it goes; as the widest one of the card of the grains
 CONE_AT = f"{1e3 * CONE:.0f} mm wide"
@@ -489,7 +493,8 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
         for name, value in grain_values(run).items():
             packings.setdefault(element_key(run, name), []).append(value)
     sizes: dict[Key, dict[str, list[float]]] = {}  # of grains at the slip angle -> values of the packings
-    values_of_stage = {"plate": plate_values, "cone": cone_values, "collapse": collapse_values, "wheel": wheel_values, "angle": wheel_values}
+    values_of_stage = {"plate": plate_values, "cone": cone_values, "collapse": collapse_values}
+    values_of_stage |= {"wheel": wheel_values, "angle": wheel_values}
     for run in runs.done(*values_of_stage):
         column, size, *_ = run.name.partition("/")[2].split("_")
         for key, value in values_of_stage[run.case.stage](run):
