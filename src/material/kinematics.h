@@ -10,18 +10,20 @@
 ///
 /// ln U and U^-1 are functions of C. The size of X, its Frobenius norm, decides how they are found:
 ///
-///   |X| <= 1e-4   four terms of the series in X, which needs no division:
-///                   ln U = X/2 - X^2/4 + X^3/6 - X^4/8
-///                   U^-1 = I - X/2 + 3 X^2/8 - 5 X^3/16
-///   |X| <= 0.004  three terms of the series in Z = X (2I + X)^-1, with Y = Z^2:
-///                   ln U = Z (I + Y/3 + Y^2/5 + ...)
-///                   U^-1 = (I - Z)(I + Y/2 + 3 Y^2/8 + ...)
-///   |X| <= 0.1    seven terms of it
-///   above         the eigenvalues of C, point by point
+///   - Up to 1e-4 by four terms of a series in X. It needs no division.
+///   - Up to 0.004 by three terms of a series in Z. Most steps of an explicit computation end here.
+///   - Up to 0.1 by seven terms of the series in Z. This is a strain of 5 % in one step.
+///   - Above by the eigenvalues of C, point by point.
 ///
-/// The series in Z is that of atanh, because C = (I + Z)(I - Z)^-1. The relative error of a
-/// series is below 1e-16 in its range. Steps of an explicit computation rarely exceed 0.004. A
-/// strain of 5 % in one step is 0.1.
+/// In its range the relative error of each series is below 1e-16. The series in X:
+///
+///   ln U = X/2 - X^2/4 + X^3/6 - X^4/8
+///   U^-1 = I - X/2 + 3 X^2/8 - 5 X^3/16
+///
+/// The series in Z = X (2I + X)^-1, with Y = Z^2. It is that of atanh, as C = (I + Z)(I - Z)^-1:
+///
+///   ln U = Z (I + Y/3 + Y^2/5 + ...)
+///   U^-1 = (I - Z)(I + Y/2 + 3 Y^2/8 + ...)
 
 #include "material/large_stretch.h"
 #include "simd/tensors.h"
