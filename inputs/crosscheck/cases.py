@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from furrow_post.csv_table import read_rows
-from furrow_post.study.case import Case
-from furrow_post.study.furrow_cases import named_values, script_case
-from furrow_post.study.record import Record
-from furrow_post.study.runner import Runner
+from furrow_post.run.case import Case, named_values, script_case
+from furrow_post.run.record import Record
+from furrow_post.run.executor import Executor
 
 HERE = Path(__file__).resolve().parent
 INPUTS = HERE.parent
@@ -69,17 +68,17 @@ def make_case(row: Mapping[str, str]) -> Case:
 class Made:
     """The runs of a case that are there, with their records."""
 
-    def __init__(self, runner: Runner, plans: Sequence[Planned]) -> None:
-        self.runner = runner
+    def __init__(self, executor: Executor, plans: Sequence[Planned]) -> None:
+        self.executor = executor
         self.records: dict[str, Record] = {}
         for planned in plans:
-            record = runner.record(planned.run)
+            record = executor.record(planned.run)
             if record:
                 self.records[planned.run.name] = record
         self.plans = [planned for planned in plans if planned.run.name in self.records]
 
     def folder(self, planned: Planned) -> Path:
-        return self.runner.folder(planned.run)
+        return self.executor.folder(planned.run)
 
     def program(self, planned: Planned) -> str:
         return self.records[planned.run.name].program

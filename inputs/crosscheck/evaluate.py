@@ -16,7 +16,7 @@ from plate_cases import PlateCase
 from series import draw_series, lines_of_series
 from wheel_cases import WheelCase, cited_lines, cited_table
 
-from furrow_post.study.case import Case
+from furrow_post.run.case import Case
 from furrow_post.study.output import Output
 from furrow_post.study.runs import Runs
 
@@ -30,7 +30,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     plans = plan()
     for name in dict.fromkeys(planned.case for planned in plans):
         own = [planned for planned in plans if planned.case == name]
-        made = Made(runs.runner, own)
+        made = Made(runs.executor, own)
         if own[0].of_wheel:
             wheels = WheelCase(name, made)
             if wheels.complete:

@@ -46,9 +46,9 @@ from furrow_post.laboratory.evaluation import values_of
 from furrow_post.laboratory.together import together
 from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve, read_oedometer_reference
-from furrow_post.study.case import Value
-from furrow_post.study.furrow_cases import laboratory_case
-from furrow_post.study.launch import Tools, launch
+from furrow_post.run.case import Value, laboratory_case
+from furrow_post.run.executor import Executor
+from furrow_post.run.tools import Tools
 
 STEP = 0.2  # of a parameter's logarithm, for differences
 WEAK = 0.05  # singular values below this share of the largest: a combination not determined
@@ -140,7 +140,7 @@ class Runs:
 
     def results_of(self, test: Task, name: str, parameters: Task) -> list[LaboratoryTest]:
         """One test, or one for each value of its series."""
-        results = []
+        cases = []
         for confinement in test.get("series") or [None]:
             given = {**test["variables"], "ground": self.task["ground"], **parameters}
             if confinement:
@@ -150,13 +150,9 @@ class Runs:
                 for key, value in given.items()
             }
             case_name = f"{name}_{confinement}" if confinement else name
-            case = laboratory_case(case_name, test["test"], PROJECT, variables)
-            folder = self.folder / case_name
-            record = launch(case, folder, self.tools)
-            if record.error:
-                raise ResultsError(f"{folder} failed: {record.error}")
-            results.append(LaboratoryTest(folder))
-        return results
+            cases.append(laboratory_case(case_name, test["test"], PROJECT, variables))
+        executor = Executor(self.folder, self.tools, same_program=True, again=True)
+        return [LaboratoryTest(run.folder) for run in executor.completed(cases)]
 
 
 def targets(test: Task) -> list[str]:

@@ -35,7 +35,7 @@ from furrow_post.arguments import path, words
 from furrow_post.formatting import yaml_text
 from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest
-from furrow_post.study.launch import Tools
+from furrow_post.run.tools import Tools
 from furrow_post.study.tables import markdown
 
 TESTS = (  # of a record

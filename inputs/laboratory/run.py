@@ -24,15 +24,15 @@ from checks import (
     require_variables,
 )
 
-from furrow_post.arguments import path, shield_negative_numbers, words
+from furrow_post.arguments import at_least, path, shield_negative_numbers, words
 from furrow_post.errors import ResultsError
 from furrow_post.figures.laboratory import draw_laboratory
 from furrow_post.laboratory.report import report_tests
 from furrow_post.program import run_program
 from furrow_post.read.laboratory import read_oedometer_reference
-from furrow_post.study.case import Case, Value
-from furrow_post.study.furrow_cases import laboratory_case, point_case
-from furrow_post.study.launch import Tools, launch
+from furrow_post.run.case import Case, Value, laboratory_case, point_case
+from furrow_post.run.executor import Executor
+from furrow_post.run.tools import Tools
 
 CONFINEMENT = "2e4"  # [Pa] of the law's triaxial path where no series is given
 
@@ -50,15 +50,6 @@ def law_case(name: str, test: str, material: Path, confinement: str) -> Case:
         )
     what = f", {float(confinement) / 1e3:g} kPa" if test == "triaxial" else ""
     return point_case(name, f"{material.stem}{what}", material.resolve(), paths[test])
-
-
-def make(case: Case, output: Path, tools: Tools) -> Path:
-    """The folder of the run. @raises ResultsError where it failed"""
-    folder = output / case.name if case.name else output
-    record = launch(case, folder, tools)
-    if record.error:
-        raise ResultsError(f"{folder} failed: {record.error}; see screen.txt there")
-    return folder
 
 
 def parse() -> argparse.Namespace:
@@ -88,6 +79,7 @@ def parse() -> argparse.Namespace:
         "-v", nargs=2, action="append", default=[], metavar=("NAME", "VALUE"), dest="variables"
     )
     parser.add_argument("-o", "--output", type=path)
+    parser.add_argument("--jobs", type=at_least(1), default=1, help="runs at a time (default: 1)")
     parser.add_argument("--build", type=path, help="default: $FURROW_BUILD, or build in the tree")
     parsed = parser.parse_args(shield_negative_numbers(sys.argv[1:]))
     parsed.variables = [(name, value.strip()) for name, value in parsed.variables]
@@ -129,21 +121,23 @@ def run_test(parsed: argparse.Namespace) -> None:
     tools = Tools.of(Path(__file__), parsed.build)
     default = PROJECT / "results" / "laboratory" / f"{test}_{parsed.ground}"
     output: Path = (parsed.output or default).resolve()
-    folders = []
+    executor = Executor(output, tools, parsed.jobs, same_program=True, again=True)
+    cases = []
     for value in series or [""]:
         variables: dict[str, Value] = {"ground": parsed.ground}
         if value:
             variables[SERIES[test]] = value
         variables.update(parsed.variables)
         name = f"{SERIES[test]}_{value}" if value else ""
-        folders.append(make(laboratory_case(name, test, PROJECT, variables), output, tools))
-    points = []
+        cases.append(laboratory_case(name, test, PROJECT, variables))
+    paths = []
     for material in parsed.continuum:
         for value in (series if test == "triaxial" else []) or [""]:
             name = f"point_{material.stem}_{value}"
-            case = law_case(name, test, material, value or CONFINEMENT)
-            points.append(str(make(case, output, tools)))
-    found = report_tests(folders, parsed.reference, points)
+            paths.append(law_case(name, test, material, value or CONFINEMENT))
+    folders = [run.folder for run in executor.completed([*cases, *paths])]
+    points = [str(folder) for folder in folders[len(cases) :]]
+    found = report_tests(folders[: len(cases)], parsed.reference, points)
     print(found.report)
     target = output / "laboratory.png"
     draw_laboratory(found, target)

@@ -13,7 +13,7 @@ from furrow_post.analyse.evaluations import last_piece
 from furrow_post.analyse.law_fit import NotComputed
 from furrow_post.analyse.point_curves import PointPaths
 from furrow_post.arrays import Floats
-from furrow_post.study.launch import Tools
+from furrow_post.run.tools import Tools
 
 TENSION_STRAIN = 0.03  # in which every law here has its tensile strength
 REBOUND = 0.1  # of strain when compacted snow is released, at most

@@ -33,7 +33,7 @@ from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_rows
 from furrow_post.figures.style import KILOPASCAL, RUN_COLOURS, annotate_panel, save, use_style
 from furrow_post.program import run_program
-from furrow_post.study.launch import Tools
+from furrow_post.run.tools import Tools
 from furrow_post.study.tables import markdown
 
 GROUNDS = ("snow_bonded", "snow_bonded_slab")

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures, plots, tables and studies from the results of Furrow.
 
-Folders, each of which imports only from those to its left: read (files), study (runs and their
-tables), analyse (numbers), laboratory (tests on samples), figures, sweep (curves over a variable),
-scene (the command inputs/run), soil (soil cards), surrogate (fast models), cli (the command furrow-post). Steady values and their standard
-errors come from the program furrow-resistance, never from here.
+Folders, each of which imports only from those to its left: run (what makes and records runs), read
+(files), study (tables of runs), analyse (numbers), laboratory (tests on samples), figures, sweep
+(curves over a variable), scene (the command inputs/run), soil (soil cards), surrogate (fast models),
+cli (the command furrow-post). Steady values and their standard errors come from the program
+furrow-resistance, never from here.
 """
 
 import sys
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 __version__ = "0.2.0"  # of the whole project: pyproject.toml and CMakeLists.txt read this line
 
 # Checked before any module imports them; programs that need them import this package first.
-_absent = [name for name in ("numpy", "h5py", "matplotlib", "scipy", "yaml") if not find_spec(name)]
+_absent = [name for name in ("numpy", "h5py", "matplotlib", "pandas", "scipy", "yaml") if not find_spec(name)]
 if _absent:
     raise ImportError(
         f"furrow_post: {sys.executable} has no {', '.join(_absent)}; write 'apt install "

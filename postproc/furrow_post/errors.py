@@ -22,6 +22,10 @@ class ResultsError(Exception):
 class Interrupted(Exception):
     """Somebody ended the run: it is neither finished nor failed."""
 
+    def __init__(self, text: str, status: int = 1) -> None:
+        super().__init__(text)
+        self.status = status  # of the program that reports it
+
 
 @contextmanager
 def content_of(file: Path | str, remedy: str) -> Iterator[None]:

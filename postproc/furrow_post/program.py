@@ -28,7 +28,7 @@ def run_program(name: str, action: Callable[[], int | None]) -> int:
     except Exception as error:
         if os.environ.get(TRACEBACK):
             raise
-        return _say(name, _text(error), 1)
+        return _say(name, _text(error), getattr(error, "status", 1))
 
 
 def require_utf8() -> None:

@@ -13,7 +13,7 @@ from furrow_post.arrays import Floats
 from furrow_post.laboratory.evaluation import evaluate as evaluate_test
 from furrow_post.laboratory.reference import reference_error
 from furrow_post.read.laboratory import LaboratoryTest, read_oedometer_reference
-from furrow_post.read.summary import Summary
+from furrow_post.run.summary import Summary
 from furrow_post.study.output import Output
 from furrow_post.study.runs import Run, Runs
 

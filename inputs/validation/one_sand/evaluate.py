@@ -29,8 +29,7 @@ from furrow_post.read.soil_card import Cone, read_card
 from furrow_post.read.terrain import Terrain
 from furrow_post.soil.fits import cone_index
 from furrow_post.soil.instruments import cone_curve, read_curve
-from furrow_post.study.case import FOLDER, Case, Value
-from furrow_post.study.furrow_cases import laboratory_case, point_case, script_case
+from furrow_post.run.case import FOLDER, Case, Value, laboratory_case, point_case, script_case
 from furrow_post.study.output import Output
 from furrow_post.study.runs import Run, Runs
 

@@ -350,7 +350,7 @@ def draw(
 
 
 def evaluate(runs: Runs, output: Output) -> Sequence[str]:
-    table, folder = Table(), runs.runner.results / "calculix"
+    table, folder = Table(), runs.executor.results / "calculix"
     add_point(table, runs, folder)
     ground = add_ground(table, runs, folder)
     grains = add_grains(table, runs)

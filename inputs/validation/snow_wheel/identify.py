@@ -29,12 +29,12 @@ from furrow_post.arguments import at_least, path, positive
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError
 from furrow_post.program import run_program
-from furrow_post.study.case import Case
+from furrow_post.run.case import Case
 from furrow_post.study.definition import cases_of, evaluation_of
-from furrow_post.study.launch import Tools
+from furrow_post.run.tools import Tools
 from furrow_post.study.output import Output
-from furrow_post.study.record import Record
-from furrow_post.study.runner import Runner
+from furrow_post.run.record import Record
+from furrow_post.run.executor import Executor
 from furrow_post.study.runs import Run
 from furrow_post.study.tables import aligned
 
@@ -129,15 +129,15 @@ def parse() -> argparse.Namespace:
 
 def identify(parsed: argparse.Namespace) -> None:
     tools = Tools.of(Path(__file__), parsed.build)
-    runner = Runner(parsed.results or tools.root / "results" / HERE.name, tools)
+    executor = Executor(parsed.results or tools.root / "results" / HERE.name, tools)
     made: list[Record] = []
 
     def make(case: Case) -> dict[str, Any]:
-        runner.run([case])
-        record = runner.ended(case)
+        executor.run([case])
+        record = executor.ended(case)
         assert record
         made.append(record)
-        row: dict[str, Any] = study.row_of(Run(case, runner.folder(case), record))
+        row: dict[str, Any] = study.row_of(Run(case, executor.folder(case), record))
         return row
 
     search = Search(tuple(parsed.start), make)

@@ -12,7 +12,7 @@ import numpy as np
 from ..arrays import Floats
 from ..csv_table import read_columns, read_matrix, read_numbers
 from ..errors import ResultsError, content_of
-from ..study.launch import SCREEN
+from ..run.process import SCREEN
 
 AGAIN = "make the run again: remove its folder"
 

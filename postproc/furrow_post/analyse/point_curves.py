@@ -15,7 +15,7 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ResultsError
 from ..programs import find_program
-from ..study.furrow_cases import point_text
+from ..run.case import point_text
 from .law_fit import Curve, NotComputed, Parameter
 
 PROGRAM = "furrow-point"

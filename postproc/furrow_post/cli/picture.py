@@ -6,7 +6,7 @@ import argparse
 from ..figures.picture import draw_picture
 from ..figures.terrain import draw_terrain
 from ..read.results import Results
-from ..read.summary import Summary
+from ..run.summary import Summary
 from ..read.terrain import terrain_file
 from .output import add_output, add_pixels, add_results, target
 

@@ -26,7 +26,7 @@ from ..figures.page import (
 from ..figures.resistance_parts import CAPTION as PARTS_CAPTION, Panel, draw_parts
 from ..figures.view import view_section, view_style
 from ..read.motion import read_motion
-from ..read.summary import ResistanceParts, Summary
+from ..run.summary import ResistanceParts, Summary
 from ..read.wheel_run import WheelRun
 from .comparison import add_comparison_arguments, compared
 from .output import add_target, prepare_page

@@ -8,14 +8,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from .. import __version__
-from ..arguments import number, path, positive, shield_negative_numbers, words
+from ..arguments import at_least, number, path, positive, shield_negative_numbers, words
 from ..errors import ResultsError
 from ..program import run_program
-from ..scene.process import Runs
 from ..read.soil_card import SoilCard, markdown, read_card
 from ..soil.exports import EXPORTS
 from ..soil import grains
-from ..soil.instruments import Bench
+from ..soil.instruments import Bench, card_executor
 from ..soil.make import CLASSES, compression, from_bekker, from_cone, from_strength, read_oedometer
 from ..soil.material import OF_GRAINS, NewMaterial, find_ground
 from ..soil.point import oedometer_misfit
@@ -77,6 +76,7 @@ def parser() -> argparse.ArgumentParser:
         help="diameters of the plates [m], by default 0.1 0.15 0.2, or 10 and 13 grains",
     )
     card.add_argument("--quick", action="store_true", help="coarse cells or one packing, and two loads: a first look")
+    card.add_argument("--jobs", type=at_least(1), default=1, help="tests at a time (default: 1)")
     card.add_argument("--gravity", type=positive, default=EARTH, help="of the tests [m/s2]")
     card.add_argument("--export", nargs="+", choices=EXPORTS, default=list(EXPORTS), help="formats")
     card.set_defaults(run=run_card)
@@ -102,10 +102,9 @@ def run_card(given: argparse.Namespace) -> None:
 
 
 def _continuum_card(given: argparse.Namespace, ground: Path, folder: Path) -> SoilCard:
-    bench = Bench.of(ground, folder, given.gravity)
+    bench = Bench.of(ground, card_executor(folder, given.jobs), given.gravity)
     folder.mkdir(parents=True, exist_ok=True)
-    with Runs() as runs:
-        return make_card(bench, given.sizes or SIZES, QUICK if given.quick else FULL, given.export, runs)
+    return make_card(bench, given.sizes or SIZES, QUICK if given.quick else FULL, given.export)
 
 
 def _grain_card(given: argparse.Namespace, path: Path, folder: Path) -> SoilCard:
@@ -113,9 +112,8 @@ def _grain_card(given: argparse.Namespace, path: Path, folder: Path) -> SoilCard
     sizes = given.sizes or [part * ground.diameter for part in grains.SIZES]
     grains.require_sizes(sizes, ground)
     folder.mkdir(parents=True, exist_ok=True)
-    with Runs() as runs:
-        bench = grains.GrainBench(ground, folder, max(sizes), given.gravity)
-        return make_grain_card(bench, sizes, grains.QUICK if given.quick else grains.FULL, given.export, runs)
+    bench = grains.GrainBench(ground, card_executor(folder, given.jobs), max(sizes), given.gravity)
+    return make_grain_card(bench, sizes, grains.QUICK if given.quick else grains.FULL, given.export)
 
 
 def run_export(given: argparse.Namespace) -> None:
@@ -198,15 +196,14 @@ def _check(route: str, given: argparse.Namespace) -> str:
         of = "measured" if oedometer else "guessed"
         return f"virtual oedometer: rms {misfit:.1%} of the greatest {of} strain"
     folder = given.file.with_suffix("").with_name(f"{given.file.stem}_check")
-    with Runs() as runs:
-        bench = Bench.of(given.file.resolve(), folder, EARTH)
-        if route == "cone_index":
-            misfit = cone_misfit(bench, given.cone_index, runs)
-            return f"virtual cone: cone index {misfit:+.0%} of the given one"
-        radius = _radius(given)
-        modulus, n = given.k_c / radius + given.k_phi, float(given.n)
-        misfit = plate_misfit(bench, lambda z: float(modulus * z**n), radius, runs)
-        return f"virtual plate of {2e3 * radius:g} mm: pressure within a factor of {math.exp(misfit):.2f} (rms)"
+    bench = Bench.of(given.file, card_executor(folder), EARTH)
+    if route == "cone_index":
+        misfit = cone_misfit(bench, given.cone_index)
+        return f"virtual cone: cone index {misfit:+.0%} of the given one"
+    radius = _radius(given)
+    modulus, n = given.k_c / radius + given.k_phi, float(given.n)
+    misfit = plate_misfit(bench, lambda z: float(modulus * z**n), radius)
+    return f"virtual plate of {2e3 * radius:g} mm: pressure within a factor of {math.exp(misfit):.2f} (rms)"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

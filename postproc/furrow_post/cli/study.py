@@ -11,7 +11,7 @@ from ..formatting import duration
 from ..study import pages
 from ..study.definition import EVALUATION, load_study
 from ..study.experiments import counts, experiments_text, path_of
-from ..study.launch import project_root
+from ..run.tools import project_root
 from ..study.repeat import known_cost, missed
 from ..study.study import add_study_arguments, carry_out
 from ..study.values import Registry, values_of

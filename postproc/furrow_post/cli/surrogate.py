@@ -9,7 +9,7 @@ from pathlib import Path
 from ..arguments import path
 from ..errors import ResultsError
 from ..formatting import in_unit, with_error
-from ..study.record import FINISHED, read_record
+from ..run.record import FINISHED, read_record
 from ..study.tables import in_columns
 from ..surrogate.figures import draw_held_out
 from ..surrogate.gaussian_process import Z_95, HeldOut

@@ -10,7 +10,7 @@ from ..errors import ResultsError
 from ..figures.terrain import draw_terrain
 from ..figures.terrain_stress import draw_stress
 from ..read.results import Results
-from ..read.summary import Summary
+from ..run.summary import Summary
 from ..read.terrain import Outline, Terrain, read_terrain_fields
 from .output import add_output, add_pixels, add_results, target
 

@@ -15,7 +15,7 @@ from ..arrays import Floats
 from ..errors import ResultsError
 from ..formatting import with_error
 from ..read.results import Results
-from ..read.summary import Summary
+from ..run.summary import Summary
 from .style import MILLIMETRE, save, use_style
 
 

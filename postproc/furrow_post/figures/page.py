@@ -10,7 +10,7 @@ from ..analyse.comparison import Comparison, overall
 from ..analyse.comparison_report import component_cells, findings
 from ..analyse.verdict import QUANTITIES
 from ..formatting import duration, in_unit, with_error
-from ..read.summary import Summary
+from ..run.summary import Summary
 from ..read.wheel_run import WheelRun
 
 STYLE = """

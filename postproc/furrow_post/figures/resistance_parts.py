@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
-from ..read.summary import ResistanceParts
+from ..run.summary import ResistanceParts
 from .style import annotate_panel, panel_letters, save, use_style
 
 CAPTION = (

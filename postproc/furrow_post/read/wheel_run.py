@@ -17,7 +17,7 @@ from ..errors import ResultsError
 from ..json_text import parse_json
 from .results import Grains, Results
 from .styles import Style
-from .summary import SteadyValue, Summary
+from ..run.summary import SteadyValue, Summary
 from .terrain import FILE, read_terrain_fields, terrain_file
 
 STEADY_QUANTITIES = (

@@ -11,16 +11,18 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..errors import ResultsError
+from ..errors import Interrupted, ResultsError
 from ..programs import find_program, source_tree
 from ..read.script import RESERVED, check_variables
+from ..run.executor import Failed
+from ..run.process import CHECKPOINT
+from ..run.tools import Tools
 from ..sweep.continued import continued_script
 from ..sweep.plan import Plan
 from .catalogue import Variables, head_lines, quick_variables, script_of
 from .choice import Chosen, choose, outcome, table_of
-from .one import SceneRun, require_folder, run_scene, show, words_of
+from .one import SceneRun, require_folder, run_scenes, show, words_of
 from .options import called, parse
-from .process import CHECKPOINT, Failed, Runs, Stopped, require_executable
 from .restart import Former, continuation, read_former
 from .two_grounds import run_two_grounds
 from .verdict import summary_text
@@ -51,7 +53,7 @@ def main(given: Sequence[str]) -> int:
         request = checked(options)
         if options.prepare or options.check:
             return 0
-        require_executable(find_program("furrow"))
+        Tools.found().program("furrow")
         if not options.sweep:
             require_folder(request.folder)
     except (ResultsError, OSError) as error:
@@ -59,8 +61,8 @@ def main(given: Sequence[str]) -> int:
         return 2
     try:
         return _run(request)
-    except (Failed, Stopped) as end:
-        if isinstance(end, Stopped):
+    except (Failed, Interrupted) as end:
+        if isinstance(end, Interrupted):
             print(f"{called()}: {end}{_how_to_continue(request)}", file=sys.stderr)
         return end.status
 
@@ -119,8 +121,7 @@ def _run(request: Request) -> int:
     """@raises ResultsError, Failed, Interrupted"""
     options, folder, script = request.options, request.folder, request.script
     if script is None:
-        with Runs() as runs:
-            run_two_grounds(folder, options.quick, runs)
+        run_two_grounds(folder, options.quick)
         return 0
     if request.plan:
         return int(_sweeps().make_sweep(options, script, request.plan, folder))
@@ -129,11 +130,10 @@ def _run(request: Request) -> int:
     print("\n".join(head_lines(script)), flush=True)
     if request.chosen and request.table:
         return _run_chosen(request, request.chosen, request.table)
-    with Runs() as runs:
-        former = request.former.variables if request.former else []
-        variables = [*options.given, *former, *request.preset]
-        variables = list({name: (name, value) for name, value in reversed(variables)}.values())[::-1]
-        _run_and_show(_scene_run(request, script, folder, options.scene, variables), runs, options)
+    former = request.former.variables if request.former else []
+    variables = [*options.given, *former, *request.preset]
+    variables = list({name: (name, value) for name, value in reversed(variables)}.values())[::-1]
+    _run_and_show(_scene_run(request, script, folder, options.scene, variables), options)
     return 0
 
 
@@ -157,11 +157,10 @@ def _run_chosen(request: Request, chosen: Chosen, table: Path) -> int:
     print("\n".join(chosen.reasons), file=sys.stderr)
     names = ("coarse", "fine") if len(chosen.runs) == 2 else ("",)
     folders = [request.folder / name for name in names]
-    with Runs() as runs:
-        for words, folder in zip(chosen.runs, folders):
-            variables = [*request.options.given, *zip(words[2::3], words[3::3])]
-            print(f"{called()} {words_of(words[0], variables)}")
-            _run_and_show(_scene_run(request, script_of(words[0]), folder, words[0], variables), runs, request.options)
+    for words, folder in zip(chosen.runs, folders):
+        variables = [*request.options.given, *zip(words[2::3], words[3::3])]
+        print(f"{called()} {words_of(words[0], variables)}")
+        _run_and_show(_scene_run(request, script_of(words[0]), folder, words[0], variables), request.options)
     print("\n".join(outcome(table, request.options.error, folders)))
     return 0
 
@@ -190,9 +189,9 @@ def _run_formula(chosen: Chosen) -> int:
     return subprocess.run([find_program(POST), *words[1:]], check=False).returncode
 
 
-def _run_and_show(run: SceneRun, runs: Runs, options: argparse.Namespace) -> None:
+def _run_and_show(run: SceneRun, options: argparse.Namespace) -> None:
     print(f"Running on {run.ranks} rank(s); results in {run.folder}", flush=True)
-    run_scene(run, runs)
+    run_scenes(run.folder, [run])
     if (run.folder / "history.h5").is_file():
         if not options.no_pictures:
             show(run.folder, options.quick)

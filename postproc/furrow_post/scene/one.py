@@ -1,25 +1,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One run of a scene: what is run, and its results folder."""
+"""Runs of scenes: their cases, their results folders and their pictures."""
 
 import json
 import shlex
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultsError
 from ..json_text import parse_json
-from ..programs import PACKAGE, find_program
-from ..read.script import as_word, script_variables
-from ..study.launch import is_busy
-from ..sweep.continued import CONTINUED, RESULTS, continued_script
+from ..programs import PACKAGE
+from ..run.case import FOLDER, Case
+from ..run.claim import is_busy
+from ..run.executor import Executor, Failed, Run
+from ..run.tools import Tools
+from ..sweep.cases import scene_case
 from .catalogue import Variables, is_shipped
-from .process import Failed, Runs, Stopped
 from .restart import continuation, write_command
-
-RECORD = "run.json"  # of a run that came to its end
 
 
 @dataclass(frozen=True)
@@ -35,6 +34,32 @@ class SceneRun:
     checkpoint_every: float = 0.0  # [s]; 0: no checkpoints but those of the script
     continue_from: Path | None = None  # a checkpoint
     words: str = ""  # the scene and its options, for tables of runs
+
+    def case(self, name: str) -> Case:
+        """The run; name: of its folder below that of the executor. @raises ResultsError"""
+        given = list(self.variables)
+        if self.continue_from:
+            given.insert(0, continuation(self.script, f"{FOLDER}/{self.continue_from.name}"))
+        script = self.script.resolve()
+        return scene_case(
+            name,
+            script,
+            dict(reversed(given)),
+            self.until_steady,
+            self.time_limit,
+            ranks=self.ranks,
+            # A script of the user may name files that are relative to where it is started
+            start=None if is_shipped(self.script) else Path.cwd(),
+            keeps_checkpoint=True,
+            checkpoint=self.checkpoint_every,
+            continued=self.continue_from is not None or self.begins_inside,
+            words=self.words,
+        )
+
+    @property
+    def begins_inside(self) -> bool:
+        """Whether a variable names a file of the results folder."""
+        return any(str(self.folder.resolve()) in value for _, value in self.variables)
 
 
 def require_folder(folder: Path) -> None:
@@ -55,56 +80,29 @@ def require_folder(folder: Path) -> None:
         )
 
 
-def run_scene(run: SceneRun, runs: Runs, label: str = "") -> None:
-    """@raises ResultsError, Stopped, Failed"""
-    require_folder(run.folder)
-    (run.folder / RECORD).unlink(missing_ok=True)
-    folder = run.folder.resolve()
-    # LIGGGHTS splits lines at blanks: a folder with blanks has the name "." from inside. A script of
-    # the user may name files that are relative to where it is started.
-    has_blanks = len(str(folder).split()) > 1
-    start = folder if has_blanks or is_shipped(run.script) else Path.cwd()
-    command: list[object] = ["mpirun", "-n", run.ranks] if run.ranks > 1 else []
-    command += [find_program("furrow"), "-in", _script(run, folder), "-log", folder / "log.liggghts"]
-    for name, value in _values(run, Path(".") if has_blanks else folder).items():
-        command += ["-var", name, value]
-    if not run.continue_from:
-        write_command(folder, run.script.resolve(), run.variables, run.ranks)
-    cost = runs.run(command, start, folder, label, run.checkpoint_every)
-    record: dict[str, object] = {
-        "cpu_time": round(cost.cpu_time, 3),
-        "wall_time": round(cost.wall_time, 3),
-        "ranks": run.ranks,
-        "words": run.words,
-    }
-    if run.continue_from:
-        record["continued"] = True  # the times are those of the last part
-    (folder / RECORD).write_text(json.dumps(record) + "\n", encoding="utf-8")
+def run_scenes(
+    folder: Path, scenes: Sequence[SceneRun], jobs: int = 1, ended: Callable[[Case], None] | None = None
+) -> None:
+    """Makes runs whose folders are below a folder, or are this one; ended: see Executor.run.
 
-
-def _script(run: SceneRun, folder: Path) -> Path:
-    """The scene, or a script that runs it and goes on. @raises ResultsError"""
-    script = run.script.resolve()
-    if not run.until_steady:
-        return script
-    text = continued_script(script, run.until_steady, run.time_limit)
-    (folder / CONTINUED).write_text(text, encoding="utf-8")
-    return folder / CONTINUED
-
-
-def _values(run: SceneRun, folder: Path) -> dict[str, str]:
-    """Of the variables, as LIGGGHTS gets them; folder: of the results as it is called from there."""
-    given = [(name, as_word(run.script, value)) for name, value in run.variables]
-    if run.continue_from:
-        given.insert(0, continuation(run.script, str(folder / run.continue_from.name)))
-    values = dict(reversed(given))
-    if RESULTS in script_variables(run.script, dict(run.variables)).settable:
-        values[RESULTS] = str(folder)
-    return values
+    @raises ResultsError, Interrupted, Failed
+    """
+    executor = Executor(folder, Tools.found(), jobs, low_priority=False, watch=True)
+    cases = []
+    for scene in scenes:
+        require_folder(scene.folder)
+        cases.append(scene.case("" if scene.folder == folder else str(scene.folder.relative_to(folder))))
+        if not scene.continue_from:
+            write_command(scene.folder.resolve(), scene.script.resolve(), scene.variables, scene.ranks)
+    executor.repeat(cases, ended)
+    for case in cases:
+        failure = executor.failure(case)
+        if failure:
+            raise Failed(Run(case, executor.folder(case), failure))
 
 
 def post(*commands: Sequence[object], shown: bool = True) -> None:
-    """Runs commands of furrow-post in one process, which imports matplotlib once. @raises Failed"""
+    """Runs commands of furrow-post in one process, which imports matplotlib once. @raises ResultsError"""
     code = (
         f"import json, sys; sys.path.insert(0, {str(PACKAGE.parent)!r}); from furrow_post.cli.main import main; "
         "sys.exit(next(filter(None, map(main, json.loads(sys.argv[1]))), 0))"
@@ -115,7 +113,7 @@ def post(*commands: Sequence[object], shown: bool = True) -> None:
         [sys.executable, "-c", code, words], stdout=None if shown else subprocess.DEVNULL
     )
     if done.returncode:
-        raise Failed(done.returncode)
+        raise ResultsError(f"furrow-post {commands[0][0]} ended with status {done.returncode}")
 
 
 def show(folder: Path, quick: bool, shown: bool = True) -> None:

@@ -9,8 +9,8 @@ from pathlib import Path
 from ..errors import ResultsError, content_of
 from ..json_text import parse_json
 from ..read.script import script_variables
+from ..run.process import FORCED, PARTICLES
 from .catalogue import Variables
-from .process import FORCED, PARTICLES
 
 COMMAND = "command.json"  # what the run was asked to do
 FROM, BEGIN = "from", "begin"  # variables of scripts: a checkpoint for a bed; what makes the box

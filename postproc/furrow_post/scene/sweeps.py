@@ -8,21 +8,15 @@ from pathlib import Path
 
 from ..errors import ResultsError
 from ..programs import PACKAGE, find_program, inputs_folder
-from ..study.case import Case
-from ..study.launch import Tools
-from ..study.runner import Runner, State
-from ..sweep import slurm
+from ..run.case import Case
+from ..run.tools import Tools
+from ..run.executor import Executor, State
+from ..run import slurm
 from ..sweep.cases import Request, case_of, plan_of
 from ..sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
 from ..sweep.plan import Plan, read_plan
 from .catalogue import Variables
 from .options import called
-
-
-def tools() -> Tools:
-    """The programs, and the folder above the inputs."""
-    inputs = inputs_folder()
-    return Tools(find_program("furrow").parent.parent, inputs.parent if inputs else Path.cwd())
 
 
 def wanted_of(options: argparse.Namespace, script: Path) -> Wanted:
@@ -62,9 +56,9 @@ def make_sweep(options: argparse.Namespace, script: Path, plan: Plan, folder: Pa
     former = read_plan(folder)
     whole = plan.joined(former) if former else plan
     whole.write(folder)
-    runner = Runner(folder, tools(), options.jobs or 1, again=options.again, same_inputs=True)
+    executor = Executor(folder, Tools.found(), options.jobs or 1, again=options.again, same_inputs=True)
     cases = [case_of(plan, point) for point in plan.points]
-    states = [runner.state(case) for case in cases]
+    states = [executor.state(case) for case in cases]
     print(
         f"{len(cases)} points, {states.count(State.DONE)} of them are there; "
         f"{plan.ranks} rank(s) each; results in {folder}",
@@ -72,10 +66,10 @@ def make_sweep(options: argparse.Namespace, script: Path, plan: Plan, folder: Pa
     )
     remarks = []
     if options.submit:
-        remarks = _by_slurm(runner, cases, plan, options.jobs)
+        remarks = _by_slurm(executor, cases, plan, options.jobs)
     else:
-        runner.run(cases)
-    return _ended(runner, cases, remarks, folder, wanted_of(options, script))
+        executor.run(cases)
+    return _ended(executor, cases, remarks, folder, wanted_of(options, script))
 
 
 def make_point(folder: Path, name: str) -> int:
@@ -85,30 +79,30 @@ def make_point(folder: Path, name: str) -> int:
     if not plan or not found:
         raise ResultsError(f"{folder}: is no sweep with a point {name}")
     case = case_of(plan, found[0])
-    runner = Runner(folder, tools(), same_inputs=True, again=True)
-    runner.run([case])
-    return 0 if runner.state(case) is State.DONE else 1
+    executor = Executor(folder, Tools.found(), same_inputs=True, again=True)
+    executor.run([case])
+    return 0 if executor.state(case) is State.DONE else 1
 
 
-def _by_slurm(runner: Runner, cases: Sequence[Case], plan: Plan, at_a_time: int | None) -> list[str]:
+def _by_slurm(executor: Executor, cases: Sequence[Case], plan: Plan, at_a_time: int | None) -> list[str]:
     """Makes the points by an array job, after one that is still in the queue."""
-    folder = runner.results / slurm.FOLDER
+    folder = executor.results / slurm.FOLDER
     job = slurm.read_job(folder)
     if job and slurm.is_queued(job):
         print(f"Job {job.number} of this sweep is in the queue; gathering its points", flush=True)
-        slurm.gather(job, runner, cases)
-    missing = [case.name for case in runner.missing(cases)]
+        slurm.gather(job, executor, cases)
+    missing = [case.name for case in executor.missing(cases)]
     if not missing:
         return []
-    command = [*_this_program(), "run", "-o", str(runner.results)]
-    surroundings = {**slurm.environment(), "FURROW_BUILD": str(runner.tools.build)}
-    text = slurm.batch_text(runner.results, missing, command, surroundings, plan.ranks, at_a_time)
-    if runner.again:
-        runner.forget(cases)
+    command = [*_this_program(), "run", "-o", str(executor.results)]
+    surroundings = {**slurm.environment(), "FURROW_BUILD": str(executor.tools.build)}
+    text = slurm.batch_text(executor.results, missing, command, surroundings, plan.ranks, at_a_time)
+    if executor.again:
+        executor.forget(cases)
     job = slurm.submit(folder, text, missing)
     print(f"Submitted job {job.number}: {len(missing)} tasks; {folder / slurm.SCRIPT}", flush=True)
-    slurm.gather(job, runner, cases)
-    return slurm.lost(job, runner, cases)
+    slurm.gather(job, executor, cases)
+    return slurm.lost(job, executor, cases)
 
 
 def _this_program() -> list[str]:
@@ -118,12 +112,12 @@ def _this_program() -> list[str]:
 
 
 def _ended(
-    runner: Runner, cases: Sequence[Case], remarks: Sequence[str], folder: Path, wanted: Wanted
+    executor: Executor, cases: Sequence[Case], remarks: Sequence[str], folder: Path, wanted: Wanted
 ) -> int:
     """Draws what there is, then reports what failed; the exit status."""
-    records = {case.name: runner.failure(case) for case in cases}
+    records = {case.name: executor.failure(case) for case in cases}
     failures = [f"{name}: {failure.error}" for name, failure in records.items() if failure]
-    done = sum(runner.state(case) is State.DONE for case in cases)
+    done = sum(executor.state(case) is State.DONE for case in cases)
     trouble = ""
     if done:
         try:

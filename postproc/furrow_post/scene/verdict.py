@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 from ..analyse.verdict import joined
-from ..read.summary import Summary
+from ..run.summary import Summary
 
 VERDICT = re.compile(r"^Verdict: .*$", re.MULTILINE)
 QUICK = "quick run: too short for steady values"

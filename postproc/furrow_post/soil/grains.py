@@ -12,10 +12,11 @@ from ..errors import ResultsError
 from ..programs import inputs_folder
 from ..read.script import script_variables
 from ..read.soil_card import NoResult
-from ..scene.process import Runs
+from ..run.case import Case
+from ..run.executor import Executor
 from .fits import PlateCurve, ShearCurve
 from .grain_cone import GrainCone
-from .instruments import CONE_ANGLE, cone_curve, mean_radius, read_curve, ring_curve, run_instrument
+from .instruments import CONE_ANGLE, cone_curve, instrument_case, mean_radius, read_curve, ring_curve
 from .units import EARTH
 
 FEWEST_GRAINS = 10.0  # across a plate: below, single grains make the curve
@@ -156,80 +157,95 @@ class GrainBench:
     """A ground of grains, the beds of its tests, and where the results go."""
 
     ground: GrainGround
-    folder: Path
+    executor: Executor
     largest: float  # [m] plate
     gravity: float = EARTH  # [m/s2]
 
     @property
     def pace(self) -> float:
-        """Of speeds, over those on the Earth."""
+        """Factor on speeds from those on the Earth."""
         return math.sqrt(self.gravity / EARTH)
 
-    def _run(self, script: str, name: str, seed: int, values: dict[str, float], runs: Runs) -> Path:
+    def _case(self, script: str, name: str, seed: int, values: dict[str, float]) -> Case:
         grain = self.ground.diameter
-        surroundings: dict[str, object] = {"ground": self.ground.path, "laboratory": laboratory_folder()}
-        if script == "grain_ring":
-            self.folder.mkdir(parents=True, exist_ok=True)
-            surroundings["ring"] = (self.folder / "ring.stl").resolve()
-            write_ring(self.folder / "ring.stl", grain)
+        surroundings = {"ground": self.ground.path.resolve(), "laboratory": laboratory_folder()}
         width, depth = max(BED_WIDTH * grain, WIDTH_OF_PLATE * self.largest), max(BED_DEPTH * grain, DEPTH_OF_PLATE * self.largest)
         if script == "grain_ring":
+            surroundings["ring"] = self.executor.results / "ring.stl"
             width = RING_BED_WIDTH * grain
         elif script == "grain_cone":
             width, depth = (part * values["size"] for part in CONE_BED)
         bed = {"width": width, "depth": depth, "face_friction": FACE_FRICTION, "gravity": self.gravity}
         bed["accelerate_time"] = ACCELERATE_TIME / self.pace
-        content = self.ground.path.read_text(encoding="utf-8")
-        return run_instrument(
-            script, self._folder(name, seed), surroundings, content, {"seed": seed, **bed, **values}, runs
-        )
+        return instrument_case(f"{name}_{seed}", script, surroundings, {"seed": seed, **bed, **values})
 
-    def _folder(self, name: str, seed: int) -> Path:
-        return self.folder / f"{name}_{seed}"
+    def plates(self, sizes: Sequence[float], seeds: Sequence[int]) -> list[PlateCurve]:
+        """Round plates of these diameters [m] on each packing."""
+        cases = [
+            self._case(
+                "grain_plate",
+                plate_name(size),
+                seed,
+                {"size": size, "sinkage": SINKAGE * size, "speed": PLATE_SPEED * self.pace},
+            )
+            for seed in seeds
+            for size in sizes
+        ]
+        rows = [read_curve(run.folder) for run in self.executor.completed(cases)]
+        return [PlateCurve(0.5 * size, curve[:, 1], curve[:, 3]) for size, curve in zip([*sizes] * len(seeds), rows)]
 
-    def plate(self, size: float, seed: int, runs: Runs) -> PlateCurve:
-        """A round plate of a diameter [m]."""
-        values = {"size": size, "sinkage": SINKAGE * size, "speed": PLATE_SPEED * self.pace}
-        folder = self._run("grain_plate", plate_name(size), seed, values, runs)
-        rows = read_curve(folder)
-        return PlateCurve(0.5 * size, rows[:, 1], rows[:, 3])
-
-    def ring(self, pressure: float, seed: int, runs: Runs) -> ShearCurve:
-        """The ring under a mean pressure [Pa]."""
+    def rings(self, pressures: Sequence[float], seeds: Sequence[int]) -> list[ShearCurve]:
+        """The ring under these mean pressures [Pa] on each packing."""
+        write_ring(self.executor.results / "ring.stl", self.ground.diameter)
         outer, inner = (0.5 * part * self.ground.diameter for part in RING)
         middle, speed = mean_radius(outer, inner), RING_SPEED * self.pace
-        values = {
-            "load": pressure * math.pi * (outer**2 - inner**2),
-            "press_speed": PRESS_SPEED * self.pace,
-            "press_time": PRESS_TIME / self.pace,
-            "spin": speed / middle,
-            "angle": TURN * self.ground.diameter / middle,
-        }
-        folder = self._run("grain_ring", f"ring_{1e-3 * pressure:.3g}kPa", seed, values, runs)
-        return ring_curve(read_curve(folder), outer, inner, speed, pressure)
+        cases = [
+            self._case(
+                "grain_ring",
+                f"ring_{1e-3 * pressure:.3g}kPa",
+                seed,
+                {
+                    "load": pressure * math.pi * (outer**2 - inner**2),
+                    "press_speed": PRESS_SPEED * self.pace,
+                    "press_time": PRESS_TIME / self.pace,
+                    "spin": speed / middle,
+                    "angle": TURN * self.ground.diameter / middle,
+                },
+            )
+            for seed in seeds
+            for pressure in pressures
+        ]
+        rows = [read_curve(run.folder) for run in self.executor.completed(cases)]
+        return [
+            ring_curve(curve, outer, inner, speed, pressure)
+            for pressure, curve in zip([*pressures] * len(seeds), rows)
+        ]
 
-    def cones(self, effort: Packings, runs: Runs) -> list[GrainCone]:
-        """Cones of several sizes on every packing; none on grains that stick."""
-        every = [(seed, grains) for seed in effort.seeds for grains in effort.cones]
-        return [] if self.ground.sticks else [self._cone(grains, seed, runs) for seed, grains in every]
-
-    def _cone(self, grains: float, seed: int, runs: Runs) -> GrainCone:
-        """With a base of so many grains, until the base is as deep as it is wide."""
-        size = grains * self.ground.diameter
-        values = {
-            "size": size,
-            "angle": CONE_ANGLE,
-            "depth_of_base": size,
-            "speed": CONE_SPEED * self.pace,
-            "face_friction": CONE_FRICTION,
-        }
-        folder = self._run("grain_cone", f"cone_{1e3 * size:.0f}mm", seed, values, runs)
-        curve = cone_curve(read_curve(folder), size).down_to(size)
-        return GrainCone(curve, grains, bulk_density(folder) * self.gravity * size)
+    def cones(self, effort: Packings) -> list[GrainCone]:
+        """Cones of several sizes on every packing, until the base is as deep as it is wide; none on
+        grains that stick."""
+        every = [] if self.ground.sticks else [(seed, grains) for seed in effort.seeds for grains in effort.cones]
+        cases = []
+        for seed, grains in every:
+            size = grains * self.ground.diameter
+            values = {
+                "size": size,
+                "angle": CONE_ANGLE,
+                "depth_of_base": size,
+                "speed": CONE_SPEED * self.pace,
+                "face_friction": CONE_FRICTION,
+            }
+            cases.append(self._case("grain_cone", f"cone_{1e3 * size:.0f}mm", seed, values))
+        cones = []
+        for run, (_, grains) in zip(self.executor.completed(cases), every):
+            size = grains * self.ground.diameter
+            curve = cone_curve(read_curve(run.folder), size).down_to(size)
+            cones.append(GrainCone(curve, grains, bulk_density(run.folder) * self.gravity * size))
+        return cones
 
     def bulk_density(self, seeds: Sequence[int]) -> float:
         """Of the beds of the plates, mean [kg/m3]."""
-        return float(np.mean([bulk_density(self._folder(plate_name(self.largest), seed)) for seed in seeds]))
+        return float(np.mean([bulk_density(self.executor.results / f"{plate_name(self.largest)}_{seed}") for seed in seeds]))
 
 
 def bulk_density(folder: Path) -> float:

@@ -12,10 +12,13 @@ from ..analyse.statistics import line_fit
 from ..arrays import Floats
 from ..csv_table import read_matrix
 from ..errors import ResultsError
-from ..programs import find_program, inputs_folder
-from ..scene.process import Runs
+from ..programs import inputs_folder
+from ..read.script import script_variables
+from ..run.case import Case, Value, script_case
+from ..run.executor import Executor
+from ..run.tools import Tools
 from .fits import ConeCurve, PlateCurve, ShearCurve
-from .material import Material, content_with_bases, read_material
+from .material import Material, read_material
 
 # Of the wave speed: slow enough that a faster test gives the same curve within its noise
 PLATE_PACE, PRESS_PACE, CONE_PACE = 1 / 300, 1 / 400, 1 / 60
@@ -32,82 +35,65 @@ CONE_BASE = 0.02027  # [m] 323 mm2, ASABE S313.3
 CONE_ANGLE = 30.0  # [degrees]
 
 
+def card_executor(folder: Path, jobs: int = 1) -> Executor:
+    """Executor of virtual tests. A test is repeated when its program, script or ground has changed."""
+    return Executor(folder, Tools.found(), jobs, same_program=True, again=True, low_priority=False, watch=True)
+
+
+def instrument_case(
+    name: str, instrument: str, surroundings: Mapping[str, Path], values: Mapping[str, float]
+) -> Case:
+    """A script of inputs/soils/instruments; surroundings: variables that name files. @raises ResultsError"""
+    inputs = inputs_folder()
+    if inputs is None:
+        raise ResultsError("furrow-soil needs Furrow's inputs; run it from the tree or installed")
+    script = inputs / "soils" / "instruments" / f"{instrument}.lig"
+    variables: dict[str, Value] = {**surroundings, **values}
+    known = script_variables(script, {key: str(value) for key, value in variables.items()})
+    return script_case(name, script, variables, log=True, reads=tuple(known.files))
+
+
 @dataclass(frozen=True)
 class Bench:
     """The ground and where its tests go."""
 
     path: Path  # of the material
     material: Material
-    folder: Path
+    executor: Executor
     gravity: float
 
     @classmethod
-    def of(cls, path: Path, folder: Path, gravity: float) -> "Bench":
-        return cls(path, read_material(path), folder, gravity)
+    def of(cls, path: Path, executor: Executor, gravity: float) -> "Bench":
+        return cls(path.resolve(), read_material(path), executor, gravity)
 
     def speed(self, pace: float) -> float:
         """[m/s]"""
         return min(pace * self.material.wave_speed, FASTEST)
 
-    def run(self, instrument: str, name: str, variables: Mapping[str, float], runs: Runs) -> Path:
-        """Runs a script of inputs/soils/instruments unless its results are there.
-
-        @return folder of the results @raises ResultsError, Stopped, Failed
-        """
-        values = {"gravity": self.gravity, **variables}
-        content = content_with_bases(self.path)
-        return run_instrument(instrument, self.folder / name, {"material": self.path}, content, values, runs)
+    def case(self, instrument: str, name: str, values: Mapping[str, float]) -> Case:
+        return instrument_case(name, instrument, {"material": self.path}, {"gravity": self.gravity, **values})
 
 
-def run_instrument(
-    instrument: str,
-    folder: Path,
-    surroundings: Mapping[str, object],
-    content: str,
-    values: Mapping[str, float],
-    runs: Runs,
-) -> Path:
-    """Runs a script of inputs/soils/instruments unless its results are in the folder.
-
-    @param surroundings  variables that name files
-    @param content       of the ground: another one repeats the run
-    @return the folder @raises ResultsError, Stopped, Failed
-    """
-    inputs = inputs_folder()
-    if inputs is None:
-        raise ResultsError("furrow-soil needs Furrow's inputs; run it from the tree or installed")
-    script = inputs / "soils" / "instruments" / f"{instrument}.lig"
-    name, folder = folder.name, folder.resolve()
-    lines = [*map(str, surroundings.values()), content]
-    record = "\n".join([*lines, *(f"{key} {value!r}" for key, value in values.items())])
-    done = folder / "done.txt"
-    if done.is_file() and done.read_text(encoding="utf-8") == record:
-        return folder
-    folder.mkdir(parents=True, exist_ok=True)
-    done.unlink(missing_ok=True)
-    command: list[object] = [find_program("furrow"), "-in", script, "-log", folder / "log.liggghts"]
-    command += ["-var", "results", folder]
-    for key, place in surroundings.items():
-        command += ["-var", key, place]
-    for key, value in values.items():
-        command += ["-var", key, repr(float(value)) if isinstance(value, float) else value]
-    print(f"{name} ...", flush=True)
-    runs.run(command, folder, folder, f"{name}: ")
-    done.write_text(record, encoding="utf-8")
-    return folder
+def plate_tests(bench: Bench, sizes: Sequence[float], sinkage: float, cells: int) -> list[PlateCurve]:
+    """Round plates of these diameters [m]; sinkage: over the diameter."""
+    cases = [
+        bench.case(
+            "plate",
+            f"plate_{1e3 * size:.0f}mm",
+            {"size": size, "sinkage": sinkage * size, "cells": cells, "speed": bench.speed(PLATE_PACE)},
+        )
+        for size in sizes
+    ]
+    rows = [read_curve(run.folder) for run in bench.executor.completed(cases)]
+    return [PlateCurve(0.5 * size, curve[:, 1], curve[:, 3]) for size, curve in zip(sizes, rows)]
 
 
-def plate_test(bench: Bench, size: float, sinkage: float, cells: int, runs: Runs) -> PlateCurve:
-    """A round plate of a diameter, to a sinkage [m]."""
-    variables = {
-        "size": size,
-        "sinkage": sinkage,
-        "cells": cells,
-        "speed": bench.speed(PLATE_PACE),
-    }
-    folder = bench.run("plate", f"plate_{1e3 * size:.0f}mm", variables, runs)
-    rows = read_curve(folder)
-    return PlateCurve(0.5 * size, rows[:, 1], rows[:, 3])
+@dataclass(frozen=True)
+class RingLoad:
+    """One test of the ring: its mean pressure [Pa], and its speed over that of waves."""
+
+    pressure: float
+    pace: float
 
 
 def ring_scale(young: float, carried: float) -> float:
@@ -116,32 +102,42 @@ def ring_scale(young: float, carried: float) -> float:
     return 1.0 if ratio < STIFF else max(SOFTEST, SCALED / ratio)
 
 
-def ring_test(
-    bench: Bench, pressure: float, turn: float, cells: int, runs: Runs, pace: float, scale: float = 1.0
-) -> ShearCurve:
-    """The ring under a mean pressure [Pa], whose middle turns by so many metres; stresses from its
-    force and torque. scale: of Young's modulus"""
+def ring_tests(
+    bench: Bench, loads: Sequence[RingLoad], turn: float, cells: int, scale: float = 1.0
+) -> list[ShearCurve]:
+    """The ring under several loads, its middle turned by so many metres; stresses from its force and
+    torque. scale: of Young's modulus"""
     outer, inner = 0.5 * RING[0], 0.5 * RING[1]
     middle = mean_radius(outer, inner)
     slower = math.sqrt(scale)  # as waves are
-    speed, press_speed = bench.speed(pace * slower), bench.speed(PRESS_PACE * slower)
-    variables = {
-        "size": RING[0],
-        "inner_size": RING[1],
-        "load": pressure * math.pi * (outer**2 - inner**2),
-        "cells": cells,
-        "press_speed": press_speed,
-        "press_time": PRESS / press_speed,
-        "spin": speed / middle,
-        "angle": turn / middle,
-        "modulus_scale": scale,
-    }
-    name = f"ring_{1e-3 * pressure:.3g}kPa{'_fast' if pace == FAST_RING_PACE else ''}"
-    rows = read_curve(bench.run("shear", name, variables, runs))
+    press_speed = bench.speed(PRESS_PACE * slower)
+    speeds = [bench.speed(load.pace * slower) for load in loads]
+    cases = [
+        bench.case(
+            "shear",
+            f"ring_{1e-3 * load.pressure:.3g}kPa{'_fast' if load.pace == FAST_RING_PACE else ''}",
+            {
+                "size": RING[0],
+                "inner_size": RING[1],
+                "load": load.pressure * math.pi * (outer**2 - inner**2),
+                "cells": cells,
+                "press_speed": press_speed,
+                "press_time": PRESS / press_speed,
+                "spin": speed / middle,
+                "angle": turn / middle,
+                "modulus_scale": scale,
+            },
+        )
+        for load, speed in zip(loads, speeds)
+    ]
     # half a cell on each side shears too
     half = 0.5 * (outer - inner) / cells
     widening = ((outer + half) ** 3 - (inner - half) ** 3) / (outer**3 - inner**3)
-    return replace(ring_curve(rows, outer, inner, speed, pressure), widening=widening, compacts=scale < 1)
+    curves = []
+    for run, load, speed in zip(bench.executor.completed(cases), loads, speeds):
+        curve = ring_curve(read_curve(run.folder), outer, inner, speed, load.pressure)
+        curves.append(replace(curve, widening=widening, compacts=scale < 1))
+    return curves
 
 
 def mean_radius(outer: float, inner: float) -> float:
@@ -159,17 +155,17 @@ def ring_curve(rows: Floats, outer: float, inner: float, speed: float, pressure:
     return replace(curve, sinking=line_fit(curve.displacement[late], turning[late, 1])[0])
 
 
-def cone_test(bench: Bench, depth: float, cells: int, runs: Runs) -> ConeCurve:
+def cone_test(bench: Bench, depth: float, cells: int) -> ConeCurve:
     """The cone of 30 degrees and 323 mm2, until its base is at a depth [m]."""
-    variables = {
+    values = {
         "size": CONE_BASE,
         "angle": CONE_ANGLE,
         "depth_of_base": depth,
         "cells": cells,
         "speed": bench.speed(CONE_PACE),
     }
-    rows = read_curve(bench.run("cone", "cone", variables, runs))
-    return cone_curve(rows, CONE_BASE)
+    (run,) = bench.executor.completed([bench.case("cone", "cone", values)])
+    return cone_curve(read_curve(run.folder), CONE_BASE)
 
 
 def cone_curve(rows: Floats, size: float) -> ConeCurve:

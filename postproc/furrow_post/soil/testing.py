@@ -10,7 +10,6 @@ import numpy as np
 
 from ..analyse.statistics import rms
 from ..errors import ResultsError
-from ..scene.process import Runs
 from ..read.soil_card import Cone, NoResult, Shear, SoilCard, write_card
 from .exports import EXPORTS
 from .fits import ShearCurve, cone_index, fit_plates, fit_shear
@@ -20,11 +19,12 @@ from .instruments import (
     FAST_RING_PACE,
     RING_PACE,
     Bench,
+    RingLoad,
     carried_pressure,
     cone_test,
-    plate_test,
+    plate_tests,
     ring_scale,
-    ring_test,
+    ring_tests,
 )
 from .page import Curves, draw_card, write_page
 from .units import PLAUSIBLE
@@ -62,21 +62,21 @@ QUICK = Effort(4, 2, 2, (0.03, 0.12), 0.003, 0.04)
 
 
 def make_card(
-    bench: Bench, sizes: Sequence[float], effort: Effort, formats: Sequence[str], runs: Runs
+    bench: Bench, sizes: Sequence[float], effort: Effort, formats: Sequence[str]
 ) -> SoilCard:
     """Runs plates of these diameters [m], ring and cone, and writes card.yaml, card.html, card.png
-    and the exports into the folder. @raises ResultsError, Stopped, Failed"""
+    and the exports into the folder. @raises ResultsError, Interrupted"""
     cells = effort.plate_cells
-    plates = [plate_test(bench, size, SINKAGE * size, cells, runs) for size in sizes]
+    plates = plate_tests(bench, sizes, SINKAGE, cells)
     carried = carried_pressure(plates)
     scale = ring_scale(bench.material.young, carried) if bench.material.linear else 1.0
     loads, turn, paces = effort.loads, effort.turn, (RING_PACE, FAST_RING_PACE)
     if scale < 1:
         loads, turn, paces = SOFT_LOADS, SOFT_TURN, SOFT_PACES
     across = effort.ring_cells
-    rings = [ring_test(bench, load * carried, turn, across, runs, paces[0], scale) for load in loads]
-    fast = ring_test(bench, loads[0] * carried, turn, across, runs, paces[1], scale)
-    cone = cone_test(bench, effort.cone_depth, effort.cone_cells, runs)
+    slow = [RingLoad(load * carried, paces[0]) for load in loads]
+    *rings, fast = ring_tests(bench, [*slow, RingLoad(loads[0] * carried, paces[1])], turn, across, scale)
+    cone = cone_test(bench, effort.cone_depth, effort.cone_cells)
     material = bench.material
     shear = _result_of(lambda: fit_shear(rings, fast))
     card = SoilCard(
@@ -96,21 +96,21 @@ def make_card(
             "the cells are not in the standard errors",
         ),
     )
-    _write(card, Curves(plates, rings, [cone]), bench.folder, formats)
+    _write(card, Curves(plates, rings, [cone]), bench.executor.results, formats)
     return card
 
 
 def make_grain_card(
-    bench: GrainBench, sizes: Sequence[float], effort: Packings, formats: Sequence[str], runs: Runs
+    bench: GrainBench, sizes: Sequence[float], effort: Packings, formats: Sequence[str]
 ) -> SoilCard:
     """As make_card, on beds of grains. Their cone is wider than the standard one, and they have none where they stick.
-    @raises ResultsError, Stopped, Failed"""
-    plates = [bench.plate(size, seed, runs) for seed in effort.seeds for size in sizes]
+    @raises ResultsError, Interrupted"""
+    plates = bench.plates(sizes, effort.seeds)
     carried = carried_pressure(plates)
     loads = STICKING_LOADS if bench.ground.sticks else effort.loads
-    rings = [bench.ring(load * carried, seed, runs) for seed in effort.seeds for load in loads]
+    rings = bench.rings([load * carried for load in loads], effort.seeds)
     shear = _result_of(lambda: fit_shear(rings))
-    cones = bench.cones(effort, runs)
+    cones = bench.cones(effort)
     cone: Cone | NoResult = fit_grain_cones(cones) if cones else NO_CONE_ON_SNOW
     card = SoilCard(
         f"Soil card of {bench.ground.title}",
@@ -123,7 +123,7 @@ def make_grain_card(
         cone,
         (*_growth(rings), *grain_notes(bench, effort, sizes), *cone_notes(cones)),
     )
-    _write(card, Curves(plates, rings, [cone.curve for cone in widest(cones)]), bench.folder, formats)
+    _write(card, Curves(plates, rings, [cone.curve for cone in widest(cones)]), bench.executor.results, formats)
     return card
 
 
@@ -158,16 +158,17 @@ def _growth(rings: Sequence[ShearCurve]) -> tuple[str, ...]:
     )
 
 
-def plate_misfit(bench: Bench, pressure: Callable[[float], float], radius: float, runs: Runs) -> float:
+def plate_misfit(bench: Bench, pressure: Callable[[float], float], radius: float) -> float:
     """rms of ln p of a virtual plate over the pressure [Pa] that it should have at a sinkage [m]."""
-    curve = plate_test(bench, 2 * radius, SINKAGE * 2 * radius, FULL.plate_cells, runs).used()
+    (plate,) = plate_tests(bench, [2 * radius], SINKAGE, FULL.plate_cells)
+    curve = plate.used()
     wanted = np.array([pressure(z) for z in curve.sinkage])
     return rms(np.log(curve.pressure / wanted))
 
 
-def cone_misfit(bench: Bench, cone_index_wanted: float, runs: Runs) -> float:
+def cone_misfit(bench: Bench, cone_index_wanted: float) -> float:
     """Virtual over wanted cone index, less 1."""
-    found = cone_index(cone_test(bench, FULL.cone_depth, FULL.cone_cells, runs))
+    found = cone_index(cone_test(bench, FULL.cone_depth, FULL.cone_cells))
     return found.index.value / cone_index_wanted - 1
 
 

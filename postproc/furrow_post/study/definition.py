@@ -26,9 +26,9 @@ from types import ModuleType
 from typing import Any
 
 from ..errors import ResultsError
-from .case import FOLDER, Case, Value
-from .furrow_cases import point_case, script_case
-from .launch import project_root
+from ..run.case import FOLDER, Case, Value
+from ..run.case import point_case, script_case
+from ..run.tools import project_root
 from .study import Study
 from .values import DEFINITION, load_yaml
 

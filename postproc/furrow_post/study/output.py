@@ -10,7 +10,7 @@ from typing import Any
 
 from ..csv_table import read_rows, write_rows
 from .provenance import origin, read_origins, update_origins
-from .record import Record
+from ..run.record import Record
 from .tables import aligned
 
 PAGE, SECTION = "README.md", "tables.md"

@@ -9,7 +9,7 @@ from datetime import date
 from pathlib import Path
 
 from ..csv_table import read_comments, read_rows, write_rows
-from .record import Record
+from ..run.record import Record
 
 FILE = "provenance.csv"
 HEAD = (

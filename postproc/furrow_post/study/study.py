@@ -10,10 +10,10 @@ from pathlib import Path
 
 from ..arguments import at_least, path, words
 from ..errors import ResultsError
-from .case import Case
-from .launch import Tools
+from ..run.case import Case
+from ..run.tools import Tools
 from .output import Output
-from .runner import Runner, State
+from ..run.executor import Executor, State
 from .runs import Runs
 
 Evaluation = Callable[[Runs, Output], Sequence[str]]
@@ -91,59 +91,59 @@ def carry_out(study: Study, parsed: argparse.Namespace) -> int:
     """Makes the runs that are missing and evaluates them, or lists them; the exit status."""
     tools = Tools.of(study.folder, parsed.build)
     results = parsed.results or tools.root / "results" / study.folder.name
-    runner = Runner(results, tools, parsed.jobs, same_program=parsed.check, again=parsed.again)
+    executor = Executor(results, tools, parsed.jobs, same_program=parsed.check, again=parsed.again)
     chosen = study.selected(parsed.names)
     if parsed.check and not parsed.names and study.checked is not None:
         chosen = [case for case in chosen if case.name in study.checked]
     if parsed.list:
         for case in chosen:
-            print(f"{runner.state(case).value:8} {case.name:40} {case.what}".rstrip())
+            print(f"{executor.state(case).value:8} {case.name:40} {case.what}".rstrip())
         return 0
-    _warn_of_changes(runner, chosen)
+    _warn_of_changes(executor, chosen)
     if not parsed.evaluate:
-        runner.run(chosen)
-    return _evaluate(study, runner, chosen, parsed.check, parsed.merge)
+        executor.run(chosen)
+    return _evaluate(study, executor, chosen, parsed.check, parsed.merge)
 
 
-def _warn_of_changes(runner: Runner, cases: Sequence[Case]) -> None:
-    changed = [names for case in cases if (names := runner.changed(case))]
+def _warn_of_changes(executor: Executor, cases: Sequence[Case]) -> None:
+    changed = [names for case in cases if (names := executor.changed(case))]
     if changed:
         every = ", ".join(sorted({name for each in changed for name in each}))
         print(
-            f"WARNING: {len(changed)} runs in {runner.results} were made with other input files ({every}); remove their "
+            f"WARNING: {len(changed)} runs in {executor.results} were made with other input files ({every}); remove their "
             "folders to repeat them",
             file=sys.stderr,
         )
 
 
 def _evaluate(
-    study: Study, runner: Runner, chosen: Sequence[Case], check: bool, merge: bool
+    study: Study, executor: Executor, chosen: Sequence[Case], check: bool, merge: bool
 ) -> int:
     """Tables go beside the driver when they are complete, else into the results folder."""
-    states = [runner.state(case) for case in study.cases]
+    states = [executor.state(case) for case in study.cases]
     complete = State.DONE in states and all(
         state is State.DONE or (state is State.FAILED and case.may_fail)
         for case, state in zip(study.cases, states)
     )
     merge = merge and not complete and not check
     beside = (complete or merge) and not check
-    with Output(study.folder if beside else runner.results, page=beside, merge=merge) as output:
-        missed = list(study.evaluate(Runs(study.cases, runner), output))
-        records = [record for case in study.cases if (record := runner.record(case))]
-        output.publish(records, runner.tools.root)
+    with Output(study.folder if beside else executor.results, page=beside, merge=merge) as output:
+        missed = list(study.evaluate(Runs(study.cases, executor), output))
+        records = [record for case in study.cases if (record := executor.record(case))]
+        output.publish(records, executor.tools.root)
     if not beside:
         done = states.count(State.DONE)
         print(f"{done} of {len(states)} runs are there; tables are in {output.folder}")
-    failed = [case for case in chosen if runner.state(case) is State.FAILED]
+    failed = [case for case in chosen if executor.state(case) is State.FAILED]
     for case in failed:
-        failure = runner.failure(case)
+        failure = executor.failure(case)
         print(f"FAILED: {case.name}: {failure.error if failure else ''}", file=sys.stderr)
     unexpected = any(not case.may_fail for case in failed)
     for sentence in missed:
         print(f"MISSED: {sentence}", file=sys.stderr)
     if not check:
         return 1 if unexpected else 0
-    absent = [case for case in chosen if runner.state(case) is State.MISSING]
+    absent = [case for case in chosen if executor.state(case) is State.MISSING]
     for case in absent:
         print(f"MISSED: {case.name} was not run", file=sys.stderr)
     return 1 if unexpected or missed or absent else 0

@@ -3,8 +3,9 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from ..errors import ResultsError
 from ..read.script import (
@@ -15,8 +16,7 @@ from ..read.script import (
     require_files,
     script_variables,
 )
-from ..study.case import FOLDER, Case
-from ..study.furrow_cases import script_case
+from ..run.case import FOLDER, Case, script_case
 from .continued import CONTINUED, RESULTS, continued_script
 from .plan import Plan, Point, points_of
 from .sampling import sampled
@@ -123,28 +123,48 @@ def case_of(plan: Plan, point: Point) -> Case:
     seed = {SEED: point.seed} if point.seed else {}
     settable = script_variables(script, plan.fixed).settable
     swept = dict(_word_of(settable, *item) for item in point.values.items())
-    variables = {**plan.fixed, **swept, **seed}
-    files: dict[str, str] = {}
-    run: Path | str = script
-    if plan.until_steady:
-        run = f"{FOLDER}/{CONTINUED}"
-        files = {CONTINUED: continued_script(script, plan.until_steady, plan.time_limit)}
-    return script_case(
+    return scene_case(
         point.folder,
-        run,
-        {name: as_word(script, value) for name, value in variables.items()},
-        log=True,
-        files=files,
+        script,
+        {**plan.fixed, **swept, **seed},
+        plan.until_steady,
+        plan.time_limit,
         ranks=plan.ranks,
-        reads=tuple(_files_of(script, variables)),
         # A run until it is steady ends by itself
         time_limit=math.inf if plan.until_steady or not plan.time_limit else plan.time_limit,
     )
 
 
-def _files_of(script: Path, given: Mapping[str, str]) -> list[Path]:
+def scene_case(
+    name: str,
+    script: Path,
+    variables: Mapping[str, str],
+    until_steady: float,
+    steady_limit: float,
+    **more: Any,
+) -> Case:
+    """A run of a scene; until_steady: relative error, 0: as long as the script lasts; steady_limit: its time
+    limit [s], 0: none; more: further members of the Case"""
+    run: Path | str = script
+    if until_steady:
+        run = f"{FOLDER}/{CONTINUED}"
+        more["files"] = {CONTINUED: continued_script(script, until_steady, steady_limit)}
+    known = script_variables(script, variables)
+    case = script_case(
+        name,
+        run,
+        {name: as_word(script, value) for name, value in variables.items()},
+        log=True,
+        reads=tuple(_files_of(script, variables, known)),
+        **more,
+    )
+    if RESULTS in known.settable:
+        return case
+    return replace(case, variables={name: value for name, value in case.variables.items() if name != RESULTS})
+
+
+def _files_of(script: Path, given: Mapping[str, str], known: ScriptVariables) -> list[Path]:
     """What a run is made from: the script, what it includes, and files that variables name."""
-    known = script_variables(script, given)
     values = {**known.defaults, **given}
     named = [script.parent / value for value in values.values() if Path(value).suffix]
     return [*known.files, *(path.resolve() for path in named if path.is_file())]

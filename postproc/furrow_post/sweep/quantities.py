@@ -19,7 +19,7 @@ import numpy as np
 
 from ..analyse.cost_table import Components, Family, FamilyKey
 from ..analyse.entry import NAME_IN_RUN, entries_of_run
-from ..read.summary import Summary
+from ..run.summary import Summary
 from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun
 
 Families = Mapping[FamilyKey, Family]

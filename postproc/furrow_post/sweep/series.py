@@ -7,10 +7,10 @@ from pathlib import Path
 
 from ..errors import ResultsError
 from ..json_text import parse_json
-from ..read.summary import ResistanceParts, Summary
+from ..run.summary import ResistanceParts, Summary
 from ..read.wheel_run import WheelRun, read_wheel_run
-from ..study.launch import SCREEN
-from ..study.record import FAILED, FINISHED
+from ..run.process import SCREEN
+from ..run.record import FAILED, FINISHED
 from .plan import Plan, read_plan
 from .quantities import Families, Value, quantities
 

@@ -16,7 +16,7 @@ from furrow_post.analyse.prediction import Prediction
 from furrow_post.analyse.verdict import COEFFICIENT, HUB_DROP, Agreement, Quantity
 from furrow_post.errors import ResultsError
 from furrow_post.read.results import Results, Surface
-from furrow_post.read.summary import SteadyValue
+from furrow_post.run.summary import SteadyValue
 from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
 from support.folder import FolderTest
 from support.runs import write_run

@@ -60,8 +60,8 @@ def scatter_of(values: dict[str, float], seed: str) -> float:
     return float(np.exp(0.05 * np.random.default_rng(digits).standard_normal()))
 
 
-def made_run(case: Any, folder: Path, _: object, scatters: bool = False) -> mock.Mock:
-    """In the place of a run: curves in closed form."""
+def make_run(case: Any, folder: Path, scatters: bool) -> None:
+    """Stands for a run: curves in closed form."""
     values = {name: float(case.variables[name]) for name in TASK["parameters"]}
     crush, tensile = values["crush_strength"], values["tensile_strength"]
     crush *= scatter_of(values, case.variables["seed"]) if scatters else 1.0
@@ -75,17 +75,31 @@ def made_run(case: Any, folder: Path, _: object, scatters: bool = False) -> mock
     test = "oedometer" if folder.name.endswith("1") else "tension"
     rows = cell_rows(cell, stress, INITIAL * np.exp(strain))
     write_test(folder, f"test {test} ground made", rows)
-    return mock.Mock(error="")
 
 
-def scattering_run(case: Any, folder: Path, tools: object) -> mock.Mock:
-    return made_run(case, folder, tools, scatters=True)
+class Made:
+    """Stands for the Executor."""
+
+    scatters = False
+
+    def __init__(self, results: Path, *_: object, **__: object) -> None:
+        self.results = results
+
+    def completed(self, cases: list[Any]) -> list[mock.Mock]:
+        folders = [self.results / case.name for case in cases]
+        for case, folder in zip(cases, folders):
+            make_run(case, folder, self.scatters)
+        return [mock.Mock(folder=folder) for folder in folders]
+
+
+class Scattering(Made):
+    scatters = True
 
 
 STRAINS = np.array([0.4, 0.8])  # of the reference
 
 
-def calibrated(changes: dict[str, Any], run: Any = made_run) -> dict[str, Any]:
+def calibrated(changes: dict[str, Any], executor: type[Made] = Made) -> dict[str, Any]:
     """The result of TASK with these changes."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -95,7 +109,7 @@ def calibrated(changes: dict[str, Any], run: Any = made_run) -> dict[str, Any]:
         task = {**json.loads(json.dumps(TASK)), **changes}
         task["tests"][0]["reference"] = str(folder / "reference.csv")
         (folder / "task.json").write_text(json.dumps(task))
-        with mock.patch.object(calibrate, "launch", run):
+        with mock.patch.object(calibrate, "Executor", executor):
             with contextlib.redirect_stdout(io.StringIO()):
                 runs = calibrate.Runs(read_task(folder / "task.json"), folder, 99, mock.Mock())
                 return calibrate.calibrate(runs.task, runs)
@@ -145,7 +159,7 @@ class CalibrateTest(unittest.TestCase):
 
     def test_packings_that_scatter(self) -> None:
         changes = {"seeds": [86028121, 67867967], "tests": with_tension([CRUSH * TENSILE, "20%"])}
-        result = calibrated(changes, scattering_run)
+        result = calibrated(changes, Scattering)
         self.require_found(result, 0.2)  # four times the scatter
         self.assertTrue(result["converged"], result)
         self.assertGreater(result["scatter_of_seeds"], 0.05)

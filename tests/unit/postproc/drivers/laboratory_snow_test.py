@@ -11,7 +11,7 @@ import numpy as np
 
 from furrow_post.errors import ResultsError
 from furrow_post.read.laboratory import LaboratoryTest
-from furrow_post.study.launch import Tools
+from furrow_post.run.tools import Tools
 from support.command import SOURCE
 from support.folder import FolderTest
 from support.laboratory import cell_rows, triaxial_stress, write_test

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from furrow_post.arrays import Floats
-from furrow_post.study.case import Case
-from furrow_post.study.launch import Tools
-from furrow_post.study.runner import Runner
+from furrow_post.run.case import Case
+from furrow_post.run.tools import Tools
+from furrow_post.run.executor import Executor
 from furrow_post.study.runs import Runs
 from support.command import SOURCE
 from support.evaluation import VALIDATION, cases, evaluation
@@ -289,7 +289,7 @@ class CellsTest(unittest.TestCase):
 class StoredTest(unittest.TestCase):
     def runs(self) -> Runs:
         """None was made."""
-        return Runs([], Runner(Path("none"), Tools.of(SOURCE / "inputs", SOURCE / "build")))
+        return Runs([], Executor(Path("none"), Tools.of(SOURCE / "inputs", SOURCE / "build")))
 
     def test_a_stored_row_stands_for_a_run_that_is_not_there(self) -> None:
         stored = {"run": "a", "what": "5", "failure": "", "resistance": "0.07", "slip": ""}

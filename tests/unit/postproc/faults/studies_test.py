@@ -7,8 +7,9 @@ import unittest
 from pathlib import Path
 
 from furrow_post.study.definition import load_study
-from furrow_post.study.launch import ERRORS, SCREEN, Tools
-from furrow_post.study.record import Record
+from furrow_post.run.process import ERRORS, SCREEN
+from furrow_post.run.tools import Tools
+from furrow_post.run.record import Record
 from furrow_post.study.study import Study
 from support.command import SOURCE
 from support.evaluation import run_study

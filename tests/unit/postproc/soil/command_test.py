@@ -8,6 +8,7 @@ import unittest
 from unittest import mock
 
 from furrow_post.read.soil_card import Cone, read_card
+from furrow_post.run.record import read_record
 from furrow_post.soil.material import read_material
 from support.command import SOURCE, run_soil
 from support.folder import FolderTest
@@ -139,7 +140,8 @@ class CardCommandTest(FolderTest):
         self.furrow(1)
         done = self.soil("card", "dry_sand_smooth", "-o", "card")
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn("furrow-soil: furrow ended with status 1; its error is above", done.stderr)
+        self.assertRegex(done.stderr, "furrow-soil: .*card/plate_100mm failed: stopped with status 1; its output is in")
+        self.assertEqual(len(self.runs()), 1)
         self.assertFalse((self.folder / "card" / "card.yaml").exists())
 
     def test_only_laws_with_youngs_modulus_have_it_scaled(self) -> None:
@@ -185,10 +187,11 @@ class CardCommandTest(FolderTest):
         ):
             given = []
             for card in ("earth", "moon"):
-                record = next((self.folder / card).glob(f"{run}/done.txt")).read_text(encoding="utf-8")
-                given.append(dict(line.split() for line in record.splitlines() if len(line.split()) == 2))
+                record = read_record(next((self.folder / card).glob(f"{run}/run.json")))
+                assert record
+                given.append(record)
             for name, power in powers.items():
-                ratio = float(given[1][name]) / float(given[0][name])
+                ratio = float(given[1].variable(name)) / float(given[0].variable(name))
                 self.assertAlmostEqual(ratio, pace**power, places=9, msg=f"{run} {name}")
 
     def test_a_card_of_bonded_grains_has_no_cone(self) -> None:

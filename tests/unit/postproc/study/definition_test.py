@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 
 from furrow_post.errors import ResultsError
-from furrow_post.study.case import Case
+from furrow_post.run.case import Case
 from furrow_post.study.definition import cases_of, load_study
 from support.command import SOURCE
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from types import ModuleType
 
 from furrow_post.program import run_program
-from furrow_post.study.case import Case
+from furrow_post.run.case import Case
 from furrow_post.study.definition import cases_of, evaluation_of
 from furrow_post.study.study import Study, add_study_arguments, carry_out
 

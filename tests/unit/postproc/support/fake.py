@@ -4,9 +4,9 @@
 import sys
 from pathlib import Path
 
-from furrow_post.study.case import Case, Value
-from furrow_post.study.furrow_cases import script_case
-from furrow_post.study.launch import Tools
+from furrow_post.run.case import Case, Value
+from furrow_post.run.case import script_case
+from furrow_post.run.tools import Tools
 
 # Variables: sleep [s], fail (message), status, signal (number), value, checkpoint. Every start adds
 # a line to starts.txt in the build folder.

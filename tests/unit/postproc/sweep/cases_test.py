@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from furrow_post.errors import ResultsError
-from furrow_post.study.runner import Runner, State
+from furrow_post.run.executor import Executor, State
 from furrow_post.sweep.cases import Request, case_of, plan_of
 from furrow_post.sweep.plan import Plan, read_plan
 from support.fake import FakeTree
@@ -48,8 +48,8 @@ class CasesTest(FolderTest):
     def plan(self, *sweep: str, **more: object) -> Plan:
         return plan_of(replace(Request(self.tree.script, sweep), **more))[0]
 
-    def runner(self) -> Runner:
-        return Runner(self.results, self.tree.tools, same_inputs=True)
+    def executor(self) -> Executor:
+        return Executor(self.results, self.tree.tools, same_inputs=True)
 
     def test_link_in_the_place_of_the_part_of_a_plan_is_not_followed(self) -> None:
         notes = self.results / "notes"
@@ -95,26 +95,26 @@ class CasesTest(FolderTest):
     def test_failures_are_kept_until_they_are_forgotten(self) -> None:
         plan = self.plan("value=1,2", "fail=none", given=[("seed", "10009")])
         cases = [case_of(plan, point) for point in plan.points]
-        self.runner().run(cases[:1])
-        self.assertEqual(self.runner().missing(cases), cases[1:])
+        self.executor().run(cases[:1])
+        self.assertEqual(self.executor().missing(cases), cases[1:])
         # The fake program fails where it has a variable of this name
-        self.assertEqual(self.runner().state(cases[0]), State.FAILED)
-        self.runner().forget(cases)
-        self.assertEqual(self.runner().missing(cases), cases)
+        self.assertEqual(self.executor().state(cases[0]), State.FAILED)
+        self.executor().forget(cases)
+        self.assertEqual(self.executor().missing(cases), cases)
 
     def test_a_point_of_another_script_or_material_is_made_again(self) -> None:
         plan = self.plan("value=1,2")
         cases = [case_of(plan, point) for point in plan.points]
-        self.runner().run(cases)
-        self.assertEqual(self.runner().missing(cases), [])
+        self.executor().run(cases)
+        self.assertEqual(self.executor().missing(cases), [])
         self.tree.install("another build")
-        self.assertEqual(self.runner().missing(cases), [])
+        self.assertEqual(self.executor().missing(cases), [])
         self.sand.write_text("dense")
         again = [case_of(plan, point) for point in plan.points]
-        self.assertEqual(len(self.runner().missing(again)), 2)
+        self.assertEqual(len(self.executor().missing(again)), 2)
         self.sand.write_text("loose")
         self.tree.script.write_text(SCRIPT + "run 1\n")
-        self.assertEqual(len(self.runner().missing(again)), 2)
+        self.assertEqual(len(self.executor().missing(again)), 2)
 
     def test_a_point_is_made_again_when_the_base_of_its_material_changes(self) -> None:
         """Also a base of a base, and one with the name of the material."""
@@ -125,10 +125,10 @@ class CasesTest(FolderTest):
         second.write_text("law: {d: 2}\n")
         case = case_of(self.plan("value=1"), self.plan("value=1").points[0])
         for file in (self.sand, first, second):
-            self.runner().run([case])
-            self.assertEqual(self.runner().missing([case]), [])
+            self.executor().run([case])
+            self.assertEqual(self.executor().missing([case]), [])
             file.write_text(file.read_text() + "# changed\n")
-            self.assertEqual(self.runner().missing([case]), [case], file)
+            self.assertEqual(self.executor().missing([case]), [case], file)
 
     def test_a_later_command_adds_points_of_the_same_scene(self) -> None:
         first = self.plan("value=1,2")

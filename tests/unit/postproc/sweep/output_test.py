@@ -13,7 +13,7 @@ from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.figures.resistance_parts import COLOURS
 from furrow_post.formatting import with_error
-from furrow_post.study.record import Record
+from furrow_post.run.record import Record
 from furrow_post.sweep.curves import EFFICIENCY, PULL, HUB_DROP, TORQUE
 from furrow_post.sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
 from furrow_post.sweep.plan import Plan, Point

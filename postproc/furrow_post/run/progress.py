@@ -1,33 +1,46 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How far a study is: a line per run, and on a terminal one line over all with the time left."""
+"""How far a list of runs is: a line per run, and on a terminal one line over all with the time left."""
 
 import re
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ..formatting import duration
+from .process import ERRORS, SCREEN, show_line
 from .record import Record
-from .launch import SCREEN
 
 DONE = re.compile(rb"^\[[^\]]*\]\s+([\d.]+) %", re.MULTILINE)  # as fix progress says it
 TAIL = 4096  # [bytes] of a run's output that are looked at
 
 
 class Progress:
-    """Of so many runs, some at a time. The time left is estimated from the runs before; until the
-    first has ended, from the share that those running have done."""
+    """Progress of so many runs, some at a time. The time left is estimated from the runs before; until
+    the first has ended, from the share that those running have done.
 
-    def __init__(self, runs: int, jobs: int) -> None:
+    watch: the programs' own lines go to the screen instead, with their own estimate
+    """
+
+    def __init__(self, runs: int, jobs: int, watch: bool = False) -> None:
+        self.watch = watch
         self.runs, self.jobs, self.done, self.failed = runs, jobs, 0, 0
         self.wall_time = 0.0  # of all that are done [s]
         self._began: dict[Path, float] = {}  # folder of a run -> when it was first seen
         self._shown = ""
         self._terminal = sys.stdout.isatty()
 
-    def report(self, name: str, record: Record) -> None:
+    def printer(self, name: str) -> Callable[[str], None] | None:
+        """What takes the lines of a run for the screen; several runs have their names before them."""
+        label = f"{name}: " if self.runs > 1 else ""
+        return (lambda line: show_line(label + line)) if self.watch else None
+
+    def report(self, name: str, folder: Path, record: Record) -> None:
         """A run has ended."""
+        if self.watch:
+            if record.error:
+                _show_end(folder)
+            return
         self.done += 1
         self.failed += bool(record.error)
         self.wall_time += record.wall_time
@@ -46,7 +59,7 @@ class Progress:
         """The line over all, on a terminal; running: folders of runs."""
         now = time.monotonic()
         self._began = {folder: self._began.get(folder, now) for folder in running}
-        if not self._terminal:
+        if not self._terminal or self.watch:
             return
         self.clear()
         if running:
@@ -79,6 +92,13 @@ class Progress:
         if self._shown:
             print(f"\r{' ' * len(self._shown)}\r", end="", flush=True)
             self._shown = ""
+
+
+def _show_end(folder: Path) -> None:
+    print(f"The run stopped; the last lines of {folder / SCREEN}:", file=sys.stderr)
+    for file in (folder / SCREEN, folder / ERRORS):
+        lines = file.read_text(errors="replace").splitlines() if file.is_file() else []
+        sys.stderr.writelines(f"{line}\n" for line in lines[-5:])
 
 
 def share_done(folder: Path) -> float:

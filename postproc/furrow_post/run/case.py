@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One run of a study: a program with its arguments, in a folder of its own."""
+"""What is run: a program with its arguments, variables and files, in its results folder."""
 
 import math
+import shlex
 from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -11,6 +12,7 @@ from typing import Any
 import yaml
 
 from ..errors import ResultsError
+from ..formatting import yaml_text
 
 Value = str | float | int | Path
 
@@ -25,12 +27,12 @@ def _has_blanks(path: Path) -> bool:
 
 @dataclass(frozen=True)
 class Case:
-    """What is run. Two cases are the same run when their identity is the same.
+    """One run. Two cases are the same run when their identity is the same.
 
     Arguments and variables are passed as str() writes them.
     """
 
-    name: str  # folder of the run below that of the study; may have "/"
+    name: str  # folder of the run below that of the executor; may have "/"; empty: that folder
     program: str  # executable in the build's bin folder
     arguments: tuple[Value, ...] = ()
     variables: Mapping[str, Value] = field(default_factory=dict)  # of a script: -var NAME VALUE
@@ -43,13 +45,17 @@ class Case:
     fallback: Mapping[str, Value] = field(default_factory=dict)  # variables of a second attempt
     ranks: int = 1  # of MPI; the results do not depend on them but for rounding
     reads: tuple[Path, ...] = ()  # further files that it is made from
+    start: Path | None = None  # where the program is started; None: in the folder of the run
+    keeps_checkpoint: bool = False  # can be continued from the checkpoint that a signal makes
+    checkpoint: float = 0.0  # [s] between further checkpoints; 0: none
+    continued: bool = False  # begins from a checkpoint in its folder
+    words: str = ""  # the scene and its options, as a user types them
 
     def command(self, program: Path, folder: Path, changes: Mapping[str, Value]) -> list[str]:
         """The command line. changes: variables that differ in this attempt. @raises ResultsError"""
         launcher = ["mpirun", "-n", str(self.ranks)] if self.ranks > 1 else []
         given = (str(word).replace(FOLDER, str(folder)) for word in self.arguments)
         words = [*launcher, str(program), *given]
-        # A run starts in its folder, which has a name without blanks from there
         inside = str(folder) if not _has_blanks(folder) else "."
         for name, value in {**self.variables, **changes}.items():
             if isinstance(value, Path) and _has_blanks(value):
@@ -59,6 +65,10 @@ class Case:
                 )
             words += ["-var", name, str(value).replace(FOLDER, inside)]
         return words
+
+    def start_in(self, folder: Path) -> Path:
+        """Where the program is started: a folder with blanks has the name "." from inside."""
+        return folder if self.start is None or _has_blanks(folder) else self.start
 
     def identity(self, root: Path) -> dict[str, object]:
         """What tells this run from others, as JSON has it; root: of the project, which may move."""
@@ -121,3 +131,42 @@ def _texts(content: Any) -> Iterator[str]:
             yield from _texts(each)
     elif isinstance(content, str) and "\n" not in content and len(content) < LONGEST_NAME:
         yield content
+
+
+def named_values(text: str) -> dict[str, Value]:
+    """Variables of a script from "name=value name='two words'", as tables of runs have them."""
+    pairs = (word.partition("=") for word in shlex.split(text))
+    return {name: value for name, _, value in pairs}
+
+
+def script_case(
+    name: str, script: Path | str, variables: Mapping[str, Value], log: bool = False, **more: Any
+) -> Case:
+    """A script run by furrow; variables: of the script, beside results, which is the run's folder.
+
+    script: also a text with FOLDER in it; log: keeps LIGGGHTS's log; more: further members of the
+    Case
+    """
+    log_file = f"{FOLDER}/log.liggghts" if log else "none"
+    arguments = ("-in", script, "-log", log_file)
+    return Case(name, "furrow", arguments, {"results": FOLDER, **variables}, **more)
+
+
+def laboratory_case(
+    name: str, test: str, root: Path, variables: Mapping[str, Value], **more: Any
+) -> Case:
+    """A test of inputs/laboratory; root: of the project."""
+    folder = root / "inputs" / "laboratory"
+    given: dict[str, Value] = {"here": folder, **variables}
+    return script_case(name, folder / f"{test}.lig", given, log=True, **more)
+
+
+def point_text(title: str, material: Path, path: str) -> str:
+    """An input of furrow-point; path: its YAML mapping, "{type: ..., ...}"."""
+    return f"title: {yaml_text(title)}\nmaterial: {yaml_text(str(material))}\npath: {path}\n"
+
+
+def point_case(name: str, title: str, material: Path, path: str, **more: Any) -> Case:
+    """A path of a material point by furrow-point; path: its YAML mapping, "{type: ..., ...}"."""
+    arguments = ("run", f"{FOLDER}/path.yaml", "-o", FOLDER, "--no-plot")
+    return Case(name, "furrow-point", arguments, files={"path.yaml": point_text(title, material, path)}, **more)

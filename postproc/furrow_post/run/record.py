@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is kept of a run beside its results: run.json when it came to its end, else failed.json."""
+"""What is kept of a run next to its results: run.json when it came to its end, else failed.json."""
 
 import hashlib
 import json
@@ -53,6 +53,10 @@ class Record:
     changes: Mapping[str, str] = field(default_factory=dict)  # variables of the second attempt
     stopped: tuple[str, ...] = ()  # errors of attempts before
     error: str = ""  # of a failed run
+    status: int = 0  # of the program
+    ranks: int = 1
+    words: str = ""  # the scene and its options, as a user types them
+    continued: bool = False  # from a checkpoint: the times are those of the last part
 
     @property
     def name_of_program(self) -> str:
@@ -71,7 +75,7 @@ class Record:
 
 
 def read_record(path: Path) -> Record | None:
-    """None where there is no such file, or it is not one of a study."""
+    """None where there is no such file, or it is no record."""
     try:
         content: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         content["stopped"] = tuple(content["stopped"])
@@ -80,11 +84,11 @@ def read_record(path: Path) -> Record | None:
         return None
 
 
-def forget(folder: Path) -> None:
-    """Removes what an earlier run in the folder could be taken for finished by."""
+def forget(folder: Path, checkpoints: bool) -> None:
+    """Removes by what an earlier run in the folder could be taken for finished, and its checkpoints."""
     for name in (FINISHED, FAILED, "facts.txt", "laboratory.json"):
         (folder / name).unlink(missing_ok=True)
-    for checkpoint in folder.glob("restart_forced*"):
+    for checkpoint in folder.glob("restart_forced*") if checkpoints else ():
         if checkpoint.is_dir() and not checkpoint.is_symlink():
             shutil.rmtree(checkpoint)
         else:

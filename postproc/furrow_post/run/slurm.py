@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A sweep as an array job of Slurm, one point a task; the folders are those of any sweep."""
+"""A list of runs as an array job of Slurm, one run a task, in the same folders as without Slurm."""
 
 import json
 import os
@@ -13,9 +13,9 @@ from pathlib import Path
 from ..arguments import has_control_characters
 from ..errors import Interrupted, ResultsError
 from ..json_text import parse_json
-from ..study.case import Case
-from ..study.progress import Progress
-from ..study.runner import Runner, State
+from .case import Case
+from .executor import Executor, State
+from .progress import Progress
 
 FOLDER, SCRIPT, JOB = "slurm", "job.sh", "job.json"  # below the folder of the sweep
 LOOK_EVERY = 2.0  # [s] at the queue and the points
@@ -117,20 +117,20 @@ def _slurm(*words: str) -> subprocess.CompletedProcess[str]:
         ) from None
 
 
-def gather(job: Job, runner: Runner, cases: Sequence[Case]) -> None:
+def gather(job: Job, executor: Executor, cases: Sequence[Case]) -> None:
     """Waits until the job has ended and tells of each point that ends. @raises Interrupted"""
     left = {case.name: case for case in cases if case.name in job.points}
-    left = {name: case for name, case in left.items() if runner.state(case) is State.MISSING}
+    left = {name: case for name, case in left.items() if executor.state(case) is State.MISSING}
     progress = Progress(len(left), max(len(left), 1))
     ended_at = None
     try:
         while left:
-            for name in [n for n, case in left.items() if runner.state(case) is not State.MISSING]:
+            for name in [n for n, case in left.items() if executor.state(case) is not State.MISSING]:
                 case = left.pop(name)
-                record = runner.ended(case)
+                record = executor.ended(case)
                 if record:
-                    progress.report(name, record)
-            progress.show([runner.folder(case) for case in left.values() if _begun(runner, case)])
+                    progress.report(name, executor.folder(case), record)
+            progress.show([executor.folder(case) for case in left.values() if _begun(executor, case)])
             if not is_queued(job):
                 ended_at = ended_at or time.monotonic()
                 if time.monotonic() - ended_at > SETTLING:
@@ -145,16 +145,16 @@ def gather(job: Job, runner: Runner, cases: Sequence[Case]) -> None:
         progress.clear()
 
 
-def _begun(runner: Runner, case: Case) -> bool:
-    return runner.folder(case).is_dir()
+def _begun(executor: Executor, case: Case) -> bool:
+    return executor.folder(case).is_dir()
 
 
-def lost(job: Job, runner: Runner, cases: Sequence[Case]) -> list[str]:
+def lost(job: Job, executor: Executor, cases: Sequence[Case]) -> list[str]:
     """A sentence for each point whose task ended without a record of its run."""
-    folder = runner.results / FOLDER
+    folder = executor.results / FOLDER
     found = []
     for case in cases:
-        if case.name in job.points and runner.state(case) is State.MISSING:
+        if case.name in job.points and executor.state(case) is State.MISSING:
             output = folder / f"{job.points.index(case.name)}.txt"
             said = output.read_text(errors="replace").split("\n") if output.is_file() else []
             last = next((line.strip() for line in reversed(said) if line.strip()), "")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs test files one after the other: run.py FILE... Each runs in a copy of this process, which has
+"""Runs test files one after the other: run_files.py FILE... Each runs in a copy of this process, which has
 imported what most of them need."""
 
 import sys

@@ -7,9 +7,9 @@ import unittest
 from unittest import mock
 
 from furrow_post.errors import ResultsError
-from furrow_post.study.case import Case
-from furrow_post.study.runner import Runner, State
-from furrow_post.sweep import slurm
+from furrow_post.run.case import Case
+from furrow_post.run.executor import Executor, State
+from furrow_post.run import slurm
 from support.fake import FakeTree
 from support.folder import FolderTest
 
@@ -41,7 +41,7 @@ class SlurmTest(FolderTest):
         self.path = {"PATH": f"{programs}:{os.environ['PATH']}"}
         self.tree = FakeTree(self.folder)
         self.results = self.folder / "results with blanks 100%"
-        self.runner = Runner(self.results, self.tree.tools)
+        self.executor = Executor(self.results, self.tree.tools)
         for name, length in (("SETTLING", 0.2), ("LOOK_EVERY", 0.1)):
             patch = mock.patch.object(slurm, name, length)
             patch.start()
@@ -54,14 +54,15 @@ class SlurmTest(FolderTest):
             "import sys",
             f"sys.path[:0] = {sys.path!r}",
             "from pathlib import Path",
-            "from furrow_post.study.furrow_cases import script_case",
-            "from furrow_post.study.launch import Tools, launch",
+            "from furrow_post.run.case import script_case",
+            "from furrow_post.run.executor import Executor",
+            "from furrow_post.run.tools import Tools",
             f"tools = Tools(Path({str(self.tree.build)!r}), Path({str(self.tree.root)!r}))",
             "name = sys.argv[-1]",
             f"if name == {lost!r}: sys.exit('the node went down')",
             "words = {'fail': 'it broke'} if name == 'bad' else {}",
             f"case = script_case(name, Path({str(self.tree.script)!r}), words)",
-            f"launch(case, Path({str(self.results)!r}) / name, tools)",
+            f"Executor(Path({str(self.results)!r}), tools).run([case])",
         ]
         task.write_text("\n".join(lines))
         names = [case.name for case in cases]
@@ -73,17 +74,17 @@ class SlurmTest(FolderTest):
         cases = [self.tree.case("good"), self.tree.case("bad", fail="it broke")]
         with mock.patch.dict(os.environ, self.path):
             job = self.submitted(cases)
-            slurm.gather(job, self.runner, cases)
-        self.assertEqual([self.runner.state(c) for c in cases], [State.DONE, State.FAILED])
-        self.assertEqual(slurm.lost(job, self.runner, cases), [])
+            slurm.gather(job, self.executor, cases)
+        self.assertEqual([self.executor.state(c) for c in cases], [State.DONE, State.FAILED])
+        self.assertEqual(slurm.lost(job, self.executor, cases), [])
         self.assertEqual(slurm.read_job(self.results / slurm.FOLDER), job)
 
     def test_a_task_that_left_nothing_is_told_with_its_last_words(self) -> None:
         cases = [self.tree.case("a"), self.tree.case("b")]
         with mock.patch.dict(os.environ, self.path):
             job = self.submitted(cases, lost="b")
-            slurm.gather(job, self.runner, cases)
-        (sentence,) = slurm.lost(job, self.runner, cases)
+            slurm.gather(job, self.executor, cases)
+        (sentence,) = slurm.lost(job, self.executor, cases)
         self.assertIn("b: its task ended without a result: the node went down (", sentence)
 
     def test_the_batch_script(self) -> None:

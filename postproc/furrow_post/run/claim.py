@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The folder of a run belongs to one study at a time."""
+"""The folder of a run belongs to one program at a time."""
 
 import fcntl
 import os
@@ -10,13 +10,13 @@ from pathlib import Path
 
 from ..errors import Interrupted, ResultsError
 
-CLAIM = "claim"  # empty file in the folder of a run, locked while a study makes that run
-LOOK_EVERY = 0.2  # [s] whether another study has left the folder
+CLAIM = "claim"  # empty file in the folder of a run, locked while a program makes that run
+LOOK_EVERY = 0.2  # [s] whether another program has left the folder
 
 
 @contextmanager
 def claimed(folder: Path, stop: threading.Event) -> Iterator[None]:
-    """Waits until no other study makes the run of this folder, and keeps others from it.
+    """Waits until no other program makes the run of this folder, and keeps others from it.
 
     The lock ends with the process, however that ends. On file systems that know no locks there is
     none. stop: set by others to end the waiting. @raises Interrupted, and ResultsError for a link
@@ -31,8 +31,17 @@ def claimed(folder: Path, stop: threading.Event) -> Iterator[None]:
     try:
         while not lock(handle):
             if stop.wait(LOOK_EVERY):
-                raise Interrupted(f"{folder}: another study is making this run; start again")
+                raise Interrupted(f"{folder}: another program is making this run; start again")
         yield
+    finally:
+        os.close(handle)
+
+
+def is_busy(folder: Path) -> bool:
+    """Whether furrow writes to the folder: it then holds a lock of it."""
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        return not lock(handle)
     finally:
         os.close(handle)
 

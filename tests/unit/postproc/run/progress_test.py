@@ -5,9 +5,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from furrow_post.study.launch import SCREEN
-from furrow_post.study.progress import Progress, share_done
-from furrow_post.study.record import Record
+from furrow_post.run.process import SCREEN
+from furrow_post.run.progress import Progress, share_done
+from furrow_post.run.record import Record
 
 
 def record(wall_time: float, error: str = "") -> Record:
@@ -26,8 +26,8 @@ class ProgressTest(unittest.TestCase):
 
     def test_time_left_from_runs_before(self) -> None:
         progress = Progress(4, 1)
-        progress.report("a", record(100.0))
-        progress.report("b", record(60.0, "it broke"))
+        progress.report("a", Path("a"), record(100.0))
+        progress.report("b", Path("b"), record(60.0, "it broke"))
         self.assertEqual(
             progress.line([(30.0, 0.9)]),
             "2 of 4 done, 1 failed, 1 running (90 %), about 2.2 min left",  # 50 s and 80 s

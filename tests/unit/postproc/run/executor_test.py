@@ -11,29 +11,28 @@ from dataclasses import replace
 from unittest import mock
 
 from furrow_post.errors import ResultsError
-from furrow_post.study.case import FOLDER
-from furrow_post.study.claim import CLAIM, claimed
+from furrow_post.run.case import FOLDER
+from furrow_post.run.claim import CLAIM, claimed
 from furrow_post.errors import Interrupted
-from furrow_post.study import launch as module
-from furrow_post.study.launch import launch
-from furrow_post.study.runner import Runner, State
+from furrow_post.run import executor as module
+from furrow_post.run.executor import Executor, Failed, State
 from support.fake import FakeTree
 from support.folder import FolderTest
 
 
-class RunnerTest(FolderTest):
+class ExecutorTest(FolderTest):
     def setUp(self) -> None:
         super().setUp()
         self.tree = FakeTree(self.folder)
         self.results = self.folder / "results"
-        self.runner = Runner(self.results, self.tree.tools)
+        self.executor = Executor(self.results, self.tree.tools)
 
     def test_what_is_there_is_not_made_again(self) -> None:
         cases = [self.tree.case("a", value=2), self.tree.case("b/c")]
-        self.runner.run(cases)
-        self.runner.run(cases)
+        self.executor.run(cases)
+        self.executor.run(cases)
         self.assertEqual(sorted(self.tree.starts()), ["a", "c"])
-        record = self.runner.record(cases[0])
+        record = self.executor.record(cases[0])
         assert record
         self.assertEqual(record.facts, {"steps": 10.0, "value": 2.0})  # of the last line FACTS
         self.assertEqual(record.error, "")
@@ -41,53 +40,53 @@ class RunnerTest(FolderTest):
         self.assertTrue((self.results / "b/c" / "run.json").is_file())
 
     def test_another_variable_is_another_run(self) -> None:
-        self.runner.run([self.tree.case("a", value=2)])
+        self.executor.run([self.tree.case("a", value=2)])
         changed = self.tree.case("a", value=3)
-        self.assertEqual(self.runner.state(changed), State.MISSING)
-        self.runner.run([changed])
-        record = self.runner.record(changed)
+        self.assertEqual(self.executor.state(changed), State.MISSING)
+        self.executor.run([changed])
+        record = self.executor.record(changed)
         assert record
         self.assertEqual(record.facts["value"], 3.0)
 
     def test_a_folder_that_another_run_writes_to(self) -> None:
         case = self.tree.case("a")
-        self.runner.folder(case).mkdir(parents=True)
-        handle = os.open(self.runner.folder(case), os.O_RDONLY)
+        self.executor.folder(case).mkdir(parents=True)
+        handle = os.open(self.executor.folder(case), os.O_RDONLY)
         fcntl.flock(handle, fcntl.LOCK_EX)
         with mock.patch.object(module, "PATIENCE", 0.1):
             with self.assertRaisesRegex(ResultsError, "results/a: another run is writing to it"):
-                self.runner.run([case])
+                self.executor.run([case])
         leaves = threading.Timer(0.5, os.close, [handle])  # one that is being stopped
         leaves.start()
-        self.runner.run([case])
-        self.assertEqual(self.runner.state(case), State.DONE)
+        self.executor.run([case])
+        self.assertEqual(self.executor.state(case), State.DONE)
 
-    def test_two_studies_over_one_folder(self) -> None:
-        """Each run is made once: the second study waits for it and takes it."""
+    def test_two_executors_with_one_folder(self) -> None:
+        """Each run is made once: the second executor waits for it and takes it."""
         cases = [self.tree.case(name, sleep=0.3) for name in ("a", "b", "c")]
-        other = Runner(self.results, self.tree.tools, jobs=2)
+        other = Executor(self.results, self.tree.tools, jobs=2)
         errors: list[BaseException] = []
 
-        def run(runner: Runner) -> None:
+        def run(executor: Executor) -> None:
             try:
-                runner.run(cases)
+                executor.run(cases)
             except BaseException as error:
                 errors.append(error)
 
-        threads = [threading.Thread(target=run, args=(r,)) for r in (self.runner, other)]
+        threads = [threading.Thread(target=run, args=(r,)) for r in (self.executor, other)]
         for thread in threads:
             thread.start()
         for thread in threads:
             thread.join()
         self.assertEqual(errors, [])
         self.assertEqual(sorted(self.tree.starts()), ["a", "b", "c"])
-        self.assertEqual({self.runner.state(case) for case in cases}, {State.DONE})
+        self.assertEqual({self.executor.state(case) for case in cases}, {State.DONE})
 
-    def test_who_waits_for_another_study_can_be_stopped(self) -> None:
+    def test_who_waits_for_another_program_can_be_stopped(self) -> None:
         folder, stop = self.results / "a", threading.Event()
         with claimed(folder, stop):
             stop.set()
-            with self.assertRaisesRegex(Interrupted, "results/a: another study is making"):
+            with self.assertRaisesRegex(Interrupted, "results/a: another program is making"):
                 with claimed(folder, stop):
                     self.fail("was claimed twice")
         with claimed(folder, stop):  # free again
@@ -111,48 +110,63 @@ class RunnerTest(FolderTest):
 
     def test_a_failure_is_kept_apart_and_stops_no_other_run(self) -> None:
         cases = [self.tree.case("bad", fail="it broke"), self.tree.case("good")]
-        self.runner.run(cases)
-        self.assertEqual([self.runner.state(c) for c in cases], [State.FAILED, State.DONE])
-        self.assertIsNone(self.runner.record(cases[0]))
-        failure = self.runner.failure(cases[0])
+        self.executor.run(cases)
+        self.assertEqual([self.executor.state(c) for c in cases], [State.FAILED, State.DONE])
+        self.assertIsNone(self.executor.record(cases[0]))
+        failure = self.executor.failure(cases[0])
         assert failure
         self.assertEqual(failure.error, "ERROR: it broke (made.cpp:1)")
         self.assertFalse((self.results / "bad" / "run.json").exists())
 
     def test_a_failure_is_made_again_only_when_asked(self) -> None:
         case = self.tree.case("bad", fail="it broke")
-        self.runner.run([case])
-        self.runner.run([case])
+        self.executor.run([case])
+        self.executor.run([case])
         self.assertEqual(len(self.tree.starts()), 1)
-        Runner(self.results, self.tree.tools, again=True).run([case])
+        Executor(self.results, self.tree.tools, again=True).run([case])
         self.assertEqual(len(self.tree.starts()), 2)
 
     def test_a_run_that_succeeds_forgets_its_failure(self) -> None:
-        self.runner.run([self.tree.case("a", fail="it broke")])
-        self.runner.run([self.tree.case("a")])
+        self.executor.run([self.tree.case("a", fail="it broke")])
+        self.executor.run([self.tree.case("a")])
         self.assertFalse((self.results / "a" / "failed.json").exists())
         self.assertTrue((self.results / "a" / "run.json").exists())
 
     def test_message_on_stderr_is_the_error_of_other_programs(self) -> None:
         case = self.tree.case("a", status=3)
-        self.runner.run([case])
-        failure = self.runner.failure(case)
+        self.executor.run([case])
+        failure = self.executor.failure(case)
         assert failure
         self.assertEqual(failure.error, f"furrow: {self.results / 'a'} is bad")
+
+    def test_a_list_that_must_be_complete_ends_with_its_first_failure(self) -> None:
+        cases = [self.tree.case("good"), self.tree.case("bad", status=3), self.tree.case("other")]
+        with self.assertRaisesRegex(Failed, "results/bad failed: .*is bad; its output is in") as end:
+            self.executor.completed(cases)
+        self.assertEqual((self.tree.starts(), end.exception.status), (["good", "bad"], 3))
+        runs = self.executor.completed([cases[0], replace(cases[1], may_fail=True)])
+        self.assertEqual([bool(run.error) for run in runs], [False, True])
+
+    def test_repeat_makes_all_runs(self) -> None:
+        cases = [self.tree.case("a"), self.tree.case("b")]
+        ended: list[str] = []
+        for _ in range(2):
+            self.executor.repeat(cases, lambda case: ended.append(case.name))
+        self.assertEqual((self.tree.starts(), ended), (["a", "b"] * 2, ["a", "b"] * 2))
 
     def test_second_attempt_with_other_variables(self) -> None:
         """What stopped the first one is kept."""
         case = replace(self.tree.case("a", status=1), fallback={"status": 0})
-        self.runner.run([case])
-        record = self.runner.record(case)
+        self.executor.run([case])
+        record = self.executor.record(case)
         assert record
         self.assertEqual(record.stopped, (f"furrow: {self.results / 'a'} is bad",))
         self.assertEqual(record.variable("status"), "0")
 
     def test_failure_of_the_second_attempt(self) -> None:
         case = replace(self.tree.case("a", fail="it broke"), fallback={"fail": "again"})
-        self.runner.run([case])
-        failure = self.runner.failure(case)
+        self.executor.run([case])
+        failure = self.executor.failure(case)
         assert failure
         self.assertEqual(failure.stopped, ("ERROR: it broke (made.cpp:1)",))
         self.assertEqual(failure.error, "ERROR: again (made.cpp:1)")
@@ -160,8 +174,8 @@ class RunnerTest(FolderTest):
 
     def test_time_limit(self) -> None:
         case = replace(self.tree.case("a", sleep=30), time_limit=2.0, fallback={"sleep": 0})
-        self.runner.run([case])
-        failure = self.runner.failure(case)
+        self.executor.run([case])
+        failure = self.executor.failure(case)
         assert failure
         self.assertEqual(failure.error, "time limit of 2 s")
         self.assertEqual(len(self.tree.starts()), 1)  # no second attempt: it would take as long
@@ -170,22 +184,22 @@ class RunnerTest(FolderTest):
         for variables in ({"signal": int(signal.SIGTERM)}, {"checkpoint": 1, "status": 1}):
             case = self.tree.case("a", **variables)
             with self.assertRaisesRegex(Interrupted, "was interrupted; start again"):
-                self.runner.run([case])
-            self.assertEqual(self.runner.state(case), State.MISSING)
+                self.executor.run([case])
+            self.assertEqual(self.executor.state(case), State.MISSING)
         after = self.tree.case("a")
-        self.runner.run([after])  # an old checkpoint is no interruption
-        self.assertEqual(self.runner.state(after), State.DONE)
+        self.executor.run([after])  # an old checkpoint is no interruption
+        self.assertEqual(self.executor.state(after), State.DONE)
 
     def test_a_run_to_the_end_beside_a_late_checkpoint_is_done(self) -> None:
         """A run that was killed before may write its checkpoint while the next one runs."""
         case = self.tree.case("a", checkpoint=1)
-        self.runner.run([case])
-        self.assertEqual(self.runner.state(case), State.DONE)
+        self.executor.run([case])
+        self.assertEqual(self.executor.state(case), State.DONE)
 
     def test_a_crash_is_a_failure(self) -> None:
         case = self.tree.case("a", signal=int(signal.SIGSEGV))
-        self.runner.run([case])
-        failure = self.runner.failure(case)
+        self.executor.run([case])
+        failure = self.executor.failure(case)
         assert failure
         self.assertEqual(failure.error, "stopped with status -11")
 
@@ -194,17 +208,17 @@ class RunnerTest(FolderTest):
             replace(self.tree.case(name), shares=key)
             for name, key in (("a1", "a"), ("a2", "a"), ("b1", "b"), ("b2", "b"))
         ]
-        Runner(self.results, self.tree.tools, jobs=2).run(cases)
+        Executor(self.results, self.tree.tools, jobs=2).run(cases)
         starts = self.tree.starts()
         self.assertEqual((sorted(starts[:2]), sorted(starts[2:])), (["a1", "b1"], ["a2", "b2"]))
 
     def test_for_a_check_runs_are_by_the_present_program_and_script(self) -> None:
         case = self.tree.case("a")
-        self.runner.run([case])
-        strict = Runner(self.results, self.tree.tools, same_program=True)
+        self.executor.run([case])
+        strict = Executor(self.results, self.tree.tools, same_program=True)
         self.assertEqual(strict.state(case), State.DONE)
         self.tree.install("another build")
-        self.assertEqual(self.runner.state(case), State.DONE)
+        self.assertEqual(self.executor.state(case), State.DONE)
         self.assertEqual(strict.state(case), State.MISSING)
         strict.run([case])
         self.assertEqual(strict.state(case), State.DONE)
@@ -214,20 +228,20 @@ class RunnerTest(FolderTest):
     def test_files_are_written_with_the_folder_of_the_run(self) -> None:
         files = {"path.yaml": f"output: {FOLDER}/x\n"}
         case = replace(self.tree.case("a"), files=files)
-        self.runner.run([case])
+        self.executor.run([case])
         text = (self.results / "a" / "path.yaml").read_text()
         self.assertEqual(text, f"output: {self.results / 'a'}/x\n")
 
     def test_missing_program_says_what_to_do(self) -> None:
         self.tree.program.unlink()
         with self.assertRaisesRegex(ResultsError, "there is no program .*--build"):
-            self.runner.run([self.tree.case("a")])
+            self.executor.run([self.tree.case("a")])
 
     def test_old_evaluation_is_not_taken_for_the_new_one(self) -> None:
         folder = self.results / "a"
         folder.mkdir(parents=True)
         (folder / "facts.txt").write_text("test triaxial")
-        launch(self.tree.case("a"), folder, self.tree.tools)
+        self.executor.run([self.tree.case("a")])
         self.assertFalse((folder / "facts.txt").exists())
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""furrow_post.scene.process without a program."""
+"""furrow_post.run.process without a program."""
 
 import errno
 import os
@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-from furrow_post.scene.process import CHECKPOINT, keep_checkpoint
+from furrow_post.run.process import CHECKPOINT, keep_checkpoint
 
 
 class KeepCheckpointTest(unittest.TestCase):

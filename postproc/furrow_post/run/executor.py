@@ -1,0 +1,325 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Makes the runs of a list that are not there yet, several at a time; nothing else starts a run."""
+
+import enum
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from dataclasses import dataclass
+from datetime import datetime, timezone
+from pathlib import Path
+
+from ..errors import Interrupted, ResultsError
+from .case import FOLDER, Case, Value
+from .claim import claimed, is_busy
+from .process import ERRORS, Ending, Job, Processes, output_lines
+from .progress import Progress
+from .record import FAILED, FINISHED, Record, digest, digests, forget, read_record
+from .tools import Tools
+
+LOOK_EVERY = 1.0  # [s] at what is running
+PATIENCE = 10.0  # [s] in which a run that is being stopped leaves its folder
+
+
+class State(enum.Enum):
+    """State of a case in the results folder."""
+
+    DONE = "done"
+    FAILED = "failed"
+    MISSING = "missing"
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run that ended, finished or failed."""
+
+    case: Case
+    folder: Path
+    record: Record
+
+    @property
+    def name(self) -> str:
+        return self.case.name
+
+    @property
+    def what(self) -> str:
+        return self.case.what
+
+    @property
+    def error(self) -> str:
+        return self.record.error
+
+    @property
+    def seconds(self) -> float:
+        """Core seconds, to a tenth."""
+        return round(self.record.cpu_time, 1)
+
+    def number(self, variable: str, default: float = 0.0) -> float:
+        """A variable of the script as the case has it."""
+        return float(str(self.case.variables.get(variable, default)))
+
+
+class Failed(ResultsError):
+    """A run stopped with an error."""
+
+    def __init__(self, run: Run) -> None:
+        super().__init__(f"{run.folder} failed: {run.error}; its output is in screen.txt there")
+        self.status = run.record.status or 1
+
+
+class Executor:
+    """The runs of a list in a results folder.
+
+    same_inputs: a run counts only when its input files are still the same; same_program: and when the
+    executable is (for tests); again: failed runs are repeated; low_priority: runs yield to other work;
+    watch: lines of the program go to the screen, instead of one line per run.
+    """
+
+    def __init__(
+        self,
+        results: Path,
+        tools: Tools,
+        jobs: int = 1,
+        same_program: bool = False,
+        again: bool = False,
+        same_inputs: bool = False,
+        low_priority: bool = True,
+        watch: bool = False,
+    ) -> None:
+        self.results, self.tools = results.resolve(), tools
+        self.same_inputs = same_inputs or same_program
+        self.jobs, self.same_program, self.again = jobs, same_program, again
+        self.low_priority, self.watch = low_priority, watch
+
+    def folder(self, case: Case) -> Path:
+        return self.results / case.name
+
+    def record(self, case: Case) -> Record | None:
+        """Record of the finished run, or None."""
+        return self._valid(case, FINISHED)
+
+    def failure(self, case: Case) -> Record | None:
+        """Record of the failed run, whose error says why, or None."""
+        return self._valid(case, FAILED)
+
+    def ended(self, case: Case) -> Record | None:
+        """Record of the run, finished or failed, or None."""
+        return self.record(case) or self.failure(case)
+
+    def _valid(self, case: Case, file: str) -> Record | None:
+        """The record in the folder, if it is that of this very case."""
+        record = read_record(self.folder(case) / file)
+        if record is None or record.job != case.identity(self.tools.root):
+            return None
+        if self.same_program and record.program != digest(self.tools.program(case.program)):
+            return None
+        if self.same_inputs and record.inputs != digests(case.input_files()):
+            return None
+        return record
+
+    def changed(self, case: Case) -> list[str]:
+        """Input files that differ from those of the run, as far as its record has them."""
+        record = self.ended(case)
+        now = digests(case.input_files()) if record else {}
+        return [name for name, found in record.inputs.items() if now.get(name) != found] if record else []
+
+    def state(self, case: Case) -> State:
+        if self.record(case):
+            return State.DONE
+        return State.FAILED if self.failure(case) else State.MISSING
+
+    def missing(self, cases: Sequence[Case]) -> list[Case]:
+        """Cases that run() would make."""
+        wanted = {State.MISSING, State.FAILED} if self.again else {State.MISSING}
+        return [case for case in cases if self.state(case) in wanted]
+
+    def forget(self, cases: Sequence[Case]) -> None:
+        """Removes the records of failed runs, which are then missing."""
+        for case in cases:
+            (self.folder(case) / FAILED).unlink(missing_ok=True)
+
+    def completed(self, cases: Sequence[Case]) -> list[Run]:
+        """Makes what is missing; all runs in the order of the cases. @raises Failed for the first failure"""
+        self._run(self.missing(cases), None, anew=False, stop=True)
+        runs = [Run(case, self.folder(case), record) for case in cases if (record := self.ended(case))]
+        for run in runs:
+            if run.error and not run.case.may_fail:
+                raise Failed(run)
+        return runs
+
+    def run(self, cases: Sequence[Case], ended: Callable[[Case], None] | None = None) -> None:
+        """Makes what is missing. Of cases that share something the first runs before the others.
+
+        A failed run stops no other one. A run that another program makes at the same time is waited
+        for and taken from it. ended: takes each case whose run has ended, in its thread.
+        @raises Interrupted; ResultsError without the program
+        """
+        self._run(self.missing(cases), ended, anew=False)
+
+    def repeat(self, cases: Sequence[Case], ended: Callable[[Case], None] | None = None) -> None:
+        """Makes all runs, whatever is there. @raises Interrupted, ResultsError"""
+        self._run(cases, ended, anew=True)
+
+    def _run(
+        self, cases: Sequence[Case], ended: Callable[[Case], None] | None, anew: bool, stop: bool = False
+    ) -> None:
+        """stop: starts no further run after a failure."""
+        for program in {case.program for case in cases}:
+            self.tools.program(program)
+        progress = Progress(len(cases), self.jobs, self.watch)
+        failures: list[Run] = []
+        with Processes() as processes:
+
+            def make(case: Case) -> Record:
+                if failures:
+                    raise Failed(failures[0])
+                record = self._make(case, processes, progress, anew)
+                if stop and record.error and not case.may_fail:
+                    failures.append(Run(case, self.folder(case), record))
+                if ended:
+                    ended(case)
+                return record
+
+            for wave in _waves(cases):
+                self._run_together(wave, make, processes, progress)
+
+    def _run_together(
+        self,
+        cases: Sequence[Case],
+        make: Callable[[Case], Record],
+        processes: Processes,
+        progress: Progress,
+    ) -> None:
+        with ThreadPoolExecutor(self.jobs) as pool:
+            futures: dict[Future[Record], Case] = {pool.submit(make, case): case for case in cases}
+            pending = set(futures)
+            try:
+                while pending:
+                    done, pending = wait(pending, LOOK_EVERY, FIRST_COMPLETED)
+                    for future in done:
+                        case = futures[future]
+                        progress.report(case.name, self.folder(case), future.result())
+                    running = [futures[future] for future in pending if future.running()]
+                    progress.show([self.folder(case) for case in running])
+            except BaseException:
+                processes.stop.set()
+                progress.clear()
+                pool.shutdown(cancel_futures=True)
+                raise
+
+    def _make(self, case: Case, processes: Processes, progress: Progress, anew: bool) -> Record:
+        """Makes a run, unless another program has made it since this one looked."""
+        folder = self.folder(case)
+        with claimed(folder, processes.stop):
+            former = None if anew else self.record(case) if self.again else self.ended(case)
+            return former or self._launch(case, folder, processes, progress)
+
+    def _launch(self, case: Case, folder: Path, processes: Processes, progress: Progress) -> Record:
+        """Makes a run and writes its record.
+
+        A run that fails is repeated with the variables of the case's fallback, if it has one and the
+        time was not too short.
+        """
+        program = self.tools.program(case.program)
+        _require_free(folder)
+        forget(folder, checkpoints=not case.continued)
+        for name, text in case.files.items():
+            (folder / name).write_text(text.replace(FOLDER, str(folder)), encoding="utf-8")
+        started = datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+        show = progress.printer(case.name)
+
+        def attempt(changes: Mapping[str, Value]) -> tuple[Ending, str]:
+            job = Job(
+                case.command(program, folder, changes),
+                folder,
+                case.start_in(folder),
+                show,
+                case.checkpoint,
+                case.keeps_checkpoint,
+                case.time_limit,
+                self.low_priority,
+            )
+            ending = processes.run(job)
+            return ending, _error_of(ending, case, folder)
+
+        changes: Mapping[str, Value] = {}
+        stopped: list[str] = []
+        ending, error = attempt(changes)
+        if error and case.fallback and not ending.late:
+            stopped.append(error)
+            changes = case.fallback
+            ending, error = attempt(changes)
+        record = Record(
+            job=case.identity(self.tools.root),
+            program=digest(program),
+            inputs=digests(case.input_files()),
+            commit=self.tools.commit(),
+            started=started,
+            wall_time=round(ending.wall_time, 3),
+            cpu_time=round(ending.cpu_time, 3),
+            system_time=round(ending.system_time, 3),
+            facts=_facts(folder),
+            changes={name: str(value) for name, value in changes.items()},
+            stopped=tuple(stopped),
+            error=error,
+            status=ending.status if ending.status >= 0 else 128 - ending.status,
+            ranks=case.ranks,
+            words=case.words,
+            continued=case.continued,
+        )
+        record.write(folder)
+        return record
+
+
+def _waves(cases: Sequence[Case]) -> list[list[Case]]:
+    """First one of each group that shares something, and what shares nothing; then the others."""
+    seen, first, others = set(), [], []
+    for case in cases:
+        if case.shares is not None and case.shares in seen:
+            others.append(case)
+        else:
+            first.append(case)
+            seen.add(case.shares)
+    return [wave for wave in (first, others) if wave]
+
+
+def _require_free(folder: Path) -> None:
+    """@raises ResultsError while furrow writes to the folder"""
+    until = time.monotonic() + PATIENCE
+    while is_busy(folder):
+        if time.monotonic() > until:
+            raise ResultsError(
+                f"{folder}: another run is writing to it; wait until that run has ended"
+            )
+        time.sleep(0.1)
+
+
+def _error_of(ending: Ending, case: Case, folder: Path) -> str:
+    """Error of a run that did not come to its end; empty for one that did. @raises Interrupted"""
+    if ending.late:
+        return f"time limit of {case.time_limit:g} s"
+    # mpirun may end with another status. A run that was killed before may write its checkpoint late.
+    if ending.by_signal or (ending.status and any(folder.glob("restart_forced*")) and not case.continued):
+        raise Interrupted(f"{folder} was interrupted; start again")
+    if not ending.status:
+        return ""
+    return _error_text(folder) or f"stopped with status {ending.status}"
+
+
+def _error_text(folder: Path) -> str:
+    """The first line with LIGGGHTS's word ERROR, else the last line on stderr."""
+    marked = [line.strip() for line in output_lines(folder) if "ERROR" in line]
+    if marked:
+        return marked[0]
+    errors = folder / ERRORS
+    lines = errors.read_text(errors="replace").splitlines() if errors.is_file() else []
+    return next((line.strip() for line in reversed(lines) if line.strip()), "")
+
+
+def _facts(folder: Path) -> dict[str, float]:
+    """Values of the last line "FACTS name value name value ..."; empty where there is none."""
+    found = [line.split()[1:] for line in output_lines(folder) if line.startswith("FACTS ")]
+    if not found:
+        return {}
+    return {name: float(value) for name, value in zip(found[-1][::2], found[-1][1::2])}

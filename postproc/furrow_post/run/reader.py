@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Results folders as rows of a pandas table: variables, quantities with errors, facts, cost, error."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pandas as pd
+
+from ..errors import ResultsError, content_of
+from .record import FAILED, FINISHED, Record, read_record
+from .summary import Summary
+
+SET = "set_"  # before the name of a variable of the script
+ERROR, STEADY = "_error", "_steady"  # behind the name of a quantity: its standard error, whether it is steady
+FACTS = "facts.txt"  # names and values that a script of the laboratory writes
+COSTS = {"wall_time": "s", "cpu_time": "s", "ranks": ""}
+UNITS = "units"  # attribute of a table: column -> SI unit
+
+Cell = str | float | bool
+
+
+@dataclass
+class Row:
+    """One run; units: of the columns that have one."""
+
+    cells: dict[str, Cell] = field(default_factory=dict)
+    units: dict[str, str] = field(default_factory=dict)
+
+
+def read_row(folder: Path) -> Row:
+    """The run of a results folder. A failed run has its message in the column error.
+
+    @raises ResultsError where the folder has no run that ended
+    """
+    record = read_record(folder / FINISHED) or read_record(folder / FAILED)
+    row = Row({"folder": str(folder)})
+    if record:
+        row.cells.update(_of_record(record))
+    if not record or not record.error:
+        _add_quantities(row, Summary(folder))
+        row.cells.update(_facts(folder / FACTS))
+    if len(row.cells) == 1:
+        raise ResultsError(f"{folder}: has no run that came to its end; start the run again")
+    if record:
+        row.cells.update({name: getattr(record, name) for name in COSTS}, error=record.error)
+        row.units.update({name: unit for name, unit in COSTS.items() if unit})
+    return row
+
+
+def read_table(folders: Iterable[Path]) -> pd.DataFrame:
+    """A row for each folder, in their order; attrs["units"] has the units. @raises ResultsError"""
+    rows = [read_row(folder) for folder in folders]
+    table = pd.DataFrame([row.cells for row in rows])
+    table.attrs[UNITS] = {name: unit for row in rows for name, unit in row.units.items()}
+    return table
+
+
+def _of_record(record: Record) -> dict[str, Cell]:
+    variables = record.job.get("variables")
+    given = {**(variables if isinstance(variables, Mapping) else {}), **record.changes}
+    cells: dict[str, Cell] = {SET + name: _value(str(text)) for name, text in given.items() if name != "results"}
+    return {**cells, **record.facts}
+
+
+def _value(text: str) -> Cell:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def _add_quantities(row: Row, summary: Summary) -> None:
+    for name in summary.quantities:
+        value = summary.quantity(name)
+        if value:
+            row.cells |= {name: value.mean, name + ERROR: value.standard_error, name + STEADY: value.steady}
+            row.units |= {column: value.unit for column in (name, name + ERROR) if value.unit}
+
+
+def _facts(path: Path) -> dict[str, Cell]:
+    """Names and values of a test of the laboratory; empty where there is no such file."""
+    if not path.is_file():
+        return {}
+    with content_of(path, "repeat the run: remove its folder"):
+        words = path.read_text(encoding="utf-8").split()
+        return {name: _value(text) for name, text in zip(words[::2], words[1::2], strict=True)}

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The programs of one build and the source tree that they belong to."""
+
+import os
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import ResultsError
+from ..programs import find_program, inputs_folder
+
+
+def project_root(path: Path) -> Path:
+    """The folder above path that has the project's inputs. @raises ResultsError without one"""
+    for folder in path.resolve().parents:
+        if (folder / "inputs").is_dir() and (folder / "CMakeLists.txt").is_file():
+            return folder
+    raise ResultsError(f"{path}: does not lie in a source tree of Furrow")
+
+
+@dataclass(frozen=True)
+class Tools:
+    """A build folder, and the source tree: paths below it are stored relative to it."""
+
+    build: Path
+    root: Path
+
+    @classmethod
+    def of(cls, file: Path, build: Path | None = None) -> "Tools":
+        """Tools for a file of the tree; build: default $FURROW_BUILD, or build in the tree."""
+        root = project_root(file)
+        chosen = build or Path(os.environ.get("FURROW_BUILD", root / "build"))
+        return cls(chosen.resolve(), root)
+
+    @classmethod
+    def found(cls) -> "Tools":
+        """Tools of the programs that this package finds. @raises ResultsError where there are none"""
+        inputs = inputs_folder()
+        return cls(find_program("furrow").parent.parent, inputs.parent if inputs else Path.cwd())
+
+    def program(self, name: str) -> Path:
+        """@raises ResultsError where it is not built"""
+        path = self.build / "bin" / name
+        if not os.access(path, os.X_OK):
+            raise ResultsError(
+                f"there is no program {path}; run 'bash inputs/run' once, which builds it, or name the "
+                "build folder with --build"
+            )
+        return path
+
+    def commit(self) -> str:
+        """Commit of the source tree, "+" behind it where files differ from it; empty without git."""
+        words = ["git", "-C", str(self.root), "describe", "--always", "--exclude=*", "--dirty=+"]
+        try:
+            return subprocess.run(words, capture_output=True, text=True).stdout.strip()
+        except FileNotFoundError:
+            return ""
+
+
+def answer(command: Sequence[object], remedy: str = "") -> str:
+    """What a program prints. @raises ResultsError with its message where it fails"""
+    words = [str(word) for word in command]
+    done = subprocess.run(words, capture_output=True, text=True)
+    if done.returncode:
+        lines = [line.strip() for line in done.stderr.splitlines() if line.strip()]
+        cause = lines[-1] if lines else f"status {done.returncode}"
+        raise ResultsError(f"{Path(words[0]).name} stopped: {cause}{remedy and f'; {remedy}'}")
+    return done.stdout
