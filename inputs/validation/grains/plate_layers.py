@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Under a plate on clusters of snow (plate_snow_grains.lig): density layer by layer, how far the
-clusters went sideways, and how much mass is left: the mean of several packings, beside the
+clusters went sideways, and how much mass is left: the mean of several packings, next to the
 laboratory's [Shoop2001]."""
 
 import argparse

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Snow of clusters behind a wheel and ahead of it: density under the track and beside it, how much
+"""Snow of clusters behind a wheel and ahead of it: density under the track and next to it, how much
 is left there, and the surface ahead. Density is mass over volume between floor and surface. The
 surface is the mean of the highest tops in squares of two diameters, less what that is above the
 level of the undisturbed bed."""

@@ -38,7 +38,7 @@ from furrow_post.run.executor import Executor
 from furrow_post.study.runs import Run
 from furrow_post.study.tables import aligned
 
-study = evaluation_of(HERE)
+study: Any = evaluation_of(HERE)
 
 DEPTHS = (0.18, 0.20, 0.22)  # [m]
 DENSITY_SCALE = 50.0  # [kg/m3]

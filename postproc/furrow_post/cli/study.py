@@ -9,12 +9,13 @@ from ..arguments import words
 from ..errors import ResultsError
 from ..formatting import duration
 from ..study import pages
-from ..study.definition import EVALUATION, load_study
 from ..study.experiments import counts, experiments_text, path_of
 from ..run.tools import project_root
 from ..study.repeat import known_cost, missed
 from ..study.study import add_study_arguments, carry_out
-from ..study.values import Registry, values_of
+from ..study.values import DEFINITION, Registry, load_yaml, values_of
+from ..study.values import study_folders as all_folders
+from ..tables.loading import load_study
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -49,8 +50,8 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def study_folders(root: Path) -> list[Path]:
-    """Of all studies that have runs."""
-    return sorted(file.parent for file in (root / "inputs").rglob(EVALUATION))
+    """Of all studies that have a title, and runs."""
+    return [folder for folder in all_folders(root) if "title" in load_yaml(folder / DEFINITION)]
 
 
 def folder_of(root: Path, name: str) -> Path:

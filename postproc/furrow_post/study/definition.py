@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""study.yaml: the runs of a study, and its evaluation, which the file evaluate.py beside it is.
+"""study.yaml: the runs of a study. engine.py of tables has the keys of its tables and figures.
 
     title: what the study is about
     checked: [run, ...]             # what --check makes; without it every run
@@ -15,7 +15,7 @@ material, path}), or a program with its arguments. Other keys are those of a Cas
 variables that make equal what runs with the same script share. In texts {here} is
 the folder of the study, {inputs}, {materials}, {scenes}, {tyres} are those folders, {folder} that of
 the run, {run} its name, {what} its words, and every key of `with` stands for its value. A study whose
-runs are rows of a table has a function cases() in evaluate.py in the place of `runs`.
+runs are rows of a table has a function cases() in its evaluate.py in the place of `runs`.
 """
 
 import importlib.util
@@ -29,7 +29,6 @@ from ..errors import ResultsError
 from ..run.case import FOLDER, Case, Value
 from ..run.case import point_case, script_case
 from ..run.tools import project_root
-from .study import Study
 from .values import DEFINITION, load_yaml
 
 EVALUATION = "evaluate.py"
@@ -41,20 +40,11 @@ KEYS = {
 MERGED = ("variables", "files", "point", "with", "fallback")  # key by key; of others the last counts
 
 
-def load_study(folder: Path) -> Study:
-    """@raises ResultsError"""
-    folder = folder.resolve()
-    content = load_yaml(folder / DEFINITION)
-    module = evaluation_of(folder)
-    cases = tuple(module.cases()) if hasattr(module, "cases") else cases_of(folder, content)
-    return Study(folder, cases, module.evaluate, content.get("checked"))
-
-
-def evaluation_of(folder: Path) -> ModuleType:
-    """The module of a study's own evaluation. @raises ResultsError"""
+def evaluation_of(folder: Path) -> ModuleType | None:
+    """The module of a study's own functions, evaluate.py; None where it needs none."""
     file = folder / EVALUATION
     if not file.is_file():
-        raise ResultsError(f"{file}: there is none; it has a function evaluate(runs, output)")
+        return None
     name = f"evaluation_of_{folder.name}"
     spec = importlib.util.spec_from_file_location(name, file)
     assert spec and spec.loader

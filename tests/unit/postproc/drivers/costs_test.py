@@ -4,6 +4,7 @@
 import shlex
 import unittest
 from pathlib import Path
+from typing import Any
 
 from furrow_post.analyse import cost_table
 from furrow_post.csv_table import rows_text
@@ -16,7 +17,7 @@ from furrow_post.study.definition import evaluation_of
 from support.command import SOURCE
 
 FOLDER = SOURCE / "inputs" / "costs"
-driver = evaluation_of(FOLDER)
+driver: Any = evaluation_of(FOLDER)
 
 
 class CostsTest(unittest.TestCase):

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""inputs/validation/grains: means over packings, the error of a difference, limits; densities of a
-track."""
+"""inputs/validation/grains: densities of a track."""
 
 import math
 import sys
@@ -11,9 +10,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from furrow_post.csv_table import read_rows
 from support.command import SOURCE
-from support.evaluation import VALIDATION, evaluation
 
 sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "grains"))
 
@@ -22,53 +19,6 @@ import track_density
 from furrow_post.analyse.density import GroundPoints
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError
-
-grains = evaluation("grains")
-FAMILY = "sand_triaxial"  # two angles
-
-
-def outcomes(**values: list[float]) -> list[dict[str, object]]:
-    """Rows of changes with these angles, one packing each."""
-    return [
-        {"change": change.replace("_", " "), "value_1": angle, "value_2": angle - 1}
-        for change, angles in values.items()
-        for angle in angles
-    ]
-
-
-class PackingsTest(unittest.TestCase):
-    found = grains.by_change(outcomes(base=[28.0, 30.0], half_the_step=[30.0]))
-
-    def test_means_and_scatter(self) -> None:
-        base, half = self.found["base"], self.found["half the step"]
-        self.assertEqual((base.count, base.means[0]), (2, 29.0))
-        self.assertAlmostEqual(base.scatter[0], math.sqrt(2))
-        self.assertTrue(np.isnan(half.scatter).all())
-
-    def test_error_of_a_difference_is_that_of_the_packings(self) -> None:
-        base, _, half, _ = grains.change_rows(FAMILY, self.found)
-        self.assertEqual((base["mean"], base["scatter"], base["difference"]), ("29", "1.41", ""))
-        error = math.sqrt(2) * math.sqrt(1 + 1 / 2)
-        self.assertEqual((half["difference"], half["difference_error"]), ("1", f"{error:.3g}"))
-
-    def test_limits(self) -> None:
-        self.assertEqual(list(grains.missed_limits(FAMILY, self.found)), [])
-        soft = grains.by_change(outcomes(base=[20.0, 22.0]))
-        missed = list(grains.missed_limits(FAMILY, soft))
-        self.assertEqual(
-            missed, ["sand_triaxial: friction_angle_end 20.000 is not in [25.0, 30.0]"]
-        )
-        (alone,) = grains.missed_limits(FAMILY, {})
-        self.assertIn("fewer than two packings of the base", alone)
-
-    def test_the_stored_changes_are_those_of_the_stored_runs(self) -> None:
-        rows = read_rows(VALIDATION / "grains" / "results.csv")
-        made = []
-        for family in grains.FAMILIES:
-            found = grains.by_change([row for row in rows if row["family"] == family])
-            made += [{k: str(v) for k, v in row.items()} for row in grains.change_rows(family, found)]
-        self.assertEqual(read_rows(VALIDATION / "grains" / "changes.csv"), made)
-
 
 SIZE, DEPTH, BULK, SIDE = 0.02, 0.20, 200.0, 0.12  # a lattice of clusters; half a wheel's width
 

@@ -6,10 +6,11 @@ import sys
 import tempfile
 import unittest
 
+from furrow_post.cli.study import study_folders
 from support.command import SOURCE, run_post
 
 INPUTS = SOURCE / "inputs"
-STUDIES = sorted(file.parent for file in INPUTS.rglob("evaluate.py"))
+STUDIES = study_folders(SOURCE)
 TOOLS = (
     INPUTS / "laboratory" / "run.py",
     INPUTS / "laboratory" / "calibrate.py",

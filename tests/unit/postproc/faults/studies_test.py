@@ -6,17 +6,18 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from furrow_post.study.definition import load_study
+from furrow_post.cli.study import study_folders
 from furrow_post.run.process import ERRORS, SCREEN
 from furrow_post.run.tools import Tools
 from furrow_post.run.record import Record
 from furrow_post.study.study import Study
+from furrow_post.tables.loading import load_study
 from support.command import SOURCE
 from support.evaluation import run_study
 from support.faults import FaultsTest, outcome
 
 INPUTS = SOURCE / "inputs"
-STUDIES = sorted(file.parent for file in INPUTS.rglob("evaluate.py"))
+STUDIES = study_folders(SOURCE)
 FILES = ("history.h5", "terrain.h5", "curve.txt", "facts.txt", "summary.json", "point.csv")
 
 # (words, what is said)

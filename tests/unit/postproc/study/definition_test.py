@@ -6,8 +6,10 @@ import unittest
 from pathlib import Path
 
 from furrow_post.errors import ResultsError
+from furrow_post.cli.study import study_folders
 from furrow_post.run.case import Case
-from furrow_post.study.definition import cases_of, load_study
+from furrow_post.study.definition import cases_of
+from furrow_post.tables.loading import load_study
 from support.command import SOURCE
 
 TEXT = """
@@ -77,16 +79,13 @@ class DefinitionTest(unittest.TestCase):
         ):
             with self.subTest(text), self.assertRaisesRegex(ResultsError, message):
                 self.cases(text)
-        self.cases("runs: {all: {a: {script: x}}}")
-        with self.assertRaisesRegex(ResultsError, "evaluate.py: there is none"):
-            load_study(self.folder)
 
 
 class StoredTest(unittest.TestCase):
     def test_files_of_all_runs_are_there(self) -> None:
-        for file in sorted((SOURCE / "inputs").rglob("evaluate.py")):
-            study = load_study(file.parent)
-            with self.subTest(study=file.parent.name):
+        for folder in study_folders(SOURCE):
+            study = load_study(folder)
+            with self.subTest(study=folder.name):
                 names = {case.name for case in study.cases}
                 checked = names if study.checked is None else set(study.checked)
                 self.assertTrue(checked and checked <= names)

@@ -3,10 +3,13 @@
 
 import argparse
 from collections.abc import Sequence
+from pathlib import Path
 from types import ModuleType
 
 from furrow_post.program import run_program
 from furrow_post.run.case import Case
+from furrow_post.run.executor import Run
+from furrow_post.run.record import Record
 from furrow_post.study.definition import cases_of, evaluation_of
 from furrow_post.study.study import Study, add_study_arguments, carry_out
 
@@ -16,7 +19,14 @@ VALIDATION = SOURCE / "inputs" / "validation"
 
 
 def evaluation(study: str) -> ModuleType:
-    return evaluation_of(VALIDATION / study)
+    module = evaluation_of(VALIDATION / study)
+    assert module, study
+    return module
+
+
+def run_in(folder: Path) -> Run:
+    """A run whose results are in a folder, for measures that need nothing else of it."""
+    return Run(Case("made", "furrow"), folder, Record({}, "", {}, "", "", 1.0, 1.0, 0.1))
 
 
 def cases(study: str) -> dict[str, Case]:

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""inputs/validation/sand_zones: places of greatest stress and zones of flow of made-up ground."""
+"""Measures of the continuum: places of greatest stress and zones of flow of made-up ground."""
 
 import unittest
+from typing import Any
 
 import h5py
 import numpy as np
 
-from support.evaluation import evaluation
+from furrow_post.tables.ground_measures import flow_zones, mean_of_instants, stress_layers
+from support.evaluation import run_in
 from support.folder import FolderTest
 from support.rut import wheel
 
-zones = evaluation("sand_zones")
+ZONES: dict[str, Any] = {"near": 0.3, "depths": (0.019, 0.094), "greatest": 20, "under": (0.08, 0.03), "beside": (0.10, 0.20)}
 
 SPACING, DEPTH, AXLE, AHEAD = 0.0125, 0.25, 0.5, 0.05  # [m]
 
@@ -41,7 +43,7 @@ class ZonesTest(FolderTest):
             content["surface/triangles"], content["surface/x"] = triangles, surface
 
     def test_places_of_stress(self) -> None:
-        for row in zones.stresses(self.folder):
+        for row in stress_layers(self.folder, **ZONES):
             self.assertAlmostEqual(float(str(row["compression_ahead_mm"])), 50, delta=7)
             self.assertAlmostEqual(float(str(row["largest_beside_kPa"])), 2.0)
             # straight aside at the surface, across the way to the contact below it
@@ -50,11 +52,12 @@ class ZonesTest(FolderTest):
             self.assertAlmostEqual(away, 0.15 / np.hypot(0.15, depth), delta=0.12)
 
     def test_zones_of_flow(self) -> None:
-        row = zones.flow(self.folder, 2.0)
+        run = run_in(self.folder)
+        row = flow_zones(run, 2.0, 0.3, 0.02, 0.05)
         self.assertAlmostEqual(float(str(row["forward_share"])), 0.75, 2)
         self.assertAlmostEqual(float(str(row["forward_at_mm"])), 150, delta=2)
         self.assertAlmostEqual(float(str(row["backward_at_mm"])), -150, delta=2)
-        still = zones.flow(self.folder, 100.0)
+        still = flow_zones(run, 100.0, 0.3, 0.02, 0.05)
         self.assertNotIn("backward_at_mm", still)
 
 
@@ -63,7 +66,7 @@ class InstantsTest(unittest.TestCase):
         instants: list[list[dict[str, object]]] = [
             [{"depth_mm": depth, "shear_ahead_mm": depth + n} for depth in (47, 84)] for n in (0, 1, 2, 3)
         ]
-        first, second = zones.mean_of(instants)
+        first, second = mean_of_instants(instants, "away")
         self.assertEqual((first["depth_mm"], second["depth_mm"]), (47, 84))
         self.assertEqual((first["shear_ahead_mm"], second["shear_ahead_mm"]), (48.5, 85.5))
         # deviation of 0, 1, 2, 3: the square root of 5/3; of the mean of four: half of it

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Measures of tests without a wheel: plates, cones, cells of grains, paths of a material point."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..analyse.evaluations import last_piece_of, path_states, plate_curve, pressure_near, whole_plate_curve
+from ..laboratory.evaluation import evaluate
+from ..laboratory.reference import reference_error
+from ..read.laboratory import LaboratoryTest, cell_curve, read_oedometer_reference
+from ..run.executor import Run
+from .frames import Row
+
+
+def plate(run: Run, whole: bool = True) -> Row:
+    """Columns of curve.txt: sinkage [m], load [N], pressure [Pa]. whole: an error where it has no rows"""
+    curve = whole_plate_curve(run.folder) if whole else plate_curve(run.folder)
+    return {"sinkage": curve[:, 1], "load": curve[:, 2], "pressure": curve[:, 3]}
+
+
+def smooth_plate(run: Run, width: float) -> Row:
+    """The same as means over a width of sinkage [m]."""
+    curve = whole_plate_curve(run.folder)
+    bins = (curve[:, 1] / width).astype(int)
+    means = np.array([curve[bins == k].mean(axis=0) for k in np.unique(bins)])
+    return {"sinkage": means[:, 1], "load": means[:, 2], "pressure": means[:, 3]}
+
+
+def plate_pressure(run: Run, sinkages: Sequence[float], near: float) -> list[Row]:
+    """A row for each sinkage [m]: the mean pressure [Pa] around it; near: [m] to both sides."""
+    curve = whole_plate_curve(run.folder)
+    return [{"sinkage": one, "pressure": pressure_near(curve, one, near)} for one in sinkages]
+
+
+def cone_resistance(run: Run, depths: Sequence[float], near: float) -> Row:
+    """resistance: pressures [Pa] on the base of a cone at depths [m], of a straight line through each window."""
+    curve, found = whole_plate_curve(run.folder), []
+    for depth in depths:
+        chosen = np.abs(curve[:, 1] - depth) < near
+        found.append(float(np.polyval(np.polyfit(curve[chosen, 1] - depth, curve[chosen, 3], 1), 0.0)))
+    return {"resistance": found}
+
+
+def path(run: Run, steps: int, parts: int = 1) -> Row:
+    """states: of a path of furrow-point at the ends of its parts, of so many steps each; end: the last one."""
+    states = path_states(run.folder, steps, parts)
+    return {"states": states, "end": states[-1]}
+
+
+def piece(run: Run) -> Row:
+    """piece: columns of the last piece of a path of furrow-point, with the state in which it begins."""
+    return {"piece": last_piece_of(run.folder)}
+
+
+def laboratory(run: Run, quantities: Sequence[str] = (), reference: str = "") -> Row:
+    """Quantities of a test of inputs/laboratory by name, NaN for those named that it did not reach. reference: table of
+    an oedometer, whose errors come too."""
+    test = LaboratoryTest(run.folder)
+    found = evaluate(test)
+    if reference:
+        found += reference_error(test, read_oedometer_reference(Path(reference)))
+    return {**dict.fromkeys(quantities, np.nan), **{quantity.name: quantity.value for quantity in found}}
+
+
+def cell(run: Run) -> Row:
+    """strain (n, 3), stress (n, 3) [Pa], density (n) [kg/m3] of a cell of grains."""
+    strain, stress, density = cell_curve(LaboratoryTest(run.folder).curve())
+    return {"strain": strain, "stress": stress, "density": density}
