@@ -16,6 +16,7 @@ from .law_fit import PARTNER, Fitted, LawFit
 from .point_curves import PointCurves
 
 CORRELATED = 0.95  # two parameters are reported together from this on
+LARGEST_RMS = 2.0  # deviations of the data, beyond which the law does not describe them
 
 
 def report(point: PointCurves, fit: LawFit) -> str:
@@ -30,6 +31,11 @@ def report(point: PointCurves, fit: LawFit) -> str:
     ]
     if not fit.converged:
         lines.append("  WARNING       the fit did not converge")
+    if fit.known and fit.rms > LARGEST_RMS:
+        lines.append(
+            f"  WARNING       this law cannot follow the data: the rms residual is {fit.rms:.3g} "
+            "deviations; try another law, or check the deviations"
+        )
     lines += ["", f"  {'parameter':<24} {'start':>12} {'fitted':>12} {'deviation':>12}"]
     lines += map(_row, fit.parameters)
     scatter = ""

@@ -232,14 +232,15 @@ def _in_suitable_unit(values: Sequence[Floats], label: str) -> tuple[list[Floats
 
 def _draw_fitted_curve(axes: Axes, curve: dict[str, Any]) -> None:
     (x,), x_label = _in_suitable_unit([curve["driven"]], curve["driven_by"])
-    series = [curve[name] for name in ("measured", "start", "fitted")]
-    (measured, start, fitted), y_label = _in_suitable_unit(series, curve["compared"])
+    measured, deviation = curve["measured"], curve["deviation"]
+    error = measured * deviation if curve["relative"] else np.full_like(measured, deviation)
+    series = [measured, curve["start"], curve["fitted"], error]
+    (measured, start, fitted, error), y_label = _in_suitable_unit(series, curve["compared"])
     axes.plot(x, start, "--", color=FIRST, lw=1.2, label="start")
     axes.plot(x, fitted, color=PATH, lw=LINE_WIDTH, marker=".", ms=4, label="fitted")
     look = {"mfc": "white", "mec": MEASURED, "ms": 4.5, "label": "measured", "zorder": 5}
-    deviation = curve["deviation"]
     if deviation > 0:
-        error = measured * deviation if curve["relative"] else np.full_like(measured, deviation)
+        look["label"] = "measured, one deviation"
         axes.errorbar(x, measured, yerr=error, fmt="o", ecolor="0.4", lw=0.8, **look)
     else:
         axes.plot(x, measured, "o", **look)

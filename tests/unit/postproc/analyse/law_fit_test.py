@@ -272,6 +272,15 @@ class ShippedFitsTest(FolderTest):
             self.assertEqual((pc0["determined"], slope["determined"]), (1.0, 0.0))
         self.assertEqual(sorted(results.glob("*.part")), [])
 
+    def test_a_law_that_misses_the_data_by_more_than_two_deviations_is_reported(self) -> None:
+        with PointCurves(POINTS / "fit_cam_clay.yaml") as point:
+            fit = fit_law(point.parameters, point.curves, point)
+            self.assertNotIn("cannot follow", report(point, replace(fit, rms=1.9)))
+            self.assertIn(
+                "this law cannot follow the data: the rms residual is 2.1 deviations",
+                report(point, replace(fit, rms=2.1)),
+            )
+
     def test_a_refused_file_leaves_no_results(self) -> None:
         results = self.folder / "fit"
         done = run_post("fit-law", POINTS / "snow_rut.yaml", "-o", results)
