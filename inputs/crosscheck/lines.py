@@ -24,8 +24,7 @@ PRESSURE = "pressure_"
 ANSWERS = {
     Agreement.AGREE: "yes",
     Agreement.DIFFER: "no",
-    Agreement.UNDECIDED: "inconclusive",
-    Agreement.UNKNOWN: "error not known",
+    Agreement.INCONCLUSIVE: "inconclusive",
 }
 TABLE_HEAD = ("case", "", *GROUNDS, "measured", "agree, difference (allowed)")
 
@@ -131,7 +130,7 @@ def answers(own: Mapping[str, Entry]) -> list[str]:
         limit = f" ({100 * allowed:.0f} %)" if math.isfinite(allowed) else ""
         name = f"{other.source}: " if len(others) > 1 else ""
         verdict = judge(first, other)
-        lacking = f", not known: {', '.join(verdict.unknown)}" if verdict.unknown else ""
+        lacking = f", unknown: {', '.join(verdict.unknown)}" if verdict.unknown else ""
         difference = percent(other.value / first.value - 1)
         found.append(f"{name}{ANSWERS[verdict.agreement]}, {difference}{limit}{lacking}")
     return found

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import ResultsError
-from ..formatting import with_error
+from ..formatting import percent, with_error
 from ..read.wheel_run import WheelRun
 from . import cost_table
-from .conditions import Difference, incomparable
+from .conditions import TOLERANCES, Difference, incomparable
 from .density import track_density
 from .entry import BEST, MEASURED, RUN, Entry, best_estimates, entries_of_run, formula_entries
 from .judgement import judge, summed_up
@@ -102,7 +102,14 @@ def remarks(result: Comparison) -> list[str]:
     """The first run against the others: pressure half way down, density under the track."""
     first = result.runs[0]
     sentences = []
+    allowed = TOLERANCES["slip"].absolute
     for other in result.runs[1:]:
+        slips = [run.number("slip") for run in (first, other)]
+        if abs(slips[1] - slips[0]) > allowed:
+            sentences.append(
+                f"{first.label} slips by {percent(slips[0])} and {other.label} by {percent(slips[1])}, "
+                f"more than {100 * allowed:.0f} % apart"
+            )
         z = 0.5 * min(run.values["hub_drop"].mean for run in (first, other))
         curves = [settling_curve(run) for run in (first, other)]
         if all(len(x) > 10 and x.min() < z < x.max() for x, _ in curves):

@@ -14,6 +14,7 @@ from .comparison import Comparison, overall, overall_of_best_estimates
 from .cost_table import Components
 from .density import sections
 from .entry import RUN, Entry
+from .judgement import remedies
 from .verdict import QUANTITIES
 from .wheel_histories import cruise_history, settling_curve
 
@@ -90,8 +91,8 @@ def comparison_report(result: Comparison) -> str:
         ]
     lines += [
         "",
-        "± is one standard deviation, from the parts that are known; '?' is not known. Verdicts "
-        "allow two.",
+        "± is one standard error, from the parts that are known; '?' is not known. Verdicts allow "
+        "two.",
     ]
     if result.differences:
         lines += ["", "COMPARED ALTHOUGH CONDITIONS DIFFER"]
@@ -100,6 +101,8 @@ def comparison_report(result: Comparison) -> str:
     said = [f"  {verdict}" for verdict in verdicts if verdict]
     said += [f"  - {sentence}" for sentence in findings(result)]
     lines += ["", "Verdict", *(said or ["  none: there is nothing to compare the run with"])]
+    if needed := remedies([*result.verdicts, *result.best_estimates]):
+        lines += ["", "To find what is unknown", *(f"  - {line}" for line in needed)]
     return "\n".join(lines)
 
 

@@ -59,6 +59,13 @@ class Entry:
         return value_text(scale * self.value, scale * self.uncertainty)
 
 
+def parts_without_table(run: WheelRun, time: float) -> Components:
+    """Parts of an error that a run knows by itself: nothing in cells is random, a road has no end."""
+    road = run.ground == "none"
+    packing = 0.0 if road or run.ground in GROUNDS_OF_CELLS else math.nan
+    return Components(time=time, domain=0.0 if road else math.nan, packing=packing)
+
+
 def entries_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[Entry]:
     """Each quantity of a run, with the parts of its error that a table's families know."""
     entries = []
@@ -68,8 +75,7 @@ def entries_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[
         if family:
             parts = family.components(quantity.key, run.size, value.standard_error)
         else:
-            packing = 0.0 if run.ground in GROUNDS_OF_CELLS else math.nan
-            parts = Components(time=value.standard_error, packing=packing)
+            parts = parts_without_table(run, value.standard_error)
         note = "" if value.steady else "not called steady"
         entries.append(Entry(quantity, run.label, value.mean, parts, RUN, note, run.cpu_time))
     return entries

@@ -15,8 +15,7 @@ class Agreement(enum.Enum):
 
     AGREE = "agree"  # within their uncertainty
     DIFFER = "differ"  # by more than their uncertainty
-    UNDECIDED = "undecided"  # within an uncertainty that is too large to say anything
-    UNKNOWN = "unknown"  # one of them has no uncertainty
+    INCONCLUSIVE = "inconclusive"  # a part of their uncertainty is unknown, or it is too large
 
 
 @dataclass(frozen=True)

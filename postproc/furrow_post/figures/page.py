@@ -84,9 +84,9 @@ def results_tables(result: Comparison) -> str:
         head = ["", "value", "time", "size", "domain", "packing", "cost", ""]
         parts.append(f"<h3>{escaped(name)}</h3>{html_table(head, rows, range(1, 7))}")
     parts.append(
-        "<p>± is one standard deviation made of the parts that are known: time average, size of "
-        "cells or grains, domain, packing; “?” is not known, and not in the sum. Two values agree "
-        "when they differ by no more than two.</p>"
+        "<p>± is one standard error made of the parts that are known: time average, size of cells or "
+        "grains, domain, packing; “?” is not known, and not in the sum. Two values agree when all "
+        "parts are known and they differ by no more than two standard errors.</p>"
     )
     if result.tracks:
         rows = [[label, with_error(*track)] for label, track in result.tracks.items()]

@@ -2,6 +2,7 @@
 """Verdicts on two values, the verdict on all of them, and what pure functions leave alone."""
 
 import unittest
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from furrow_post.analyse.comparison import Comparison, overall, overall_of_best_
 from furrow_post.analyse.cost_table import Components, families
 from furrow_post.analyse.density import height_left
 from furrow_post.analyse.entry import FORMULA, BEST, MEASURED, RUN, Entry, best_estimates
-from furrow_post.analyse.judgement import judge
+from furrow_post.analyse.judgement import judge, remedies
 from furrow_post.analyse.prediction import Prediction
 from furrow_post.analyse.verdict import COEFFICIENT, HUB_DROP, Agreement, Quantity
 from furrow_post.errors import ResultsError
@@ -35,24 +36,36 @@ class JudgeTest(unittest.TestCase):
         near = judge(a, entry("b", 0.100 + 2 * 0.005 - 1e-6, 0.004))
         far = judge(a, entry("b", 0.100 + 2 * 0.005 + 1e-6, 0.004))
         self.assertEqual((near.agreement, far.agreement), (Agreement.AGREE, Agreement.DIFFER))
-        self.assertIn("a and b differ: +10 mm (+10 %), 10 allowed", far.sentence)
+        self.assertIn("a and b differ: b - a = +10 mm (+10 %), 10 allowed", far.sentence)
 
-    def test_agreement_within_a_large_uncertainty_is_undecided(self) -> None:
+    def test_agreement_within_a_large_uncertainty_is_inconclusive(self) -> None:
         verdict = judge(entry("a", 0.1, 0.02), entry("b", 0.11, 0.0))
-        self.assertEqual(verdict.agreement, Agreement.UNDECIDED)
-        self.assertIn("cannot be told apart: +10 mm (+10 %), 40 allowed, 40 % of the value", verdict.sentence)
+        self.assertEqual(verdict.agreement, Agreement.INCONCLUSIVE)
+        self.assertIn("inconclusive, too large: time of a: b - a = +10 mm (+10 %), 40 allowed", verdict.sentence)
 
-    def test_no_uncertainty_no_verdict(self) -> None:
-        other = Entry(HUB_DROP, "b", 0.1, Components(), RUN)
+    def test_no_uncertainty_is_inconclusive(self) -> None:
+        other = Entry(HUB_DROP, "b", 0.1, Components(), MEASURED)
         verdict = judge(entry("a", 0.1, 0.001), other)
-        self.assertEqual(verdict.agreement, Agreement.UNKNOWN)
-        self.assertIn("b has no uncertainty", verdict.sentence)
+        self.assertEqual(verdict.agreement, Agreement.INCONCLUSIVE)
+        self.assertIn("inconclusive, unknown: uncertainty of b", verdict.sentence)
 
-    def test_unknown_parts_are_named(self) -> None:
+    def test_an_unknown_part_is_inconclusive_however_large_the_difference(self) -> None:
+        for value in (0.1, 0.2):
+            other = Entry(HUB_DROP, "b", value, Components(time=0.001), RUN)
+            verdict = judge(entry("a", 0.1, 0.001), other)
+            self.assertEqual(verdict.agreement, Agreement.INCONCLUSIVE)
+            self.assertEqual(verdict.unknown, ("domain of b", "packing of b", "size of b"))
+            self.assertIn("inconclusive, unknown: domain of b, packing of b, size of b", verdict.sentence)
+            self.assertIn("2.8 allowed by the known parts", verdict.sentence)
+
+    def test_each_unknown_part_has_the_run_that_finds_it(self) -> None:
         other = Entry(HUB_DROP, "b", 0.1, Components(time=0.001), RUN)
-        verdict = judge(entry("a", 0.1, 0.001), other)
-        self.assertEqual(verdict.unknown, ("domain of b", "packing of b", "size of b"))
-        self.assertIn("not known: domain of b, packing of b, size of b", verdict.sentence)
+        sizes, ground, packings, command = remedies([judge(entry("a", 0.1, 0.001), other)])
+        self.assertRegex(sizes, r"^size of cells or grains \(b\): .*-v cell")
+        self.assertRegex(ground, r"^size of the ground \(b\): .*-v width")
+        self.assertRegex(packings, r"^packing of grains \(b\): .*-v seed")
+        self.assertIn("furrow-post cost RUNS... --write errors.csv", command)
+        self.assertEqual(remedies([judge(entry("a", 0.1, 0.001), entry("b", 0.1, 0.001))]), [])
 
 
 class OverallTest(unittest.TestCase):
@@ -64,34 +77,32 @@ class OverallTest(unittest.TestCase):
     def test_every_kind_has_its_sentence(self) -> None:
         agree = entry("a", 0.1, 0.003), entry("b", 0.101, 0.003)
         differ = entry("a", 0.1, 0.003), entry("b", 0.2, 0.003)
-        undecided = entry("a", 0.2, 0.1, COEFFICIENT), entry("b", 0.21, 0.1, COEFFICIENT)
-        unknown = entry("a", 0.2, 0.1), Entry(HUB_DROP, "b", 0.2, Components(), RUN)
-        both = "The runs agree within their uncertainty in hub drop and resistance."
-        self.assertEqual(self.verdict(agree), both)
-        self.assertEqual(self.verdict(differ), "The runs do not agree in hub drop.")
+        vague = entry("a", 0.2, 0.1, COEFFICIENT), entry("b", 0.21, 0.1, COEFFICIENT)
+        unknown = entry("a", 0.2, 0.1), Entry(HUB_DROP, "b", 0.2, Components(0.1, packing=0.0), RUN)
+        self.assertEqual(self.verdict(agree), "The runs agree in hub drop.")
+        self.assertEqual(self.verdict(differ), "The runs differ in hub drop.")
         self.assertEqual(
-            self.verdict(agree, undecided),
-            "The runs agree in hub drop within their uncertainty; in resistance coefficient they "
-            "cannot be told apart: the uncertainty is too large.",
+            self.verdict(agree, vague),
+            "The runs agree in hub drop. Inconclusive in resistance coefficient; the uncertainty is "
+            "too large.",
         )
         self.assertEqual(
-            self.verdict(undecided),
-            "In resistance coefficient the runs cannot be told apart: the uncertainty is too "
-            "large.",
+            self.verdict(unknown), "Inconclusive in hub drop; unknown: domain of b, size of b."
         )
         self.assertEqual(
-            self.verdict(unknown), "There is no verdict in hub drop: an uncertainty is not known."
+            self.verdict(differ, vague),
+            "The runs differ in hub drop. Inconclusive in resistance coefficient; the uncertainty is "
+            "too large.",
         )
         self.assertEqual(self.verdict(), "")
 
     def test_a_run_may_be_called_measured(self) -> None:
         values = entry("a", 0.1, 0.003), entry("measured", 0.2, 0.003)
-        self.assertEqual(self.verdict(values), "The runs do not agree in hub drop.")
+        self.assertEqual(self.verdict(values), "The runs differ in hub drop.")
 
     def test_a_run_may_be_called_like_a_verdict(self) -> None:
-        values = entry("cannot be told apart", 0.1, 0.003), entry("not known", 0.1, 0.003)
-        both = "The runs agree within their uncertainty in hub drop and resistance."
-        self.assertEqual(self.verdict(values), both)
+        values = entry("inconclusive", 0.1, 0.003), entry("unknown", 0.1, 0.003)
+        self.assertEqual(self.verdict(values), "The runs agree in hub drop.")
 
     def test_measurements_are_no_part_of_it(self) -> None:
         measured = entry("measured", 0.1, 0.001, kind=MEASURED)
@@ -122,6 +133,14 @@ class CompareTest(FolderTest):
             found = [difference.condition for difference in conditions.incomparable(runs)]
             self.assertEqual(found, differences, modes)
 
+    def test_slips_of_towed_wheels_that_differ_are_a_remark(self) -> None:
+        runs = [self.read("a", "a"), self.read("b", "b")]
+        for run, slip in zip(runs, (-0.03, -0.09)):
+            run.conditions["mode"] = Condition("towed")
+            run.conditions["slip"] = Condition(slip)
+        remarks = comparison.compare(runs).remarks
+        self.assertIn("a slips by -3 % and b by -9 %, more than 3 % apart", remarks)
+
     def test_another_definition_of_slip_is_not_comparable(self) -> None:
         runs = [self.read("a", "a"), self.read("b", "b")]
         self.assertEqual(runs[0].text("slip_definition"), "bare radius, forward speed")
@@ -134,7 +153,7 @@ class CompareTest(FolderTest):
         result = comparison.compare(runs)
         self.assertEqual(
             overall(result),
-            "The runs do not agree in hub drop as far as their uncertainty is known.",
+            "Inconclusive in hub drop and resistance coefficient; unknown: size of b, size of measured.",
         )
 
     def test_measurements_are_judged_against_every_run(self) -> None:
@@ -147,8 +166,7 @@ class CompareTest(FolderTest):
         self.assertTrue(all(verdict.with_measurement for verdict in result.verdicts))
         self.assertEqual(
             overall(result),
-            "The run and the measurements agree within their uncertainty in hub drop and "
-            "resistance.",
+            "Inconclusive in hub drop and resistance coefficient; unknown: size of a.",
         )
         run.conditions["depth"] = Condition(0.5, "m")
         message = "has 0 rows within 10 % of a depth of 0.5 m; a scatter needs three"
@@ -163,6 +181,7 @@ class CompareTest(FolderTest):
             row(f"{h}", "continuum", h, 0.01 + 0.2 * h, 0.2, 1.0, seed="", error=1e-6)
             for h in (0.02, 0.03, 0.04)
         ]
+        table += [replace(table[0], run="wide", domain="1.1x1")]
         known = families(table)
         limit, _ = best_estimates(run, known)
         self.assertAlmostEqual(limit.value, 0.06 - 0.2 * 0.04, places=5)
@@ -175,7 +194,7 @@ class CompareTest(FolderTest):
         result = Comparison([run, other], [limit, same], best_estimates=[verdict])
         self.assertEqual(
             overall_of_best_estimates(result),
-            "Best estimate: The runs agree within their uncertainty in hub drop and resistance.",
+            "Best estimate: The runs agree in hub drop.",
         )
         self.assertIn(verdict.sentence, comparison_report.findings(result))
         kinds = [line["kind"] for line in comparison_report.table_rows(result)]

@@ -64,7 +64,9 @@ class CompareCommandTest(SharedFolderTest):
     def test_compare_writes_table_and_figure(self) -> None:
         done = self.run_post("compare", "one=a", "two=b", "-o", "both")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("hub drop: one and two agree: +1 mm (+2 %), 2.8 allowed", done.stdout)
+        self.assertIn("Inconclusive in hub drop and resistance coefficient; unknown: size of", done.stdout)
+        self.assertIn("two - one = +1 mm (+2 %), 2.8 allowed by the known parts", done.stdout)
+        self.assertIn("To find what is unknown\n  - size of cells or grains (one, two): ", done.stdout)
         lines = read_rows(self.folder / "both" / "compare.csv")
         self.assertEqual(
             [(line["quantity"], line["source"], float(line["value"])) for line in lines[:3]],

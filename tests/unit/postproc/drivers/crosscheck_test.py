@@ -33,7 +33,7 @@ class AnswersTest(unittest.TestCase):
             (0.102, 0.01, "yes, +2 % (20 %)"),
             (0.15, 0.01, "no, +50 % (20 %)"),
             (0.13, 0.02, "inconclusive, +30 % (40 %)"),
-            (0.13, math.nan, "error not known, +30 %"),
+            (0.13, math.nan, "inconclusive, +30 %, unknown: uncertainty of grains"),
         ):
             with self.subTest(value=value, u=u):
                 other = entry("grains", value, u)
@@ -45,7 +45,7 @@ class AnswersTest(unittest.TestCase):
     def test_parts_that_are_not_known_are_named(self) -> None:
         other = Entry(HUB_DROP, "grains", 0.1, Components(0.001, 0.0, math.nan, 0.0), RUN)
         (answer,) = lines.answers({"continuum": entry("continuum", 0.1, 0.0), "grains": other})
-        self.assertEqual(answer, "yes, +0 % (2 %), not known: domain of grains")
+        self.assertEqual(answer, "inconclusive, +0 % (2 %), unknown: domain of grains")
 
     def test_a_third_ground_is_named(self) -> None:
         own = {name: entry(name, 0.1, 0.001) for name in lines.GROUNDS}
