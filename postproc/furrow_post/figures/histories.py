@@ -129,6 +129,7 @@ def _mark_steady(axes: Axes, summary: Summary, panel: Panel, window: Floats) -> 
     if value is None:
         return
     mean, error = panel.scale * value.mean, panel.scale * value.standard_error
+    state = "imposed" if value.imposed else "one standard error" if value.steady else "not steady"
     axes.fill_between(window, mean - error, mean + error, color="C3", alpha=0.25, lw=0, zorder=3)
     axes.plot(
         window,
@@ -137,7 +138,7 @@ def _mark_steady(axes: Axes, summary: Summary, panel: Panel, window: Floats) -> 
         lw=1.6,
         ls="-" if value.steady else "--",
         zorder=4,
-        label=f"mean {with_error(mean, error)}{'' if value.steady else ' (not steady)'}",
+        label=f"mean {with_error(mean, error, short=True)}\n({state})",
     )
 
 

@@ -19,6 +19,7 @@ class SteadyValue:
     standard_error: float
     unit: str
     steady: bool
+    imposed: bool = False  # an input of the run
 
 
 @dataclass(frozen=True)
@@ -74,7 +75,13 @@ class Summary:
             if value is None or None in (value["mean"], value["standard_error"]):
                 return None
             mean, error = float(value["mean"]), float(value["standard_error"])
-            return SteadyValue(mean, error, str(value["unit"]), bool(value["steady"]))
+            imposed = bool(value.get("imposed", False))
+            return SteadyValue(mean, error, str(value["unit"]), bool(value["steady"]), imposed)
+
+    @property
+    def verdict(self) -> str:
+        """One line; empty in files of earlier versions."""
+        return str(self.content.get("verdict", ""))
 
     @property
     def parts(self) -> ResistanceParts | None:
@@ -114,8 +121,9 @@ class Summary:
             (self.quantity("slip"), "slip", 100, " %"),
         ):
             if value:
-                number = with_error(scale * value.mean, scale * value.standard_error)
-                parts.append(f"{name} {number}{unit}")
+                error = 0.0 if value.imposed else value.standard_error
+                number = with_error(scale * value.mean, scale * error, short=True)
+                parts.append(f"{name} {number}{unit}{' imposed' if value.imposed else ''}")
         if parts and not self.content.get("steady", False):
             parts.append("not all steady, see summary.txt")
         return ", ".join(parts)

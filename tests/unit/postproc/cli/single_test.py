@@ -96,11 +96,22 @@ class SingleRunTest(SharedFolderTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         drawn = (folder / "histories.svg").read_text()
         self.assertIn(
-            "hub drop 20.00 ± 0.16 mm, resistance coefficient 0.200 ± 0.004, not all steady, "
+            "hub drop 20.0 ± 0.2 mm, resistance coefficient 0.200 ± 0.004, not all steady, "
             "see summary.txt",
             drawn,
         )
-        self.assertIn("mean 20.00 ± 0.16 (not steady)", drawn)
+        self.assertIn("mean 20.0 ± 0.2", drawn)
+        self.assertIn("(not steady)", drawn)
+
+    def test_titles_mark_imposed_values(self) -> None:
+        folder = self.copy("imposed")
+        slip = {"mean": 0.1, "standard_error": 2.6e-17, "unit": "", "steady": True, "imposed": True}
+        quantities = {**SUMMARY["quantities"], "slip": slip}
+        (folder / "summary.json").write_text(json.dumps({**SUMMARY, "quantities": quantities}))
+        self.assertEqual(run_post("plot", folder, "--format", "svg").returncode, 0)
+        drawn = (folder / "histories.svg").read_text()
+        self.assertIn("slip 10 % imposed", drawn)
+        self.assertIn("(imposed)", drawn)
 
     def test_faulty_parts(self) -> None:
         folder = self.copy("faulty")
