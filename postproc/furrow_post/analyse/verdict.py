@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from ..formatting import in_unit
 
-COVERAGE = 2.0  # standard deviations within which two values agree
+COVERAGE = 2.0  # standard errors within which two values agree
+BARS = f"bars: {COVERAGE:g} standard errors"  # for the legends of figures
 
 
 class Agreement(enum.Enum):

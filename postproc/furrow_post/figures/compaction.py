@@ -41,5 +41,6 @@ def draw_compaction(runs: Sequence[Compaction], target: Path) -> None:
     density.set(xlabel="over the density before")
     vertical.plot([], [], "k--", lw=1, label="Boussinesq, ellipse")
     vertical.fill_betweenx([], [], [], color="k", alpha=0.15, lw=0, label="Söhne, factor 4 to 6")
+    vertical.errorbar([], [], xerr=[], color="k", lw=1, label="bars: one standard error")
     vertical.legend(fontsize=7, loc="lower right")
     save(figure, target)

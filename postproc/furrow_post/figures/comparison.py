@@ -16,7 +16,7 @@ from matplotlib.image import AxesImage
 from ..analyse.comparison import Comparison, overall
 from ..analyse.density import Section, sections
 from ..analyse.entry import FORMULA, BEST, MEASURED, RUN
-from ..analyse.verdict import COEFFICIENT, COVERAGE, QUANTITIES, HUB_DROP, Quantity
+from ..analyse.verdict import BARS, COEFFICIENT, COVERAGE, QUANTITIES, HUB_DROP, Quantity
 from ..analyse.wheel_histories import cruise_history, settling_curve
 from ..read.wheel_run import WheelRun
 from .style import (
@@ -98,7 +98,7 @@ def _draw_values(
     low, high = axes.get_xlim()
     margin = 0.08 * (high - low)
     axes.set_xlim(min(low, 0) if low < 0.35 * high else low - margin, high + margin)
-    axes.set_xlabel(f"{quantity.label}, bars: {COVERAGE:g} standard deviations")
+    axes.set_xlabel(f"{quantity.label}, {BARS}")
     axes.grid(axis="x", color="0.9", lw=0.6)
     axes.set_axisbelow(True)
 

@@ -13,7 +13,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from ..analyse import cost_table
 from ..analyse.cost import Assessed
 from ..analyse.cost_table import FamilyKey
-from ..analyse.verdict import COVERAGE, QUANTITIES, Quantity
+from ..analyse.verdict import BARS, COVERAGE, QUANTITIES, Quantity
 from .style import MILLIMETRE, RUN_COLOURS, annotate_panel, save, use_style
 
 
@@ -131,4 +131,4 @@ def _draw_convergence(
             error = COVERAGE * scale * series.error
             place = MILLIMETRE * shown, scale * series.value
             axes.errorbar(*place, yerr=error, fmt="D", mfc="white", **marks)
-    axes.set(xlabel="size of cells or grains [mm]", ylabel=quantity.label)
+    axes.set(xlabel="size of cells or grains [mm]", ylabel=f"{quantity.label}, {BARS}")

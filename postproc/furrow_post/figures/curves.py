@@ -8,6 +8,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 
 from ..analyse.curves import CurveComparison, CurveKind
+from ..analyse.verdict import BARS, COVERAGE
 from ..arrays import Floats
 from .style import KILOPASCAL, MILLIMETRE, RUN_COLOURS, annotate_panel, save, use_style
 
@@ -31,16 +32,18 @@ def draw_curves(
     use_style()
     plate = result.kind is CurveKind.PLATE
     figure, axes = plt.subplots(figsize=(6.4, 4.4), layout="constrained")
+    band = BARS.replace("bars", "bands")
     for curve, colour in zip(result.curves, RUN_COLOURS):
         look = {"color": colour, "lw": 1.4, "label": curve.label}
         if plate:
             x, low, high = (
                 MILLIMETRE * curve.x,
-                KILOPASCAL * (curve.y - 2 * curve.noise),
-                KILOPASCAL * (curve.y + 2 * curve.noise),
+                KILOPASCAL * (curve.y - COVERAGE * curve.noise),
+                KILOPASCAL * (curve.y + COVERAGE * curve.noise),
             )
             axes.plot(x, KILOPASCAL * curve.y, **look)
-            axes.fill_between(x, low, high, color=colour, alpha=0.2, lw=0)
+            axes.fill_between(x, low, high, color=colour, alpha=0.2, lw=0, label=band)
+            band = "_"  # once in the legend
         else:
             axes.semilogx(KILOPASCAL * curve.x, curve.y, **look)
     for line, dashes in zip(formulas, ((6, 2), (2, 2), (6, 2, 1, 2), (1, 2))):

@@ -42,7 +42,7 @@ def draw_held_out(
             axes, letter, f"{name.replace('_', ' ')}: {100 * held.coverage:.1f} % inside"
         )
         axes.set_xlabel("run")
-        axes.set_ylabel("predicted without it")
+        axes.set_ylabel("predicted without it, bars: 95 % band")
     save(figure, target)
 
 

@@ -10,17 +10,15 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
-from ..analyse.verdict import COVERAGE
+from ..analyse.verdict import BARS, COVERAGE
 from ..figures.resistance_parts import Panel, draw_parts
 from ..figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
 from .curves import Curve, Figure, Line
 from .formulas import FormulaLine
 from .measured import MeasuredPoints
 
-CAPTION = (
-    f"Bars: {COVERAGE:g} standard deviations of the parts that are known (thick: time average "
-    "alone; thin: with size, domain and packing). Open: not called steady."
-)
+LEGEND = f"{BARS} (thick: time average alone; thin: all known parts); open: not steady"
+CAPTION = f"{LEGEND[0].upper()}{LEGEND[1:]}."
 MARKERS = "osD^vP"
 DASHES = ((6, 2), (2, 2), (6, 2, 1, 2), (1, 2))
 MEASURED_MARKERS = "sD^v"
@@ -46,7 +44,15 @@ def draw_sweep(
         entries.update(zip(labels, handles))
     legend = whole.add_subplot(grid[rows, :])
     legend.set_axis_off()
-    legend.legend(list(entries.values()), list(entries), loc="center", ncols=4, fontsize=8)
+    legend.legend(
+        list(entries.values()),
+        list(entries),
+        loc="center",
+        ncols=4,
+        fontsize=8,
+        title=LEGEND,
+        title_fontsize=8,
+    )
     save(whole, target)
 
 

@@ -85,6 +85,14 @@ class Result:
                 f"{moving} of {len(points)} points are not called steady in hub drop and "
                 "resistance; the reasons are in their summary.txt"
             )
+        imposed = dict.fromkeys(
+            name.replace("_", " ")
+            for point in points
+            for name, value in point.quantities.items()
+            if value.imposed
+        )
+        if imposed:
+            found.append(f"imposed by the script, without an error: {', '.join(imposed)}")
         return found + [one.note for one in self.formulas if one.note]
 
 
@@ -131,7 +139,7 @@ def report_lines(result: Result) -> list[str]:
     return [*lines, "", CAPTION_OF_TABLE, *result.remarks()]
 
 
-CAPTION_OF_TABLE = "± is one standard deviation, from the parts that are known."
+CAPTION_OF_TABLE = "± is one standard error, from the parts that are known."
 
 
 def _page(result: Result, picture: Path, parts: Path | None) -> str:

@@ -13,7 +13,7 @@ of the packing; the packing's part is what the time averages leave of it.
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -33,6 +33,7 @@ class Value:
     unit: str
     parts: Components
     steady: bool = True
+    imposed: bool = False  # an input of the run, without an error
 
     @property
     def uncertainty(self) -> float:
@@ -55,17 +56,27 @@ def _of_run(run: WheelRun, families: Families) -> dict[str, Value]:
         steady = run.values.get(name) or summary.quantity(name)
         if steady:
             parts = Components(time=steady.standard_error, packing=packing)
-            found[name] = Value(steady.mean, steady.unit, parts, steady.steady)
+            found[name] = Value(steady.mean, steady.unit, parts, steady.steady, steady.imposed)
     for entry in entries_of_run(run, families):
         name = NAME_IN_RUN[entry.quantity.key]
-        found[name] = Value(entry.value, found[name].unit, entry.parts, found[name].steady)
+        found[name] = replace(found[name], mean=entry.value, parts=entry.parts)
     load, pull, torque = found["force_z"], found["drawbar_pull"], found["drive_torque"]
     if "net_traction_coefficient" not in found:
         found["net_traction_coefficient"] = _ratio(pull, load)
+    resistance = found["resistance_coefficient"].parts
+    for name, scale in (("net_traction_coefficient", 1.0), ("drawbar_pull", load.mean)):
+        found[name] = replace(found[name], parts=_with_parts_of(resistance, scale, found[name].parts))
+    for name in (name for name, value in found.items() if value.imposed):
+        found[name] = replace(found[name], parts=Components(time=0.0))
     found["torque_coefficient"] = _ratio(torque, load, 1 / run.radius)
     if pull.mean > 0 and torque.mean > 0:
         found["tractive_efficiency"] = _ratio(pull, torque, run.rolling_radius)
     return found
+
+
+def _with_parts_of(other: Components, scale: float, own: Components) -> Components:
+    """The pull has all parts of the error of the resistance, its negative, but its own over time."""
+    return Components(own.time, scale * other.size, scale * other.domain, scale * other.packing)
 
 
 def speed_over_rim(slip: float) -> float:
@@ -94,4 +105,4 @@ def _averaged(values: Sequence[Value]) -> Value:
     packing = math.sqrt(max(float(np.var(means, ddof=1)) / number - time**2, 0.0))
     parts = Components(time, first.parts.size, first.parts.domain, packing)
     steady = all(value.steady for value in values)
-    return Value(float(means.mean()), first.unit, parts, steady)
+    return replace(first, mean=float(means.mean()), parts=parts, steady=steady)

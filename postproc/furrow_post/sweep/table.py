@@ -18,9 +18,10 @@ from .series import Series, SweepPoint
 PART = "part_"  # before the name of a part of the resistance
 SET = "set_"  # before the name of a variable that was swept: what the script was given
 CSV_HEAD = (
-    "# A row per point, packings averaged. SI units; <quantity>_error is its standard deviation,",
-    "# made of the parts that are known: _error_time, _error_size, _error_domain, _error_packing;",
-    "# empty: not known.",
+    "# A row per point, packings averaged. SI units; <quantity>_error is one standard error, made of",
+    "# the parts that are known: _error_time, _error_size, _error_domain, _error_packing. An empty cell",
+    "# is unknown; a part without a column is unknown at every point. imposed: quantities that the",
+    "# script sets, which have no error.",
 )
 
 Cell = str | float
@@ -45,6 +46,7 @@ def _row(series: Series, point: SweepPoint) -> dict[str, Cell]:
     row.update(_parts(point))
     row["packings"] = float(len(point.runs))
     row["steady"] = "yes" if point.steady else "no"
+    row["imposed"] = " ".join(name for name, value in point.quantities.items() if value.imposed)
     row["cpu_time"] = point.cpu_time
     return row
 
@@ -81,15 +83,22 @@ def units(series: Sequence[Series]) -> dict[str, str]:
 
 def write_table(series: Sequence[Series], csv: Path, hdf5: Path) -> None:
     rows, unit = table_rows(series), units(series)
-    names = column_names(rows)
+    names = [name for name in column_names(rows) if not _is_unknown_part(name, rows)]
+    rows = [{name: row[name] for name in names if name in row} for row in rows]
     listed = [name for name in names if name in unit and "_error" not in name]
     comments = [*CSV_HEAD, *(f"# {name} [{unit[name]}]" for name in listed)]
     write_rows(csv, [in_cells(row, 8) for row in rows], comments)
     with h5py.File(hdf5, "w") as content:
-        content.attrs["unit"] = "SI; errors are standard deviations, NaN: not known"
+        content.attrs["unit"] = "SI; errors are one standard error, NaN: not known"
         for name in names:
             _write_column(content, name, [row.get(name, math.nan) for row in rows])
             content[name].attrs["unit"] = unit.get(name, "")
+
+
+def _is_unknown_part(name: str, rows: Sequence[dict[str, Cell]]) -> bool:
+    """Whether it is a part of an error that no point knows."""
+    cells = [row.get(name, math.nan) for row in rows]
+    return "_error_" in name and all(isinstance(cell, float) and math.isnan(cell) for cell in cells)
 
 
 def _write_column(content: Any, name: str, values: Sequence[Cell]) -> None:

@@ -1,22 +1,28 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tables and curves of made runs with known answers: coefficients, errors, packings, axes."""
 
+import json
 import math
 import re
 import unittest
+from collections import defaultdict
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import h5py
 
+from furrow_post.analyse.cost_table import Components, FamilyKey
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.figures.resistance_parts import COLOURS
 from furrow_post.formatting import with_error
 from furrow_post.run.record import Record
 from furrow_post.sweep.curves import EFFICIENCY, PULL, HUB_DROP, TORQUE
+from furrow_post.sweep.drawing import draw_sweep
 from furrow_post.sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
 from furrow_post.sweep.plan import Plan, Point
+from furrow_post.sweep.series import read_series
 from support.command import SOURCE
 from support.folder import FolderTest
 from support.runs import RADIUS, add_parts, rig, rigid_wheel, write_run
@@ -28,6 +34,15 @@ PULLING = ((-0.2, -0.3, -60.0), (0.1, 0.1, 120.0), (0.3, 0.25, 240.0))
 
 def finished(folder: Path, error: str = "") -> None:
     Record({}, "", {}, "", "2026-01-01T00:00:00Z", 1.0, 1.5, 0.1, error=error).write(folder)
+
+
+class KnownSize:
+    """A family of runs whose error has this part of the size of the cells."""
+
+    SIZE = 0.02
+
+    def components(self, key: str, size: float, time_error: float) -> Components:
+        return Components(time_error, self.SIZE, math.nan, 0.0)
 
 
 def write_pulling(folder: Path, sinkage: float = 0.05) -> None:
@@ -176,6 +191,39 @@ class OutputTest(FolderTest):
         wanted = Wanted(measured=[Named(self.folder / "a" / "sweep.csv")])
         (again,) = evaluate([Named(self.folder / "a")], wanted).measured
         self.assertEqual([round(x, 9) for x, _, _ in again.values(PULL)], [-0.2, 0.1, 0.3])
+
+    def test_pull_has_the_cell_part_of_its_negative(self) -> None:
+        """A table of errors knows cells of the resistance; the pull is the resistance's negative."""
+        write_pulling(self.folder / "a")
+        families: Any = defaultdict(KnownSize)
+        families[FamilyKey("none", "whole", "rigid wheel")]
+        for point in read_series(self.folder / "a", None, families).points:
+            resistance, pull = (point.quantities[n] for n in ("resistance_coefficient", PULL.key))
+            self.assertEqual((resistance.parts.size, pull.parts.size), (KnownSize.SIZE,) * 2)
+            in_newtons = point.quantities["drawbar_pull"].parts.size
+            self.assertAlmostEqual(in_newtons, KnownSize.SIZE * LOAD)
+
+    def test_imposed_values_are_marked_and_have_no_error(self) -> None:
+        write_pulling(self.folder / "a")
+        for file in (self.folder / "a").glob("*/summary.json"):
+            content = json.loads(file.read_text())
+            content["quantities"]["slip"].update(imposed=True, standard_error=2.6e-17)
+            file.write_text(json.dumps(content))
+        result = evaluate([Named(self.folder / "a")], Wanted())
+        write_sweep(result, self.folder / "out")
+        for row in read_rows(self.folder / "out" / "sweep.csv"):
+            self.assertEqual((row["imposed"], row["slip_error"]), ("slip", "0"))
+            self.assertFalse([name for name in row if "_error_size" in name])  # unknown everywhere
+        text = "\n".join(report_lines(result))
+        self.assertIn("imposed by the script, without an error: slip", text)
+        self.assertNotIn("e-17", text)
+
+    def test_picture_names_its_sigma_level(self) -> None:
+        write_pulling(self.folder / "a")
+        figure = evaluate([Named(self.folder / "a")], Wanted()).figure
+        draw_sweep(figure, [], [], self.folder / "sweep.svg")
+        drawn = (self.folder / "sweep.svg").read_text(encoding="utf-8")
+        self.assertIn("bars: 2 standard errors (thick: time average alone", drawn)
 
     def test_what_the_resistance_is_made_of_is_averaged_and_drawn(self) -> None:
         points = []
