@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Blind predictions: runs the conditions of conditions.csv with frozen set-ups. See README.md.
+"""Predictions: runs the conditions of conditions.csv with frozen set-ups. See README.md.
 
 Every run keeps its folder below --results. A repeated command makes the missing runs only. Values go
 to predictions.csv with the columns id, quantity, value, standard_error. With --fine the tests on snow

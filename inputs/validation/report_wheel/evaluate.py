@@ -24,7 +24,7 @@ def closed_form(*_: Any) -> Iterator[dict[str, Any]]:
         yield {"d": d, "load": LOAD, "snow": snow, "footing": NC * d / (math.sqrt(3) * math.cos(PHI))}
 
 
-def nrmm(depth: float, density: float) -> tuple[float, float]:
-    """Sinkage [m] and resistance coefficient."""
+def nrmm(depth: float, density: float) -> tuple[float, float, float]:
+    """Sinkage [m] and resistance coefficients, whose factors of deep snow go by the sinkage, then by the depth."""
     z = empirical.nrmm_sinkage(depth, density, PRESSURE)
-    return z, empirical.nrmm_resistance(density, WIDTH, RADIUS, z) / LOAD
+    return z, *(empirical.nrmm_resistance(density, WIDTH, RADIUS, z, deep) / LOAD for deep in (None, depth))

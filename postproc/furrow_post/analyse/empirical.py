@@ -48,16 +48,20 @@ def nrmm_sinkage(depth: float, density: float, pressure: float) -> float:
     return depth * (1 - density / nrmm_final_density(pressure))
 
 
-def nrmm_resistance(density: float, width: float, radius: float, sinkage: float) -> float:
+def nrmm_resistance(
+    density: float, width: float, radius: float, sinkage: float, depth: float | None = None
+) -> float:
     """Motion resistance [N] of one wheel: 13.6041 (rho0 w a)^1.26, the arc a = r acos((r - z)/r).
 
     density [kg/m3], width, radius, sinkage [m]. Deep snow denser than 150 kg/m3: x 1.5 beyond
-    z = 2r/3, x 2.5 beyond z = r.
+    z = 2r/3, x 2.5 beyond z = r, as in eq 32 and 33. With the depth of the snow [m] these limits hold
+    for the depth, as on pages 46 to 48 of the same report.
     """
     arc = radius * np.arccos(max((radius - sinkage) / radius, -1.0))
     resistance = 13.6041 * (density * width * arc) ** 1.26
     if density > 150:
-        resistance *= 2.5 if sinkage > radius else 1.5 if sinkage > 2 * radius / 3 else 1.0
+        deep = sinkage if depth is None else depth
+        resistance *= 2.5 if deep > radius else 1.5 if deep > 2 * radius / 3 else 1.0
     return float(resistance)
 
 

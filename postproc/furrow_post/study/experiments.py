@@ -12,8 +12,9 @@ HEAD = (
     "# Every value of the studies. error: standard error, or that it is not estimated; error_of: its",
     "# parts, or the table of the study that has it. reference_of: measured, report (computed by the",
     "# source), formula, ours, program (another one). label: fitted (the value was used in a fit), known",
-    "# (measured value known before the model was fixed), blind. verdict: agrees, within 10 % or twice",
-    "# the error of the reference; near, within 25 %; differs; met or missed, of a limit; inconclusive,",
+    "# (measured value known before the model was fixed), held out (in a source that this project has,",
+    "# kept apart), blind (nobody here has it), scored (predicted after a score). verdict: agrees, within",
+    "# 10 % or twice the error of the reference; near, within 25 %; differs; met or missed; inconclusive,",
     "# where twice the errors decide, allow more than 25 %, or are not estimated. program: commit of the",
     "# source tree that made the runs, + with uncommitted changes. Written by furrow-post study --pages.",
 )

@@ -19,7 +19,7 @@ from ..errors import ResultsError, content_of
 
 DEFINITION = "study.yaml"
 RESULTS = "results.csv"  # table of a value that names none
-LABELS = ("fitted", "known", "blind")
+LABELS = ("fitted", "known", "held out", "blind", "scored")
 REFERENCES = ("measured", "report", "formula", "ours", "program")  # who gives the reference
 SOURCES = (  # of errors
     "time average", "cells", "grain size", "domain", "packings", "parameters", "contact", "tests", "none",

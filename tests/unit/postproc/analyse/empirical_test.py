@@ -39,6 +39,13 @@ class SnowTest(unittest.TestCase):
         self.assertAlmostEqual(deep / shallow, 1.5, delta=2e-3)
         self.assertAlmostEqual(deeper / before, 2.5 / 1.5, delta=2e-3)
 
+    def test_factors_of_deep_snow_may_go_by_the_depth(self) -> None:
+        z = 0.12
+        plain = empirical.nrmm_resistance(200, 0.25, 0.39, z)
+        for depth, factor in ((0.25, 1.0), (0.27, 1.5), (0.38, 1.5), (0.40, 2.5)):
+            found = empirical.nrmm_resistance(200, 0.25, 0.39, z, depth)
+            self.assertAlmostEqual(found / plain, factor, places=12)
+
     def test_refuses_what_its_tests_do_not_cover(self) -> None:
         message = "density 300 kg/m3, allowed 105 to 225 .*Table 11.*--extrapolate"
         with self.assertRaisesRegex(OutOfRange, message):

@@ -8,6 +8,9 @@ from bisect import bisect_left
 from collections.abc import Iterator
 from pathlib import Path
 
+from furrow_post.csv_table import read_rows
+from furrow_post.study.pages import MARK
+from furrow_post.study.values import Registry
 from support.command import SOURCE
 
 VALIDATION = SOURCE / "inputs" / "validation"
@@ -17,6 +20,8 @@ SCALES = (1.0, 1e3, 1e-3, 1e2, 1e-2, 10.0, 0.1)  # between the units of tables a
 # Numbers of pages that no table of the study need have, with where they are from
 ELSEWHERE = {
     "cmu_sand": {"0.071"},  # mean of several rows
+    # of a plate of 23 cm, from the loads of the runs by circumference and area
+    "plate_variants": {"-1", "-22", "-13", "+12", "-12", "-31"},
     "pull_slip": {"67", "600", "3000"},  # cell and loads, defaults of its scripts
     "sand_zones": {"-0.33"},  # slip of the towed wheel: results of the run
     "snow_oedometer": {"0.12"},  # K0, [Shoop2001] eq 24
@@ -98,6 +103,70 @@ class StudyPagesTest(unittest.TestCase):
             with self.subTest(text):
                 found = not_stored(page.format(text), [0.16287, 5.0])
                 self.assertEqual(found, set() if stored else {text})
+
+
+class LabelsTest(unittest.TestCase):
+    """What a label, a reference or a verdict must not hide."""
+
+    def test_a_reference_that_is_ours_is_not_ascribed_to_the_report(self) -> None:
+        for value in Registry.of(SOURCE):
+            if value.reference_of == "ours":
+                self.assertFalse(value.remark.startswith("report:"), value.id)
+
+    def test_the_report_is_no_source_of_a_resistance_that_it_does_not_print(self) -> None:
+        for value in Registry.of(SOURCE):
+            if value.study == "report_wheel" and value.reference == 0.1:
+                self.assertEqual(value.reference_of, "measured", value.id)
+
+    def test_one_run_has_one_label(self) -> None:
+        registry = Registry.of(SOURCE)
+        names = [f"report_wheel.d_30.{name}" for name in ("sinkage_m", "resistance")]
+        self.assertEqual({registry[name].label for name in names}, {"fitted"})
+
+    def test_contradictions_of_the_report_have_rows(self) -> None:
+        registry = Registry.of(SOURCE)
+        for name, verdict in (
+            ("report_wheel.depth_40_free_d30.sinkage_m", "missed"),
+            ("report_wheel.effects.d_30_impulse.resistance_percent", "missed"),
+            ("report_wheel.fields.times_2_d20.density_under", "differs"),
+            ("report_wheel.depth_40_free_d30.resistance", "near"),
+            ("snow_wheel.row_170_19cm.density_shoulder", "near"),
+        ):
+            self.assertEqual(registry[name].verdict(), verdict, name)
+
+    def test_effects_keep_their_sign(self) -> None:
+        rows = {row["run"]: row for row in read_rows(VALIDATION / "report_wheel" / "effects.csv")}
+        for run in ("friction_0.8", "friction_rough", "soft"):
+            self.assertLess(float(rows[run]["resistance_percent"]), 0.0, run)
+
+    def test_contact_at_a_skid_is_that_of_the_skidding_wheel(self) -> None:
+        registry = Registry.of(SOURCE)
+        for slip in ("-0.1", "-0.2"):
+            error = registry[f"report_wheel.slip_{slip}.resistance"].uncertainty()
+            self.assertLess(error or 1.0, 0.01, slip)
+
+    def test_table_11_is_held_out_and_not_blind(self) -> None:
+        page = (VALIDATION / "predictions" / "README.md").read_text(encoding="utf-8")
+        self.assertRegex(page, r"\| `T11` \| all 16 \| held out \|")
+        self.assertNotIn("All values have the label", page)
+
+    def test_verdicts_on_the_findings_are_those_of_their_rows(self) -> None:
+        """The first value of a row of the page has a verdict that allows the words of the row."""
+        allowed = {
+            "holds": ("agrees", "met"),
+            "holds in part": ("agrees", "near"),
+            "not reproduced": ("differs", "missed", "near", "nothing to compare"),
+            "inconclusive": ("inconclusive", "agrees", "differs"),
+        }
+        registry = Registry.of(SOURCE)
+        page = (VALIDATION / "report_findings.md").read_text(encoding="utf-8")
+        rows = [row for row in page.splitlines() if "<!-- value:" in row]
+        self.assertGreater(len(rows), 10)
+        for row in rows:
+            words = row.split("|")[2].strip()
+            name = MARK.search(row)
+            assert name
+            self.assertIn(registry[name[2]].verdict(), allowed[words], row)
 
 
 if __name__ == "__main__":

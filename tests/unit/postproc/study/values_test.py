@@ -136,7 +136,7 @@ class EntryTest(unittest.TestCase):
             ("", "d", "0 rows have"),
             (", error: none", "a", "no number in column 'none'"),
             (", lable: known", "a", "unknown keys"),
-            (", label: guessed", "a", "label is one of fitted, known, blind"),
+            (", label: guessed", "a", "label is one of fitted, known, held out, blind, scored"),
             (", limit: above", "a", "limit is one of upper, lower"),
             (", next: {rows: 1}", "a", "unknown keys"),
             (", error: [{of: luck, value: 1}]", "a", "of, of a part of its error, is one of time average"),
