@@ -6,9 +6,14 @@
 (function () {
   const NONE = 255; // colour level of a point whose quantity is not known
   const ABSENT = 65535; // position level of a point that is not there in this frame
-  const SPIN_SECTORS = 12; // lighter and darker parts of a wheel, which show that it turns
+  const SPIN_MARKS = 12; // light lines across a wheel, which show that it turns
   const PLAY_SECONDS = 8; // of a whole run, at speed 1
   const GREY = [0.62, 0.62, 0.6];
+  const CREASE = Math.cos((50 * Math.PI) / 180); // sharper edges of a body stay sharp
+  const MARGIN = 1.05; // around all that is shown
+  const TOWARDS = {
+    oblique: [0.62, -1.25, 0.62], side: [0, -1, 0.02], front: [1, 0, 0.05], above: [0, -0.02, 1],
+  };
 
   // ---- data: base64 -> zlib -> levels -------------------------------------------------------
 
@@ -100,6 +105,8 @@
       cloud.attribute = new THREE.BufferAttribute(cloud.now, 4, true);
       geometry.setAttribute("position", cloud.attribute);
       const radius = new Float32Array((await unpacked(data.radius)).buffer);
+      cloud.largest = radius.reduce((a, b) => Math.max(a, b), 0);
+      cloud.data = data;
       geometry.setAttribute("radius", new THREE.BufferAttribute(radius, 1));
       geometry.setDrawRange(0, data.count);
       cloud.group = new THREE.Group();
@@ -133,6 +140,45 @@
       }
       this.attribute.needsUpdate = true;
     }
+
+    // Extends a box by the points of a frame, and their mirror images
+    extend(box, frame) {
+      const { data, places, count } = this;
+      for (let axis = 0; axis < 3; ++axis) {
+        let low = ABSENT, high = 0;
+        for (let i = (3 * frame + axis) * count, end = i + count; i < end; ++i) {
+          if (places[i] === ABSENT) continue;
+          low = Math.min(low, places[i]);
+          high = Math.max(high, places[i]);
+        }
+        if (low > high) return;
+        for (const level of [low, high]) {
+          const x = data.low[axis] + (data.span[axis] * level) / 65535;
+          const end = level === low ? x - this.largest : x + this.largest;
+          box.add(axis, end);
+          if (axis === 1 && data.mirrored) box.add(axis, -end);
+        }
+      }
+    }
+  }
+
+  // Lowest and highest coordinates
+  class Box {
+    constructor() {
+      this.low = [Infinity, Infinity, Infinity];
+      this.high = [-Infinity, -Infinity, -Infinity];
+    }
+
+    add(axis, x) {
+      this.low[axis] = Math.min(this.low[axis], x);
+      this.high[axis] = Math.max(this.high[axis], x);
+    }
+
+    corners() {
+      const { low, high } = this;
+      return [0, 1, 2, 3, 4, 5, 6, 7].map((k) =>
+        new THREE.Vector3(...[0, 1, 2].map((axis) => (k >> axis) & 1 ? high[axis] : low[axis])));
+    }
   }
 
   // ---- the wheel, tyre or plate: triangles ----------------------------------------------------
@@ -141,26 +187,34 @@
     precision highp float;
     uniform mat4 modelViewMatrix, projectionMatrix;
     uniform float side;
-    attribute vec3 position;
+    attribute vec3 position, normal;
     attribute vec2 start;  // (x, z) from the axle in the first frame
-    varying vec3 seen;
+    varying vec3 seen, smoothed;
     varying vec2 marked;
     void main() {
-      vec4 x = modelViewMatrix * vec4(position.x, side * position.y, position.z, 1.0);
+      vec3 mirror = vec3(1.0, side, 1.0);
+      vec4 x = modelViewMatrix * vec4(mirror * position, 1.0);
       seen = x.xyz;
+      smoothed = (modelViewMatrix * vec4(mirror * normal, 0.0)).xyz;
       marked = start;
       gl_Position = projectionMatrix * x;
     }`;
   const BODY_FRAGMENT = `
     #extension GL_OES_standard_derivatives : enable
+    #extension GL_EXT_frag_depth : enable
     precision highp float;
+    uniform mat4 projectionMatrix;
     uniform vec3 sun;
-    varying vec3 seen;
+    uniform float nearer;  // than its place it is, so that no grain that touches it pokes through
+    varying vec3 seen, smoothed;
     varying vec2 marked;
     void main() {
-      vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));  // towards the viewer
+      vec3 facet = cross(dFdx(seen), dFdy(seen));  // towards the viewer
+      vec3 normal = normalize(dot(facet, smoothed) < 0.0 ? -smoothed : smoothed);
+      vec4 front = projectionMatrix * vec4(seen - nearer * normalize(seen), 1.0);
+      gl_FragDepthEXT = 0.5 + 0.5 * front.z / front.w;
       float turn = atan(marked.y, marked.x) / 6.2831853 + 1.0;
-      float grey = mod(floor(turn * ${SPIN_SECTORS}.0), 2.0) > 0.5 ? 0.42 : 0.54;
+      float grey = fract(turn * ${SPIN_MARKS}.0) < 0.07 ? 0.7 : 0.46;
       float light = 0.5 + 0.6 * max(dot(normal, sun), 0.0);
       gl_FragColor = vec4(light * grey * vec3(0.93, 1.0, 1.09), 1.0);
     }`;
@@ -176,14 +230,19 @@
       body.attribute = new THREE.BufferAttribute(body.corners, 3);
       geometry.setAttribute("position", body.attribute);
       geometry.setAttribute("start", new THREE.BufferAttribute(body.starts(), 2));
+      body.normals = new Float32Array(3 * body.triangles.length);
+      body.normal = new THREE.BufferAttribute(body.normals, 3);
+      geometry.setAttribute("normal", body.normal);
+      body.meet();
+      body.nearer = { value: 0 };
       body.group = new THREE.Group();
       for (const side of data.mirrored ? [1, -1] : [1]) {
         const mesh = new THREE.Mesh(geometry, new THREE.RawShaderMaterial({
           vertexShader: BODY_VERTEX,
           fragmentShader: BODY_FRAGMENT,
-          extensions: { derivatives: true },
+          extensions: { derivatives: true, fragDepth: true },
           side: THREE.DoubleSide,
-          uniforms: { side: { value: side }, sun: shared.sun },
+          uniforms: { side: { value: side }, sun: shared.sun, nearer: body.nearer },
         }));
         mesh.frustumCulled = false;
         body.group.add(mesh);
@@ -223,11 +282,52 @@
       return starts;
     }
 
+    // Lists for each corner the triangles around its place in the first frame
+    meet() {
+      const { triangles, places, data } = this, around = new Map();
+      const place = (node) => [0, 1, 2].map((axis) => places[axis * data.nodes + node]).join();
+      this.around = Array.from(triangles, (node, k) => {
+        const key = place(node);
+        if (!around.has(key)) around.set(key, []);
+        around.get(key).push(Math.floor(k / 3));
+        return around.get(key);
+      });
+    }
+
     show(frame) {
       for (let k = 0; k < this.triangles.length; ++k)
         for (let axis = 0; axis < 3; ++axis)
           this.corners[3 * k + axis] = this.node(frame, this.triangles[k], axis);
       this.attribute.needsUpdate = true;
+      this.shade();
+    }
+
+    // Normals of corners: means of the triangles around them, but for those across an edge
+    shade() {
+      const { corners, normals, around } = this, count = around.length / 3;
+      const facets = new Float32Array(3 * count);
+      const a = new THREE.Vector3(), b = new THREE.Vector3(), c = new THREE.Vector3();
+      for (let k = 0; k < count; ++k) {
+        [a, b, c].forEach((corner, i) => corner.fromArray(corners, 9 * k + 3 * i));
+        b.sub(a).cross(c.sub(a)).normalize().toArray(facets, 3 * k);
+      }
+      for (let k = 0; k < around.length; ++k) {
+        const own = a.fromArray(facets, 3 * Math.floor(k / 3)), sum = b.set(0, 0, 0);
+        for (const other of around[k]) {
+          c.fromArray(facets, 3 * other);
+          if (own.dot(c) > CREASE) sum.add(c);
+        }
+        (sum.lengthSq() > 0 ? sum : own).normalize().toArray(normals, 3 * k);
+      }
+      this.normal.needsUpdate = true;
+    }
+
+    extend(box, frame) {
+      for (let axis = 0; axis < 3; ++axis)
+        for (const x of this.range(frame, axis)) {
+          box.add(axis, x);
+          if (axis === 1 && this.data.mirrored) box.add(axis, -x);
+        }
     }
   }
 
@@ -247,6 +347,11 @@
       run.clouds = [];
       for (const one of data.clouds) run.clouds.push(await Cloud.read(one, shared));
       for (const part of [...run.bodies, ...run.clouds]) run.root.add(part.group);
+      for (const body of run.bodies)
+        body.nearer.value = Math.max(0, ...run.clouds.map((cloud) => cloud.largest));
+      run.scale = new THREE.Mesh(
+        new THREE.BoxGeometry(1, 1, 1), new THREE.MeshBasicMaterial({ color: 0x222222 }));
+      run.scene.add(run.scale);
       return run;
     }
 
@@ -263,7 +368,19 @@
       for (const body of this.bodies) body.show(frame);
       const [first] = this.bodies;
       if (first) this.root.position.x = follow ? -first.centre(frame, 0) : 0;
+      this.frame = frame;
       return this.times[frame];
+    }
+
+    // Boxes of all that is shown
+    boxes() {
+      return [...this.bodies, ...this.clouds].map((part) => {
+        const box = new Box();
+        part.extend(box, this.frame);
+        box.low[0] += this.root.position.x;
+        box.high[0] += this.root.position.x;
+        return box;
+      });
     }
   }
 
@@ -283,18 +400,20 @@
       this.controls.enableKeys = false;
       this.controls.addEventListener("change", () => this.draw());
       this.times = [...new Set(runs.flatMap((run) => run.times))].sort((a, b) => a - b);
-      this.moment = 0; // in this.times
+      this.moment = this.times.length - 1; // in this.times
       this.prepareInput();
       this.resize();
-      this.look("oblique");
       this.update();
-      window.addEventListener("resize", () => { this.resize(); this.draw(); });
+      this.look("oblique");
+      this.draw();
+      window.addEventListener("resize", () => { this.resize(); this.look(this.from); this.draw(); });
     }
 
     prepareInput() {
       const { data, shared } = this;
       this.slider = this.find("time");
-      this.slider.max = this.times.length - 1;
+      this.slider.max = this.moment;
+      this.slider.value = this.moment;
       this.slider.disabled = this.times.length < 2;
       this.find("play").disabled = this.times.length < 2;
       this.slider.addEventListener("input", () => {
@@ -355,21 +474,76 @@
       requestAnimationFrame(tick);
     }
 
-    // What the camera looks at, and from where: the same for all runs
+    // Places the camera so that all of every run is in view, with a scale
     look(from) {
-      const { centre, size } = this.data;
-      const towards = {
-        oblique: [0.62, -1.25, 0.62], side: [0, -1, 0.02], front: [1, 0, 0.05], above: [0, -0.02, 1],
-      }[from];
-      const target = new THREE.Vector3(...centre);
-      if (this.find("follow").checked) target.x = 0;
-      const width = this.canvas.clientWidth / this.runs.length;
-      const distance = size * Math.max(1.25, 1.8 * this.canvas.clientHeight / width);
+      this.from = from;
+      const boxes = this.runs.flatMap((run) => run.boxes()), whole = new Box();
+      for (const box of boxes)
+        for (const end of [box.low, box.high]) end.forEach((x, axis) => whole.add(axis, x));
+      const size = Math.hypot(...whole.high.map((x, axis) => x - whole.low[axis]));
+      boxes.push(this.placeScale(whole, size, from));
+      const towards = new THREE.Vector3(...TOWARDS[from]).normalize();
+      const right = new THREE.Vector3(0, 0, 1).cross(towards).normalize();
+      const up = towards.clone().cross(right);
+      const corners = boxes.flatMap((box) => box.corners());
+      const target = new THREE.Vector3(...whole.low).add(new THREE.Vector3(...whole.high)).multiplyScalar(0.5);
+      const high = Math.tan((0.5 * this.camera.fov * Math.PI) / 180) / MARGIN;
+      const wide = (high * this.canvas.clientWidth) / this.runs.length / this.canvas.clientHeight;
+      let distance = 10 * size;
+      for (let pass = 0; pass < 6; ++pass) {  // to the middle of the picture, then as near as fits
+        const seen = corners.map((corner) => {
+          const x = corner.clone().sub(target), depth = x.dot(towards);
+          return { depth, x: x.dot(right), y: x.dot(up), scale: distance / (distance - depth) };
+        });
+        for (const [axis, name] of [[right, "x"], [up, "y"]]) {
+          const places = seen.map((one) => one[name] * one.scale);
+          const middle = 0.5 * (Math.min(...places) + Math.max(...places));
+          target.addScaledVector(axis, middle);
+          for (const one of seen) one[name] -= middle;
+        }
+        distance = Math.max(...seen.map(({ depth, x, y }) =>
+          depth + Math.max(Math.abs(x) / wide, Math.abs(y) / high)));
+      }
       this.controls.target.copy(target);
-      this.camera.position.set(...towards).normalize().multiplyScalar(distance).add(target);
+      this.camera.position.copy(towards).multiplyScalar(distance).add(target);
       this.camera.near = 0.01 * size;
       this.camera.far = 20 * size;
       this.controls.update();
+    }
+
+    // A bar along the ground's near edge, of a round length. Returns its box, with its label
+    placeScale(box, size, from) {
+      const axis = from === "front" ? 1 : 0, side = axis === 0 ? 1 : 0, near = axis === 0 ? "low" : "high";
+      const most = 0.4 * (box.high[axis] - box.low[axis]);
+      const power = 10 ** Math.floor(Math.log10(most));
+      this.length = power * [5, 2, 1].find((step) => step * power <= most);
+      const thick = 0.006 * size, gap = (near === "low" ? -1 : 1) * 0.03 * size;
+      const centre = [0, 0, box.low[2]], extent = [thick, thick, thick];
+      centre[axis] = box.low[axis] + 0.5 * this.length;
+      centre[side] = box[near][side] + gap;
+      extent[axis] = this.length;
+      for (const run of this.runs) {
+        run.scale.position.set(...centre);
+        run.scale.scale.set(...extent);
+      }
+      const bar = new Box();
+      [0, 1, 2].forEach((of) => {
+        bar.add(of, centre[of] - 0.5 * extent[of] - (of === 2 ? 0.05 * size : 0));
+        bar.add(of, centre[of] + 0.5 * extent[of]);
+      });
+      return bar;
+    }
+
+    // The length of the bar, written below it in the picture of each run
+    writeScale(width, height) {
+      const { length, camera } = this;
+      const text = length < 1 ? `${Math.round(1000 * length)} mm` : `${length} m`;
+      this.place.querySelectorAll(".furrow-scale").forEach((label, k) => {
+        const place = this.runs[k].scale.position.clone().project(camera);
+        label.textContent = text;
+        label.style.left = `${(k + 0.5 + 0.5 * place.x) * width}px`;
+        label.style.top = `${(0.5 - 0.5 * place.y) * height}px`;
+      });
     }
 
     resize() {
@@ -385,7 +559,7 @@
         return run.show(time, quantity ? quantity.key : "", this.find("follow").checked);
       });
       this.find("clock").textContent = `t = ${time.toFixed(3)} s`;
-      this.place.querySelectorAll(".furrow-label").forEach((label, k) => {
+      this.place.querySelectorAll(".furrow-name").forEach((label, k) => {
         const ended = time > shown[k] && shown[k] === this.runs[k].times[this.runs[k].times.length - 1];
         label.textContent = this.runs[k].label + (ended ? ` (ended at ${shown[k].toFixed(3)} s)` : "");
       });
@@ -423,6 +597,7 @@
         renderer.setScissor(k * width, 0, width + 1, height);  // + 1: no gap where it is rounded
         renderer.render(run.scene, camera);
       });
+      this.writeScale(width, height);
     }
   }
 

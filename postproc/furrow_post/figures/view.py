@@ -18,6 +18,7 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import ResultsError
 from ..read.motion import Body, Cloud, Motion, Points, evenly_chosen
+from ..run.summary import Summary
 from .page import escaped, html_page
 from .quantities import COLOURS, Quantity, quantities_of
 from .style import GROUND_COLOURS, MILLIMETRE
@@ -84,19 +85,16 @@ def view_section(motions: Sequence[Motion], labels: Sequence[str], largest: floa
     ]
     quantities = quantities_of(motions)
     runs = [_fitted(selection, quantities, share) for selection in chosen]
-    centre, size, cut = _place(chosen)
     data = {
         "runs": runs,
         "quantities": [vars(quantity) for quantity in quantities],
         "colours": _text(_colour_table()),
-        "centre": centre,
-        "size": size,
-        "cut": cut,
+        "cut": _sides(chosen),
     }
     return "\n".join(
         [
             '<div class="furrow-view">',
-            _stage(labels),
+            _stage(labels, [result_line(motion) for motion in motions]),
             _notes(chosen, runs),
             # "<" is escaped: no text in the data can end the script
             '<script type="application/json">',
@@ -106,6 +104,11 @@ def view_section(motions: Sequence[Motion], labels: Sequence[str], largest: floa
             *(f"<script>\n{_harmless(text)}\n</script>" for text in (*library, _file("view.js"))),
         ]
     )
+
+
+def result_line(motion: Motion) -> str:
+    """Its values with their errors; empty for a run without the history of a wheel."""
+    return Summary(motion.folder).line()
 
 
 def view_style() -> str:
@@ -249,31 +252,27 @@ def _colour_table() -> bytes:
     return bytes(colours.astype(np.uint8).tobytes())
 
 
-def _place(chosen: Sequence[_Selection]) -> tuple[list[float], float, list[float]]:
-    """What the camera looks at (3) and its size [m], and the range of the cut plane's y [m]."""
-    centres, sizes, sides = [], [], []
+def _sides(chosen: Sequence[_Selection]) -> list[float]:
+    """Range of y of the cut plane [m]."""
+    sides: list[float] = []
     for selection in chosen:
-        motion = selection.motion
-        parts = [body.at(selection.times[-1]).x for body in motion.bodies]
-        for cloud in motion.clouds:
-            x = cloud.at(selection.times[-1]).x
-            parts.append(np.concatenate([x, x * [1, -1, 1]]) if cloud.mirrored else x)
-        together = np.concatenate([part for part in parts if len(part)])
-        low, high = together.min(axis=0), together.max(axis=0)
-        middle = 0.5 * (low + high)
-        middle[1] = 0.0 if motion.bodies_mirrored else middle[1]
-        centres.append(middle)
-        sizes.append(float(np.linalg.norm(high - low)))
-        sides += [low[1], high[1]]
+        end = selection.times[-1]
+        for body in selection.motion.bodies:
+            sides += body.at(end).x[:, 1].tolist()
+        for cloud in selection.motion.clouds:
+            y = cloud.at(end).x[:, 1]
+            sides += [*y, *(-y if cloud.mirrored else ())]
     reach = 0.01 * (max(sides) - min(sides))
-    cut = [float(min(sides)) - reach, float(max(sides)) + reach]
-    centre: list[float] = np.mean(centres, axis=0).tolist()
-    return centre, max(sizes), cut
+    return [min(sides) - reach, max(sides) + reach]
 
 
-def _stage(labels: Sequence[str]) -> str:
-    """Canvas, labels, legend and controls."""
-    names = "".join(f'<div class="furrow-label">{escaped(label)}</div>' for label in labels)
+def _stage(labels: Sequence[str], results: Sequence[str]) -> str:
+    """Canvas, labels with results, scales, legend and controls."""
+    names = "".join(
+        f'<div class="furrow-label"><div class="furrow-name">{escaped(label)}</div>{escaped(result)}</div>'
+        for label, result in zip(labels, results)
+    )
+    scales = '<div class="furrow-scale"></div>' * len(labels)
     looks = "".join(
         f'<button type="button" data-look="{look}">{look}</button>'
         for look in ("oblique", "side", "front", "above")
@@ -282,13 +281,14 @@ def _stage(labels: Sequence[str]) -> str:
         f'<option value="{speed}"{" selected" if speed == 1 else ""}>{speed} x</option>'
         for speed in (0.25, 0.5, 1, 2)
     )
-    return f"""<div class="furrow-stage">
+    return f"""<div class="furrow-labels">{names}</div>
+<div class="furrow-stage">
 <canvas class="furrow-canvas" aria-label="runs in 3D"></canvas>
-<div class="furrow-labels">{names}</div>
-<div class="furrow-legend"><div class="furrow-unit"></div><div class="furrow-bar"></div>
-<div class="furrow-ticks"></div></div>
+{scales}
 <div class="furrow-message">loading</div>
 </div>
+<div class="furrow-legend"><div class="furrow-unit"></div><div class="furrow-bar"></div>
+<div class="furrow-ticks"></div></div>
 <div class="furrow-input">
 <button type="button" class="furrow-play">play</button>
 <input class="furrow-time" type="range" min="0" max="0" value="0" aria-label="time"/>

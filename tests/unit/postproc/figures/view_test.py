@@ -3,10 +3,12 @@
 
 import re
 import unittest
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from furrow_post.arrays import Floats, Integers
 from support.browser import Browser
 from support.command import run_post
 from support.folder import SharedFolderTest
@@ -20,12 +22,27 @@ from support.motion import (
     settlement,
     write_moving_run,
     write_rolling_wheel,
+    write_vtp,
 )
 from support.runs import RADIUS
 
 BEHIND = 3 * RADIUS  # of a rear wheel [m]
 READY = "document.querySelector('.furrow-view')?.dataset.ready == 'yes'"
-STAGE = (slice(50, 280), slice(30, 610))  # rows and columns of a screenshot inside the canvas
+EDGE = 6  # [pixel] of the canvas
+
+
+def write_body(folder: Path, x: Floats, triangles: Integers) -> None:
+    """A run on grains with this body, which does not move, in place of the wheel."""
+    write_moving_run(folder)
+    for k in range(FRAMES):
+        write_vtp(folder / "vtk" / f"wheel_{k}.vtp", x, triangles, velocity=0 * x)
+
+
+def box() -> tuple[Floats, Integers]:
+    """Corners and triangles of a cube."""
+    x = np.array([[i, j, k] for i in (0.0, 0.3) for j in (0.0, 0.3) for k in (0.3, 0.6)])
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return x, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
 
 
 class ViewTest(SharedFolderTest):
@@ -55,8 +72,15 @@ class ViewTest(SharedFolderTest):
         )
 
     def stage(self) -> Any:
-        """Pixels of the canvas, without the rows of labels and legend."""
-        return self.browser.screenshot()[STAGE][:, :, :3]
+        """Pixels of the canvas."""
+        left, top, right, bottom = self.browser.evaluate(
+            "(() => { const r = document.querySelector('canvas').getBoundingClientRect();"
+            "return [r.left, r.top, r.right, r.bottom].map(Math.round); })()"
+        )
+        return self.browser.screenshot()[top:bottom, left:right, :3]
+
+    def time(self) -> float:
+        return float(self.browser.evaluate("document.querySelector('.furrow-time').value"))
 
     def changed(self, before: Any, after: Any) -> float:
         """Share of pixels that differ."""
@@ -124,6 +148,7 @@ class ViewTest(SharedFolderTest):
 
     def test_time_cut_colour_and_camera_change_the_picture(self) -> None:
         self.show("grains")
+        self.set("time", 0)
         start = self.stage()
         self.set("time", FRAMES - 1)
         end = self.stage()
@@ -145,6 +170,91 @@ class ViewTest(SharedFolderTest):
         self.assertGreater(self.changed(end, self.stage()), 0.05)
         self.assertEqual(self.browser.troubles, [])
 
+    def test_opens_at_the_end_with_everything_in_view(self) -> None:
+        for folders in (("grains",), ("grains", "continuum")):
+            self.show(*folders)
+            self.assertEqual(self.time(), FRAMES - 1)
+            for look in ("oblique", "side", "front", "above"):
+                self.browser.evaluate(f"document.querySelector('[data-look={look}]').click()")
+                stage = self.stage()
+                drawn = np.abs(stage - stage[1, 1]).max(axis=2) > 0.05
+                for edge in (drawn[:EDGE], drawn[-EDGE:], drawn[:, :EDGE], drawn[:, -EDGE:]):
+                    self.assertFalse(edge.any(), look)
+                if look == "oblique":  # and no larger than needed
+                    self.assertGreater(np.ptp(np.flatnonzero(drawn.any(axis=0))), 0.6 * drawn.shape[1])
+
+    def test_scale_result_and_error_are_on_the_page(self) -> None:
+        self.show("grains")
+        label = self.browser.evaluate("document.querySelector('.furrow-label').textContent")
+        self.assertEqual(
+            label, "grainshub drop 50 ± 1 mm, resistance coefficient 0.20 ± 0.01, slip 20 %"
+        )
+        text, pixels = self.browser.evaluate(
+            "(() => { const { view } = document.querySelector('.furrow-view');"
+            "const ends = [-0.5, 0.5].map((at) => view.runs[0].scale.localToWorld("
+            "new view.controls.target.constructor(at, 0, 0)).project(view.camera).x);"
+            "return [document.querySelector('.furrow-scale').textContent, ends[1] - ends[0]]; })()"
+        )
+        self.assertEqual(text, "500 mm")
+        centre = self.browser.evaluate(
+            "(() => { const { view } = document.querySelector('.furrow-view');"
+            "return [view.runs[0].scale.scale.x, view.length]; })()"
+        )
+        self.assertEqual(centre, [0.5, 0.5])  # [m]
+        self.assertGreater(pixels, 0.1)
+
+    def test_legend_covers_no_ground(self) -> None:
+        self.show("grains")
+        bottom, top = self.browser.evaluate(
+            "[document.querySelector('canvas').getBoundingClientRect().bottom,"
+            "document.querySelector('.furrow-legend').getBoundingClientRect().top]"
+        )
+        self.assertGreaterEqual(top, bottom)
+
+    def test_wheel_is_shaded_smoothly(self) -> None:
+        """Corners that meet on a rim have one normal; a square box keeps its edges."""
+        self.show("grains")
+        self.assertLess(self.spread_of_normals(), 1e-3)
+        write_body(self.folder / "box", *box())
+        self.show("box")
+        self.assertGreater(self.spread_of_normals(), 1.0)
+
+    def spread_of_normals(self) -> float:
+        """Largest distance of the normals of corners at one place."""
+        return float(
+            self.browser.evaluate(
+                "(() => { const [body] = document.querySelector('.furrow-view').view.runs[0].bodies;"
+                "const found = new Map(); let most = 0;"
+                "body.triangles.forEach((node, k) => {"
+                "  const own = body.normals.slice(3 * k, 3 * k + 3), other = found.get(node);"
+                "  if (other) most = Math.max(most, Math.hypot(...own.map((x, i) => x - other[i])));"
+                "  else found.set(node, own); }); return most; })()"
+            )
+        )
+
+    def test_no_grain_that_touches_pokes_through(self) -> None:
+        """A sheet that cuts 3 cm off the grains below it is seen whole from above."""
+        low, high = np.array([0.5, 0.0]), np.array([0.9, 0.25])
+        x = np.array([[x, y, LEVEL - 0.03] for x in (low[0], high[0]) for y in (low[1], high[1])])
+        write_body(self.folder / "sheet", x, np.array([[0, 1, 2], [1, 3, 2]]))
+        self.show("sheet")
+        self.browser.evaluate("document.querySelector('[data-look=above]').click()")
+        corners = self.browser.evaluate(
+            "(() => { const { view } = document.querySelector('.furrow-view'), [run] = view.runs;"
+            "const Vector = view.controls.target.constructor;"
+            f"return {x.tolist()}.map((p) => {{ const s = new Vector(...p); s.x += run.root.position.x;"
+            "s.project(view.camera); return [s.x, s.y]; }); })()"
+        )
+        stage = self.stage()
+        rows, columns = stage.shape[:2]
+        across, up = np.array(corners).T
+        left, right = (int((0.5 + 0.5 * end) * columns) for end in (across.min(), across.max()))
+        top, bottom = (int((0.5 - 0.5 * end) * rows) for end in (up.max(), up.min()))
+        inside = stage[top + 3 : bottom - 3, left + 3 : right - 3]
+        self.assertGreater(inside.size, 3000)
+        sand = inside[:, :, 0] - inside[:, :, 2] > 0.15
+        self.assertFalse(sand.any())
+
     def test_play_goes_to_the_end(self) -> None:
         self.show("grains")
         self.browser.evaluate("document.querySelector('.furrow-speed').value = 2")
@@ -161,7 +271,7 @@ class ViewTest(SharedFolderTest):
         for half in (slice(0, middle), slice(middle, None)):
             self.assertGreater(self.changed(before[:, half], after[:, half]), 0.02)
         labels = self.browser.evaluate(
-            "[...document.querySelectorAll('.furrow-label')].map((e) => e.textContent)"
+            "[...document.querySelectorAll('.furrow-name')].map((e) => e.textContent)"
         )
         self.assertEqual(labels, ["grains", "continuum"])
         self.assertEqual(self.browser.troubles, [])
@@ -172,7 +282,7 @@ class ViewTest(SharedFolderTest):
         page = self.folder / "small.html"
         done = run_post("view", self.folder / "large", "-o", page, "--size", library + 0.1)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertLess(page.stat().st_size, 1e6 * (library + 0.12))  # and the page's own words
+        self.assertLess(page.stat().st_size, 1e6 * (library + 0.13))  # and the page's own words
         note = re.search(r"one of (\d+) points, enlarged", page.read_text(encoding="utf-8"))
         assert note
         self.assertGreater(int(note[1]), 1)
