@@ -51,6 +51,8 @@ MATHJAX_UNUSED = ("HTML-CSS", "CommonHTML", "PreviewHTML", "NativeMML", "STIX-We
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"  # in _static
 mathjax2_config = {"tex2jax": {"processClass": "tex2jax_process|mathjax_process|math"}}
 html_theme = "furo"
+html_static_path = ["static"]
+html_css_files, html_js_files = ["tables.css"], ["tables.js"]
 html_title = f"Furrow {version}"
 html_copy_source = False
 html_show_copyright = False
@@ -69,7 +71,8 @@ CONTENTS = (
                  "inputs/README", "inputs/environment", "src/programs/*")),
     ("Styles of the script", ("coupling/README", "coupling/[!l]*/*")),
     ("Theory", ("src/theory/README", "src/theory/*")),
-    ("Accuracy", ("inputs/validation/README", "inputs/validation/*/README",
+    ("Accuracy", ("inputs/validation/README", "inputs/validation/report_findings",
+                  "inputs/validation/*/README",
                   "inputs/crosscheck/README", "inputs/laboratory/*", "tests/reliability",
                   REFERENCES)),
     ("Extend", ("CONTRIBUTING", HEADERS, "src/**/*", "coupling/liggghts/*", "tests/**/*",

@@ -27,6 +27,11 @@ UNITS = {  # of the parameters; lists of two numbers have the unit of the last c
 REMEDY = "write it with furrow-soil card"
 
 
+INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
+REACHED = 0.98  # of it, by the last row of a test
+STANDARD_CONE = 0.02027  # [m] base of 323 mm2, ASABE S313.3
+
+
 @dataclass(frozen=True)
 class Fitted:
     """A parameter with its standard error."""
@@ -89,6 +94,19 @@ class Cone:
     size: float  # diameter of the base [m]
     angle: float  # of the tip [degrees]
 
+    @property
+    def spread(self) -> float:
+        """Standard deviation of the pressure over the depth [Pa]: of a straight line."""
+        return abs(self.gradient.value) * (self.depth.high - self.depth.low) / math.sqrt(12)
+
+    def mean_text(self) -> str:
+        """What the index is a mean of, with the spread; and where formulas cannot take it."""
+        depth = f"0 to {1e3 * self.depth.high:.0f} mm"
+        text = f"cone index: mean over {depth}, spread over the depth {self.spread:.2g} Pa"
+        if self.size == STANDARD_CONE and self.depth.high < REACHED * INDEX_DEPTH:
+            text += f"; formulas need the mean over 0 to {1e3 * INDEX_DEPTH:.0f} mm: push the cone deeper"
+        return text
+
 
 SECTIONS: dict[str, tuple[type, str]] = {
     "pressure_sinkage": (PressureSinkage, "plates"),
@@ -134,6 +152,9 @@ class SoilCard:
                 )
         assert isinstance(plate, PressureSinkage) and isinstance(shear, Shear)
         return plate, shear
+
+    def index_text(self) -> list[str]:
+        return [self.cone.mean_text()] if isinstance(self.cone, Cone) else []
 
     def condition(self) -> str:
         """Where the values hold, for a person and for the files of other codes."""
@@ -191,7 +212,8 @@ class SoilCard:
         lines += [f"  {instrument}: no result, {why}" for instrument, why in self.failures().items()]
         for meaning, span, unit in self.ranges():
             lines.append(f"  {meaning:38} {span.low:.3g} to {span.high:.3g} {unit}")
-        return "\n".join([*lines, f"  {self.condition()}", *(f"  note: {note}" for note in self.notes)])
+        notes = [*self.index_text(), *self.notes]
+        return "\n".join([*lines, f"  {self.condition()}", *(f"  note: {note}" for note in notes)])
 
 
 def shown(fitted: Fitted) -> str:

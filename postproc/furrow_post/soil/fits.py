@@ -16,7 +16,7 @@ from scipy.optimize import least_squares
 from ..analyse.statistics import line_fit
 from ..arrays import Floats
 from ..errors import ResultsError
-from ..read.soil_card import Cone, Fitted, PressureSinkage, Range, Shear
+from ..read.soil_card import INDEX_DEPTH, Cone, Fitted, PressureSinkage, Range, Shear
 
 FIRST = 0.05  # of the greatest sinkage: where a fit begins, behind first touch
 LARGEST_CONDITION = 1e14  # of the normal equations
@@ -25,7 +25,6 @@ LARGEST_OFF_LOAD = 2.0  # ratio of what a ring carries and its load
 LARGEST_SINKING = 0.4  # of the shear displacement: the correction was checked up to 0.3
 LARGEST_SPEED_STRESS = 0.5  # of the shear stress under the first load
 LARGEST_RESIDUAL = 0.1  # rms over the largest value of a curve
-INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from ..csv_table import read_matrix
 from ..errors import ResultsError
 from ..programs import inputs_folder
 from ..read.script import script_variables
+from ..read.soil_card import STANDARD_CONE
 from ..run.case import Case, Value, script_case
 from ..run.executor import Executor
 from ..run.tools import Tools
@@ -31,7 +32,6 @@ PRESS = 0.015  # [m] that the drive would move in the time of pressing
 # of the ring by more than its load, and the ring's ground has SCALED. Sand has 20 to 100, snow 1000 to 4000
 STIFF, SCALED = 500, 100
 SOFTEST = 0.01  # modulus_scale of terrain/continuum
-CONE_BASE = 0.02027  # [m] 323 mm2, ASABE S313.3
 CONE_ANGLE = 30.0  # [degrees]
 
 
@@ -158,14 +158,14 @@ def ring_curve(rows: Floats, outer: float, inner: float, speed: float, pressure:
 def cone_test(bench: Bench, depth: float, cells: int) -> ConeCurve:
     """The cone of 30 degrees and 323 mm2, until its base is at a depth [m]."""
     values = {
-        "size": CONE_BASE,
+        "size": STANDARD_CONE,
         "angle": CONE_ANGLE,
         "depth_of_base": depth,
         "cells": cells,
         "speed": bench.speed(CONE_PACE),
     }
     (run,) = bench.executor.completed([bench.case("cone", "cone", values)])
-    return cone_curve(read_curve(run.folder), CONE_BASE)
+    return cone_curve(read_curve(run.folder), STANDARD_CONE)
 
 
 def cone_curve(rows: Floats, size: float) -> ConeCurve:

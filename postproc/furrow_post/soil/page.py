@@ -10,8 +10,8 @@ import numpy as np
 
 from ..figures.page import document, html_table, inline_picture, paragraph
 from ..figures.style import KILOPASCAL, MILLIMETRE, RUN_COLOURS, annotate_panel, save, use_style
-from ..read.soil_card import UNITS, Cone, PressureSinkage, Shear, SoilCard
-from .fits import INDEX_DEPTH, ConeCurve, PlateCurve, ShearCurve
+from ..read.soil_card import INDEX_DEPTH, UNITS, Cone, PressureSinkage, Shear, SoilCard
+from .fits import ConeCurve, PlateCurve, ShearCurve
 
 FITTED = {"color": "0.25", "lw": 1.0, "ls": "--"}
 
@@ -38,6 +38,8 @@ def draw_card(card: SoilCard, curves: Curves, target: Path) -> None:
             fit = card.pressure_sinkage.at(z, curve.radius)
             axes[0].plot(MILLIMETRE * z, KILOPASCAL * fit, **FITTED)
     axes[0].set(xlabel="sinkage [mm]", ylabel="mean pressure [kPa]", xlim=(0, None), ylim=(0, None))
+    if isinstance(card.pressure_sinkage, PressureSinkage):
+        axes[0].plot([], [], label="card", **FITTED)
     annotate_panel(axes[0], "a", "plates")
     for ring, colour in zip(curves.rings, RUN_COLOURS):
         label = f"normal stress {KILOPASCAL * ring.normal.mean():.3g} kPa"
@@ -45,15 +47,22 @@ def draw_card(card: SoilCard, curves: Curves, target: Path) -> None:
         axes[1].plot(j, KILOPASCAL * ring.shear, color=colour, label=label)
         if isinstance(card.shear, Shear):
             axes[1].plot(j, KILOPASCAL * card.shear.at(ring.displacement, ring.normal), **FITTED)
-    axes[1].set(xlabel="shear displacement [mm]", ylabel="shear stress [kPa]", xlim=(0, None), ylim=(0, None))
+    if isinstance(card.shear, Shear):
+        stress = KILOPASCAL * card.shear.speed_stress.value
+        axes[1].plot([], [], label=f"card, without {stress:.2g} kPa of the speed", **FITTED)
+    axes[1].set(xlabel="shear displacement [mm]", ylabel="shear stress [kPa]", xlim=(0, None))
+    axes[1].set_ylim(0, 1.4 * axes[1].get_ylim()[1])  # room for the legend
     annotate_panel(axes[1], "b", "shear ring")
     for cone, colour in zip(curves.cones, RUN_COLOURS):
         label = f"base {MILLIMETRE * cone.size:.3g} mm"
         axes[2].plot(KILOPASCAL * cone.pressure, MILLIMETRE * cone.depth, color=colour, label=label)
     if curves.cones:
         if isinstance(card.cone, Cone):
-            index = KILOPASCAL * card.cone.index.value
-            axes[2].plot((index, index), (0, MILLIMETRE * card.cone.depth.high), label="cone index", **FITTED)
+            index, spread = KILOPASCAL * card.cone.index.value, KILOPASCAL * card.cone.spread
+            depth = 0, MILLIMETRE * card.cone.depth.high
+            axes[2].plot((index, index), depth, label=f"index, mean to {depth[1]:.0f} mm", **FITTED)
+            low, high = index - spread, index + spread
+            axes[2].fill_betweenx(depth, low, high, color="0.6", alpha=0.25, lw=0, label="its spread")
         axes[2].set(
             xlabel="pressure on the base [kPa]",
             ylabel="depth of the base [mm]",
@@ -76,6 +85,6 @@ def write_page(card: SoilCard, picture: Path, target: Path) -> None:
         "<h2>Range of the tests</h2>",
         html_table(("quantity", "from", "to", "unit"), spans, (1, 2)),
         *(paragraph(f"No result of the {name}: {why}") for name, why in card.failures().items()),
-        *(paragraph(note) for note in card.notes),
+        *(paragraph(note) for note in (*card.index_text(), *card.notes)),
     ]
     target.write_text(document(card.title, f"Ground: {card.ground}; {card.condition()}", parts), encoding="utf-8")

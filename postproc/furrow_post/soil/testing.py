@@ -10,7 +10,7 @@ import numpy as np
 
 from ..analyse.statistics import rms
 from ..errors import ResultsError
-from ..read.soil_card import Cone, NoResult, Shear, SoilCard, write_card
+from ..read.soil_card import INDEX_DEPTH, Cone, NoResult, Shear, SoilCard, write_card
 from .exports import EXPORTS
 from .fits import ShearCurve, cone_index, fit_plates, fit_shear
 from .grain_cone import cone_notes, fit_grain_cones, widest
@@ -57,8 +57,8 @@ class Effort:
     cone_depth: float  # [m] of the base
 
 
-FULL = Effort(6, 2, 3, (0.03, 0.06, 0.12), 0.003, 0.15)
-QUICK = Effort(4, 2, 2, (0.03, 0.12), 0.003, 0.04)
+FULL = Effort(6, 2, 3, (0.03, 0.06, 0.12), 0.003, INDEX_DEPTH)
+QUICK = Effort(4, 2, 2, (0.03, 0.12), 0.003, INDEX_DEPTH)
 
 
 def make_card(

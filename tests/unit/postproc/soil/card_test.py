@@ -75,6 +75,15 @@ class SoilCardTest(FolderTest):
         self.assertIn("| 150 ± 60 |", markdown([CARD]))
         self.assertEqual(CARD.texts()["phi"], "29.25 ± 0.5")
 
+    def test_cone_index_states_depth_and_spread(self) -> None:
+        assert isinstance(CARD.cone, Cone)
+        spread = 8e5 * 0.15 / math.sqrt(12)  # of a straight line
+        self.assertAlmostEqual(CARD.cone.spread, spread)
+        self.assertIn("cone index: mean over 0 to 150 mm, spread over the depth 3.5e+04 Pa", CARD.report())
+        self.assertNotIn("push the cone deeper", CARD.report())
+        short = replace(CARD, cone=replace(CARD.cone, depth=Range(0.0, 0.04)))
+        self.assertIn("formulas need the mean over 0 to 150 mm: push the cone deeper", short.report())
+
     def test_chrono_has_the_card_in_its_own_keys(self) -> None:
         target = self.folder / "scm.json"
         write_chrono(CARD, target)

@@ -92,6 +92,13 @@ class CardCommandTest(FolderTest):
     def runs(self) -> list[str]:
         return (self.folder / "log.txt").read_text().split()
 
+    def test_a_quick_card_has_the_cone_index_of_formulas(self) -> None:
+        done = self.soil("card", "dry_sand_smooth", "--quick", "-o", "card")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("cone index: mean over 0 to 150 mm, spread", done.stdout)
+        index = read_card(self.folder / "card" / "card.yaml").parameters()["index"]
+        self.assertAlmostEqual(index.value / (CONE[0] + 0.075 * CONE[1]), 1, delta=0.01)
+
     def test_the_card_has_the_parameters_of_the_ground(self) -> None:
         done = self.soil("card", "dry_sand_smooth", "-o", "card")
         self.assertEqual(done.returncode, 0, done.stderr)
