@@ -101,7 +101,8 @@ def comparison_report(result: Comparison) -> str:
     said = [f"  {verdict}" for verdict in verdicts if verdict]
     said += [f"  - {sentence}" for sentence in findings(result)]
     lines += ["", "Verdict", *(said or ["  none: there is nothing to compare the run with"])]
-    if needed := remedies([*result.verdicts, *result.best_estimates]):
+    judged = (*result.verdicts, *result.best_estimates)
+    if needed := remedies([part for verdict in judged for part in verdict.unknown]):
         lines += ["", "To find what is unknown", *(f"  - {line}" for line in needed)]
     return "\n".join(lines)
 

@@ -20,13 +20,16 @@ from ..csv_table import in_cells, write_rows
 from ..errors import ResultsError, content_of
 from ..formatting import percent
 from ..read.laboratory import LaboratoryTest, PointRun, cell_curve
+from ..read.wheel_run import GROUNDS_OF_CELLS
 from .cost_table import Components
 from .entry import BEST, RUN, Entry
+from .judgement import remedies
 from .statistics import commonest, rms
-from .verdict import Quantity
+from .verdict import COVERAGE, Quantity
 
 PLATE_LEVELS = (0.05, 0.1, 0.2, 0.3, 0.5)  # sinkage over depth of the ground
 STRESS_LEVELS = (2e3, 1e4, 5e4, 1e5, 2e5, 5e5)  # [Pa]
+SAME = 1e-3  # of a value: curves of material points without an error agree within it
 TOLERANCES = {"size": 0.02, "depth": 0.06, "density": 0.1, "speed": 0.02}  # relative
 
 
@@ -65,6 +68,15 @@ class Curve:
     def size(self) -> float:
         """Of cells or grains [m], NaN where it is not known."""
         return self.facts.get("cell", self.facts.get("diameter", math.nan))
+
+    @property
+    def unknown(self) -> list[str]:
+        """Parts of its error that are unknown: "size of soft". A material point has none."""
+        if self.kind is CurveKind.OEDOMETER:
+            parts = [] if self.ground in GROUNDS_OF_CELLS else ["packing", "size"]
+        else:
+            parts = ["domain", "size"] + ([] if self.ground in GROUNDS_OF_CELLS else ["packing"])
+        return [f"{part} of {self.label}" for part in sorted(parts)]
 
     @property
     def box(self) -> float:
@@ -157,6 +169,18 @@ class CurveComparison:
     def kind(self) -> CurveKind:
         return self.curves[0].kind
 
+    @property
+    def unknown(self) -> list[str]:
+        return [part for curve in self.curves for part in curve.unknown]
+
+    def verdict(self) -> str:
+        """The curves agree, differ, or that is inconclusive, in one line."""
+        if self.unknown:
+            return f"Inconclusive in {self.kind.compared}; unknown: {', '.join(self.unknown)}."
+        allowed = COVERAGE * np.hypot(self.errors[:, 1:], self.errors[:, :1]) + SAME * self.values[:, :1]
+        agree = bool(np.all(np.abs(self.values[:, 1:] - self.values[:, :1]) <= allowed))
+        return f"The curves {'agree' if agree else 'differ'} in {self.kind.compared}."
+
 
 def compare_curves(curves: Sequence[Curve], anyway: bool = False) -> CurveComparison:
     """Values at common levels. @raises ResultsError where tests are not the same"""
@@ -192,7 +216,7 @@ def compare_curves(curves: Sequence[Curve], anyway: bool = False) -> CurveCompar
         worst = int(np.argmax(np.abs(ratio)))
         mean, most = (percent(math.exp(v) - 1) for v in (ratio.mean(), ratio[worst]))
         result.findings.append(
-            f"{kind.compared}: {curve.label} differs from {curves[0].label} by {mean} on average, "
+            f"{kind.compared}: {curve.label} over {curves[0].label}: {mean} on average, "
             f"rms ln-ratio {rms(ratio):.3f}, most at {kind.level_text(levels[worst])}: {most}"
         )
     return result
@@ -228,7 +252,10 @@ def curve_report(result: CurveComparison) -> str:
         cells = "".join(f"{scale * v:{wide}.4g}" for v in row)
         lines.append(f"{result.kind.level_text(level):14}{cells}")
     lines += ["", *(f"COMPARED ALTHOUGH THEY DIFFER: {d}" for d in result.differences)]
-    return "\n".join([*lines, "Verdict", *(f"  - {finding}" for finding in result.findings)])
+    lines += ["Verdict", f"  {result.verdict()}", *(f"  - {finding}" for finding in result.findings)]
+    if needed := remedies(result.unknown):
+        lines += ["", "To find what is unknown", *(f"  - {line}" for line in needed)]
+    return "\n".join(lines)
 
 
 def write_curves(result: CurveComparison, folder: Path) -> None:

@@ -60,11 +60,11 @@ def largest_part(*entries: Entry) -> str:
     return max(parts)[1]
 
 
-def remedies(verdicts: Sequence[Verdict]) -> list[str]:
-    """What finds the unknown parts: a line for each, and the command that evaluates the runs."""
+def remedies(unknown: Sequence[str]) -> list[str]:
+    """What finds unknown parts such as "size of a": a line for each, and the command that evaluates the runs."""
     lines = []
     for part, (name, runs) in PARTS.items():
-        of_part = [u.partition(" of ")[2] for v in verdicts for u in v.unknown if u.startswith(f"{part} of ")]
+        of_part = [u.partition(" of ")[2] for u in unknown if u.startswith(f"{part} of ")]
         if of_part:
             lines.append(f"{name} ({', '.join(dict.fromkeys(of_part))}): {runs}")
     return [*lines, TABLE_OF_RUNS] if lines else []

@@ -10,6 +10,7 @@ import numpy as np
 from furrow_post.analyse import comparison, comparison_report, conditions
 from furrow_post.analyse.comparison import Comparison, overall, overall_of_best_estimates
 from furrow_post.analyse.cost_table import Components, families
+from furrow_post.analyse.curves import Curve, CurveKind, compare_curves
 from furrow_post.analyse.density import height_left
 from furrow_post.analyse.entry import FORMULA, BEST, MEASURED, RUN, Entry, best_estimates
 from furrow_post.analyse.judgement import judge, remedies
@@ -60,12 +61,31 @@ class JudgeTest(unittest.TestCase):
 
     def test_each_unknown_part_has_the_run_that_finds_it(self) -> None:
         other = Entry(HUB_DROP, "b", 0.1, Components(time=0.001), RUN)
-        sizes, ground, packings, command = remedies([judge(entry("a", 0.1, 0.001), other)])
+        sizes, ground, packings, command = remedies(judge(entry("a", 0.1, 0.001), other).unknown)
         self.assertRegex(sizes, r"^size of cells or grains \(b\): .*-v cell")
         self.assertRegex(ground, r"^size of the ground \(b\): .*-v width")
         self.assertRegex(packings, r"^packing of grains \(b\): .*-v seed")
         self.assertIn("furrow-post cost RUNS... --write errors.csv", command)
-        self.assertEqual(remedies([judge(entry("a", 0.1, 0.001), entry("b", 0.1, 0.001))]), [])
+        self.assertEqual(remedies(judge(entry("a", 0.1, 0.001), entry("b", 0.1, 0.001)).unknown), [])
+
+
+class CurvesTest(unittest.TestCase):
+    def verdict(self, factor: float, ground: str = "continuum") -> str:
+        stress = np.geomspace(1e3, 1e6, 30)
+        density = 1 + 0.1 * np.log(stress / 1e3)
+        curves = [
+            Curve(label, CurveKind.OEDOMETER, ground, stress, y, {"density": 200.0}, np.zeros(30))
+            for label, y in (("a", density), ("b", factor * density))
+        ]
+        return compare_curves(curves).verdict()
+
+    def test_material_points_agree_or_differ(self) -> None:
+        what = "compression (density over that at the start) at equal stress"
+        self.assertEqual(self.verdict(1.0), f"The curves agree in {what}.")
+        self.assertEqual(self.verdict(1.01), f"The curves differ in {what}.")
+
+    def test_grains_of_one_packing_and_size_are_inconclusive(self) -> None:
+        self.assertIn("unknown: packing of a, size of a, packing of b", self.verdict(1.0, "grains"))
 
 
 class OverallTest(unittest.TestCase):

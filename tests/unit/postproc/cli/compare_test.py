@@ -87,8 +87,10 @@ class CompareCommandTest(SharedFolderTest):
         write_plate(self.folder / "large", 1e6, size=0.2)
         done = self.run_post("compare", "soft", "stiff", "-o", "plates")
         self.assertEqual(done.returncode, 0, done.stderr)
-        message = "stiff differs from soft by +50 % on average, rms ln-ratio 0.405"
+        message = "stiff over soft: +50 % on average, rms ln-ratio 0.405"
         self.assertIn(message, done.stdout)
+        self.assertIn("Inconclusive in pressure at equal sinkage; unknown: domain of soft, ", done.stdout)
+        self.assertIn("  - size of cells or grains (soft, stiff): ", done.stdout)
         with open(self.folder / "plates" / "compare.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
         self.assertEqual([float(r["level"]) for r in rows], [0.0025, 0.005, 0.01, 0.015])
