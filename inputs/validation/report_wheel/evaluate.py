@@ -27,4 +27,5 @@ def closed_form(*_: Any) -> Iterator[dict[str, Any]]:
 def nrmm(depth: float, density: float) -> tuple[float, float, float]:
     """Sinkage [m] and resistance coefficients, whose factors of deep snow go by the sinkage, then by the depth."""
     z = empirical.nrmm_sinkage(depth, density, PRESSURE)
-    return z, *(empirical.nrmm_resistance(density, WIDTH, RADIUS, z, deep) / LOAD for deep in (None, depth))
+    by_sinkage, by_depth = (empirical.nrmm_resistance(density, WIDTH, RADIUS, z, deep) / LOAD for deep in (None, depth))
+    return z, by_sinkage, by_depth

@@ -261,7 +261,7 @@ def _sides(chosen: Sequence[_Selection]) -> list[float]:
             sides += body.at(end).x[:, 1].tolist()
         for cloud in selection.motion.clouds:
             y = cloud.at(end).x[:, 1]
-            sides += [*y, *(-y if cloud.mirrored else ())]
+            sides += [*y, *-y] if cloud.mirrored else [*y]
     reach = 0.01 * (max(sides) - min(sides))
     return [min(sides) - reach, max(sides) + reach]
 

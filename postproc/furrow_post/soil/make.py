@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 from ..arrays import Floats
 from ..csv_table import read_rows
 from ..errors import ResultsError
-from .fits import INDEX_DEPTH
+from ..read.soil_card import INDEX_DEPTH
 from .material import NewMaterial, Parameter
 from .units import EARTH, require_plausible
 

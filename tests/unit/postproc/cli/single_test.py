@@ -6,6 +6,7 @@ import json
 import shutil
 import unittest
 from pathlib import Path
+from typing import Any
 
 import h5py
 import matplotlib.image
@@ -16,7 +17,7 @@ from support.folder import SharedFolderTest
 from support.runs import write_noisy_history
 from support.rut import write_rut
 
-SUMMARY = {
+SUMMARY: dict[str, Any] = {
     "window": {"start": 0.9, "end": 3.9},
     "steady": False,
     "quantities": {
