@@ -2,7 +2,7 @@
 """Pressure-sinkage and shear values of terrains: terrains.csv and soil cards. SI units."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +11,9 @@ from ..arrays import Floats
 from ..csv_table import read_rows
 from ..errors import ResultsError
 from ..read.soil_card import read_card
+
+
+VALUES = ("n", "c", "phi", "K", "c1", "c2")
 
 
 @dataclass(frozen=True)
@@ -29,6 +32,13 @@ class TerrainValues:
     c1: float
     c2: float
     deepest: float = math.inf  # sinkage of the plates behind the values [m]
+    assumed: tuple[str, ...] = ()  # values that no source of this ground has, in words
+
+    def report(self) -> str:
+        """The values in a line for a person."""
+        names = ("k_c", "k_phi") if self.pressure == "bekker" else ("k_1", "k_2")
+        values = (*zip(names, (self.k_1, self.k_2)), *((name, getattr(self, name)) for name in VALUES))
+        return ", ".join(f"{name} {value:.6g}" for name, value in values if math.isfinite(value))
 
     def modulus(self, width: float) -> float:
         """k of p = k z^n [Pa/m^n] under a contact of this width [m].
@@ -55,24 +65,31 @@ class TerrainValues:
 def terrains() -> dict[str, TerrainValues]:
     """Name -> values, from terrains.csv."""
     numeric = ("k_1", "k_2", "n", "c", "phi", "K", "c1", "c2")
-    return {
-        row["name"]: TerrainValues(
-            row["name"],
-            row["kind"],
-            row["pressure"],
-            *(float(row[key]) if row[key] else math.nan for key in numeric),
-        )
-        for row in read_rows(Path(__file__).with_name("terrains.csv"))
-    }
+    found = {}
+    for row in read_rows(Path(__file__).with_name("terrains.csv")):
+        k_1, k_2, n, c, phi, K, c1, c2 = (float(row[key]) if row[key] else math.nan for key in numeric)
+        found[row["name"]] = TerrainValues(row["name"], row["kind"], row["pressure"], k_1, k_2, n, c, phi, K, c1, c2)
+    return found
 
 
-CARD = ".yaml"  # ending of a soil card
+CARD = (".yaml", ".yml", ".json")  # endings of a soil card
 LOOSE_SAND = "Wong-Reece loose sand"
 
 
+def with_stress_place(ground: TerrainValues) -> TerrainValues:
+    """No plate gives c1 and c2, the place of the greatest stress: without them, those of loose sand."""
+    sand, assumed = terrains()[LOOSE_SAND], ground.assumed
+    for name in ("c1", "c2"):
+        if math.isnan(getattr(ground, name)):
+            value = getattr(sand, name)
+            ground = replace(ground, **{name: value})
+            assumed += (f"{name} {value:g}, that of {LOOSE_SAND}; give --{name}",)
+    return replace(ground, assumed=assumed)
+
+
 def terrain_of_card(path: Path) -> TerrainValues:
-    """Of a soil card. No plate gives c1 and c2: those of loose sand. @raises OSError, ResultsError"""
-    card, sand = read_card(path), terrains()[LOOSE_SAND]
+    """Of a soil card. @raises OSError, ResultsError"""
+    card = read_card(path)
     plate, shear = card.bekker_and_shear()
     return TerrainValues(
         card.title,
@@ -84,8 +101,8 @@ def terrain_of_card(path: Path) -> TerrainValues:
         shear.c.value,
         shear.phi.value,
         shear.K.value,
-        sand.c1,
-        sand.c2,
+        card.c1,
+        card.c2,
         plate.sinkage.high,
     )
 
@@ -93,7 +110,7 @@ def terrain_of_card(path: Path) -> TerrainValues:
 def terrain(name: str) -> TerrainValues:
     """A row of terrains.csv, or a soil card by its file. @raises ResultsError for an unknown name"""
     if name.endswith(CARD):
-        return terrain_of_card(Path(name))
+        return with_stress_place(terrain_of_card(Path(name)))
     known = terrains()
     if name not in known:
         raise ResultsError(f"there is no terrain '{name}'; name a soil card, or one of {', '.join(known)}")

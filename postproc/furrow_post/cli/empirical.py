@@ -4,13 +4,17 @@
 import argparse
 import math
 from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
 from ..analyse import cone_formulas, empirical
-from ..analyse.terrain_values import CARD, terrain
-from ..arguments import at_least, between, positive
+from ..analyse.prediction import Prediction
+from ..analyse.terrain_values import CARD, TerrainValues, terrain, terrain_of_card, with_stress_place
+from ..arguments import at_least, between, number, positive
 from ..errors import ResultsError
 from ..read.soil_card import read_card
+from ..soil.units import require_plausible
 
 OPTIONS = {  # option -> unit and meaning
     "load": "N",
@@ -31,6 +35,16 @@ OPTIONS = {  # option -> unit and meaning
     "clearance": "m, of the vehicle",
     "power": "W, of the engine",
 }
+GROUND = {  # option -> unit and meaning; alone or in place of a value of --terrain
+    "k_c": "N/m^(n+1), Bekker; 0 by default",
+    "k_phi": "N/m^(n+2), Bekker",
+    "n": "Bekker's exponent",
+    "c": "Pa, cohesion",
+    "phi": "degrees, friction angle",
+    "K": "m, shear displacement of Janosi",
+    "c1": "place of the greatest stress, (c1 + c2 slip) of the entry angle",
+    "c2": "the same",
+}
 KINDS = {"slip": between(0.0, 1.0), "axles": at_least(1), "tyres": at_least(2)}
 FLAGS = {  # option -> meaning
     "radial": "a radial tyre (brixius)",
@@ -45,6 +59,15 @@ VEHICLE = ("weight", "axles", "tyres", "diameter", "width", "clearance", "power"
 class Report(Protocol):
     def report(self) -> str:
         ...
+
+
+class Text(NamedTuple):
+    """A report that is written."""
+
+    text: str
+
+    def report(self) -> str:
+        return self.text
 
 
 class Method(NamedTuple):
@@ -65,14 +88,41 @@ def _nrmm(g: argparse.Namespace) -> Report:
     return empirical.nrmm(*wheel, g.depth, g.density, g.pressure, g.sinkage, g.extrapolate)
 
 
+def _ground(g: argparse.Namespace) -> TerrainValues:
+    """Of --terrain, of the options, or of both. @raises ResultsError"""
+    given = {name: getattr(g, name) for name in GROUND if getattr(g, name) is not None}
+    for name, value in given.items():
+        if name not in ("c1", "c2"):
+            require_plausible(name, value)
+    if g.terrain:
+        ground = terrain_of_card(Path(g.terrain)) if g.terrain.endswith(CARD) else terrain(g.terrain)
+    else:
+        ground = TerrainValues("the options", "given", "bekker", 0.0, *(math.nan,) * 7)
+    modulus = {"k_1": given.pop("k_c", ground.k_1), "k_2": given.pop("k_phi", ground.k_2)}
+    if ground.pressure != "bekker" and not {"k_c", "k_phi", "n"}.isdisjoint(name for name in GROUND if getattr(g, name) is not None):
+        raise ResultsError(f"'{ground.name}' has the law of Reece; give --k_phi and --n without --terrain")
+    ground = replace(ground, **modulus, **given)
+    needed = {"k_2": "k_phi", "n": "n"} | ({name: name for name in ("c", "phi", "K")} if g.method == "wong_reece" else {})
+    lacking = [f"--{option}" for name, option in needed.items() if math.isnan(getattr(ground, name))]
+    if lacking and not g.terrain:
+        raise ResultsError(f"empirical {g.method} needs --terrain, or {', '.join(lacking)} as well")
+    known = g.method != "wong_reece" or (g.terrain and not g.terrain.endswith(CARD))
+    return ground if known else with_stress_place(ground)
+
+
+def _report(prediction: Prediction, ground: TerrainValues) -> Report:
+    lines = [prediction.report(), f"  ground       {ground.report()}"]
+    return Text("\n".join([*lines, *(f"  assumed      {value}" for value in ground.assumed)]))
+
+
 def _bekker(g: argparse.Namespace) -> Report:
-    ground = terrain(g.terrain)
-    return empirical.bekker(g.load, g.diameter, g.width, ground, g.extrapolate)
+    ground = _ground(g)
+    return _report(empirical.bekker(g.load, g.diameter, g.width, ground, g.extrapolate), ground)
 
 
 def _wong_reece(g: argparse.Namespace) -> Report:
-    ground = terrain(g.terrain)
-    return empirical.wong_reece(g.load, g.diameter, g.width, g.slip, ground, g.extrapolate)
+    ground = _ground(g)
+    return _report(empirical.wong_reece(g.load, g.diameter, g.width, g.slip, ground, g.extrapolate), ground)
 
 
 def _brixius(g: argparse.Namespace) -> Report:
@@ -95,8 +145,8 @@ def _snow_traction(g: argparse.Namespace) -> Report:
 WHEEL = ("load", "diameter", "width")
 METHODS = {
     "nrmm": Method((*WHEEL, "depth", "density", "pressure"), ("sinkage",), _nrmm),
-    "bekker": Method((*WHEEL, "terrain"), (), _bekker),
-    "wong_reece": Method((*WHEEL, "terrain", "slip"), (), _wong_reece),
+    "bekker": Method(WHEEL, ("terrain", "k_c", "k_phi", "n"), _bekker),
+    "wong_reece": Method((*WHEEL, "slip"), ("terrain", *GROUND), _wong_reece),
     "wismer_luth": Method(ON_CONE, (), _on_cone(cone_formulas.wismer_luth)),
     "brixius": Method((*ON_CONE, *DEFLECTED), ("radial",), _brixius),
     "gee_clough": Method((*ON_CONE, *DEFLECTED), (), _on_cone(cone_formulas.gee_clough)),
@@ -110,7 +160,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("method", choices=METHODS)
     for name, unit in OPTIONS.items():
         parser.add_argument(f"--{name}", type=KINDS.get(name, positive), help=unit)
-    terrains = "name in furrow_post/analyse/terrains.csv, e.g. 'LETE sand', or a soil card's file"
+    for name, unit in GROUND.items():
+        parser.add_argument(f"--{name}", type=number, help=unit)
+    terrains = "name in furrow_post/analyse/terrains.csv, e.g. 'LETE sand', or a soil card's file (YAML, or Chrono's JSON)"
     parser.add_argument("--terrain", help=terrains)
     surface = "of snow_traction; packed: a snow road, or more than four passes"
     parser.add_argument("--surface", choices=empirical.TRACTION, help=surface)
@@ -122,7 +174,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     method = METHODS[arguments.method]
-    given = {name for name in (*OPTIONS, "terrain", "surface") if getattr(arguments, name) is not None}
+    given = {name for name in (*OPTIONS, *GROUND, "terrain", "surface") if getattr(arguments, name) is not None}
     given |= {name for name in FLAGS if getattr(arguments, name)}
     missing = [f"--{name}" for name in method.needed if name not in given]
     if missing:

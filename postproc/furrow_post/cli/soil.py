@@ -5,13 +5,14 @@ import argparse
 import math
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from .. import __version__
 from ..arguments import at_least, number, path, positive, shield_negative_numbers, words
 from ..errors import ResultsError
 from ..program import run_program
-from ..read.soil_card import SoilCard, markdown, read_card
+from ..read.soil_card import Fitted, SoilCard, markdown, read_card
 from ..soil.exports import EXPORTS
 from ..soil import grains
 from ..soil.instruments import Bench, card_executor
@@ -19,7 +20,7 @@ from ..soil.make import CLASSES, compression, from_bekker, from_cone, from_stren
 from ..soil.material import OF_GRAINS, NewMaterial, find_ground
 from ..soil.point import oedometer_misfit
 from ..soil.testing import FULL, QUICK, cone_misfit, default_folder, make_card, make_grain_card, plate_misfit
-from ..soil.units import EARTH
+from ..soil.units import EARTH, require_plausible
 
 SIZES = (0.1, 0.15, 0.2)  # [m]
 ROUTES = {  # option that chooses the route -> what it needs and may have besides
@@ -81,8 +82,9 @@ def parser() -> argparse.ArgumentParser:
     card.add_argument("--export", nargs="+", choices=EXPORTS, default=list(EXPORTS), help="formats")
     card.set_defaults(run=run_card)
     export = commands.add_parser("export", help="writes a card for vehicle codes, next to the card")
-    export.add_argument("card", type=path)
+    export.add_argument("card", type=path, help="of furrow-soil card, written by hand, or the JSON of Chrono's SCM")
     export.add_argument("formats", nargs="+", choices=EXPORTS)
+    export.add_argument("--K", type=positive, help="measured shear displacement, in place of the card's [m]")
     export.set_defaults(run=run_export)
     table = commands.add_parser("table", help="prints cards as a table in Markdown")
     table.add_argument("cards", type=path, nargs="+")
@@ -118,6 +120,10 @@ def _grain_card(given: argparse.Namespace, path: Path, folder: Path) -> SoilCard
 
 def run_export(given: argparse.Namespace) -> None:
     card = read_card(given.card)
+    if given.K is not None:
+        _, shear = card.bekker_and_shear()
+        require_plausible("K", given.K)
+        card = replace(card, shear=replace(shear, K=Fitted(given.K, math.nan)))
     for name in given.formats:
         file, write = EXPORTS[name]
         target = given.card.with_name(file)

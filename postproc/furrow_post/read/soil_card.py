@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A soil card: parameters of vehicle codes with standard errors and the range where they hold."""
+"""A soil card: parameters of vehicle codes with standard errors and the range where they hold.
+
+A card that a person writes may have the values alone, in other units too. The terrain file of Chrono's SCM is
+a card as well.
+"""
 
 import math
 from collections.abc import Sequence
@@ -12,6 +16,7 @@ import yaml
 
 from ..arrays import Floats
 from ..errors import ResultsError, content_of
+from ..json_text import parse_json
 
 UNITS = {  # of the parameters; lists of two numbers have the unit of the last column of the page
     "k_c": "N/m^(n+1)",
@@ -25,6 +30,25 @@ UNITS = {  # of the parameters; lists of two numbers have the unit of the last c
     "gradient": "Pa/m",
 }
 REMEDY = "write it with furrow-soil card"
+SCALES = {"": 1.0, "k": 1e3, "M": 1e6}  # before a unit
+OTHER_UNITS = {  # unit of a parameter -> others, and their size
+    "degree": {"degrees": 1.0, "deg": 1.0, "°": 1.0, "rad": math.degrees(1)},
+    "m": {"cm": 1e-2, "mm": 1e-3, "in": 0.0254},
+    "Pa": {"psi": 6894.757, "bar": 1e5, "kN/m^2": 1e3},
+}
+STIFFNESS = 1e8  # [Pa/m] of a card that has none, as of fix terrain/scm
+CHRONO = {  # key of Chrono's "Soil parameters" -> name
+    "Bekker Kc": "k_c",
+    "Bekker Kphi": "k_phi",
+    "Bekker n exponent": "n",
+    "Mohr cohesive limit": "c",
+    "Mohr friction limit": "phi",
+    "Janosi shear coefficient": "K",
+    "Elastic stiffness": "stiffness",
+    "Damping": "damping",
+}
+EARTH = 9.80665  # [m/s2]
+SMALLEST_K = 5e-4  # [m] that a soil has
 
 
 INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
@@ -136,6 +160,8 @@ class SoilCard:
     shear: Shear | NoResult
     cone: Cone | NoResult
     notes: tuple[str, ...] = ()
+    c1: float = math.nan  # place of the greatest stress under a wheel, (c1 + c2 slip) of the entry angle
+    c2: float = math.nan
 
     def failures(self) -> dict[str, str]:
         """Instrument -> why it has no result."""
@@ -155,6 +181,16 @@ class SoilCard:
 
     def index_text(self) -> list[str]:
         return [self.cone.mean_text()] if isinstance(self.cone, Cone) else []
+
+    def require_usable(self) -> None:
+        """@raises ResultsError for a parameter that the tests of the card do not determine"""
+        shear = self.shear
+        if isinstance(shear, Shear) and shear.K.value < SMALLEST_K:
+            raise ResultsError(
+                f"{self.title}: K is {1e3 * shear.K.value:.2g} mm, that of a law which mobilises its strength at once; "
+                f"soils have 5 to 25 mm. A shear ring on grains determines it ('furrow-soil card GROUND.lig'), or a "
+                f"shear test of the soil: give it as --K"
+            )
 
     def condition(self) -> str:
         """Where the values hold, for a person and for the files of other codes."""
@@ -202,7 +238,7 @@ class SoilCard:
             ]
         if isinstance(cone, Cone):
             spans.append((f"depth of the cone of {1e3 * cone.size:.4g} mm and {cone.angle:g}°", cone.depth, "m"))
-        return spans
+        return [(meaning, span, unit) for meaning, span, unit in spans if math.isfinite(span.high)]
 
     def report(self) -> str:
         """Lines for a person."""
@@ -246,12 +282,15 @@ def _as_yaml(part: Any) -> dict[str, Any]:
     for field in fields(part):
         value = getattr(part, field.name)
         if isinstance(value, Fitted):
-            content[field.name] = {"value": value.value, "error": value.error}
+            content[field.name] = {"value": value.value}
+            if math.isfinite(value.error):
+                content[field.name]["error"] = value.error
             if UNITS[field.name]:
                 content[field.name]["unit"] = UNITS[field.name]
         elif isinstance(value, Range):
-            content[field.name] = [value.low, value.high]
-        else:
+            if math.isfinite(value.high):
+                content[field.name] = [value.low, value.high]
+        elif math.isfinite(value):
             content[field.name] = value
     return content
 
@@ -279,24 +318,69 @@ def read_card(path: Path | str) -> SoilCard:
     """@raises OSError; ResultsError where the file is no card"""
     path = Path(path)
     with content_of(path, REMEDY):
+        text = path.read_text(encoding="utf-8-sig")
+        if path.suffix == ".json":
+            return _of_chrono(path, text)
         try:
-            content = yaml.safe_load(path.read_text(encoding="utf-8"))
+            content = yaml.safe_load(text)
         except yaml.YAMLError as error:
             raise ResultsError(f"{path}: is no YAML; {REMEDY}") from error
         if not isinstance(content, dict):
             raise ResultsError(f"{path}: has no keys; {REMEDY}")
-        parts = {
-            name: _read_part(path, kind, name, content[name]) for name, (kind, _) in SECTIONS.items()
-        }
+        parts = {name: _read_part(path, kind, name, content.get(name)) for name, (kind, _) in SECTIONS.items()}
+        _refuse_others(path, "the card", content, [*(field.name for field in fields(SoilCard)), "damping"])
+        c1, c2 = (_finite(f"{path}: {name}", content[name]) if name in content else math.nan for name in ("c1", "c2"))
         return SoilCard(
-            str(content["title"]),
-            str(content["ground"]),
-            float(content["density"]),
-            float(content["stiffness"]),
+            str(content.get("title", path.stem)),
+            str(content.get("ground", "")),
+            _finite(f"{path}: density", content["density"]) if "density" in content else math.nan,
+            _finite(f"{path}: stiffness", content.get("stiffness", STIFFNESS)),
             _gravity(path, content["gravity"]),
             **parts,
             notes=tuple(str(note) for note in content.get("notes", ())),
+            c1=c1,
+            c2=c2,
         )
+
+
+def _refuse_others(path: Path, where: str, content: dict[str, Any], known: Sequence[str]) -> None:
+    others = [str(key) for key in content if key not in known]
+    if others:
+        raise ResultsError(
+            f"{path}: {where} has the key '{others[0]}', which no program of Furrow uses; allowed: {', '.join(known)}"
+        )
+
+
+def _of_chrono(path: Path, text: str) -> SoilCard:
+    """The terrain file of Chrono's co-simulation with "Soil parameters". Its comments are no JSON."""
+    lines = [line for line in text.splitlines() if not line.lstrip().startswith("//")]
+    try:
+        content = parse_json("\n".join(lines))
+    except ValueError as error:
+        raise ResultsError(f"{path}: is no JSON: {error}") from error
+    soil = content.get("Soil parameters") if isinstance(content, dict) else None
+    if not isinstance(soil, dict):
+        raise ResultsError(f"{path}: has no \"Soil parameters\"; allowed: a terrain file of Chrono's SCM, or a card in YAML")
+    _refuse_others(path, '"Soil parameters"', soil, list(CHRONO))
+    lacking = [key for key, name in CHRONO.items() if key not in soil and name in UNITS]
+    if lacking:
+        raise ResultsError(f"{path}: \"Soil parameters\" have no \"{lacking[0]}\"")
+    values = {CHRONO[key]: _finite(f"{path}: {key}", value) for key, value in soil.items()}
+    without = {"error": math.nan}
+    parts = {
+        name: _read_part(path, kind, name, {key: {"value": values[key], **without} for key in keys})
+        for (name, (kind, _)), keys in zip(SECTIONS.items(), (("k_c", "k_phi", "n"), ("c", "phi", "K")))
+    }
+    return SoilCard(
+        path.stem,
+        "",
+        math.nan,
+        values.get("stiffness", STIFFNESS),
+        EARTH,
+        **parts,
+        cone=NoResult("the card has none"),
+        notes=("of Chrono, which states no gravity: that of the Earth",),
+    )
 
 
 def _gravity(path: Path, given: object) -> float:
@@ -306,26 +390,47 @@ def _gravity(path: Path, given: object) -> float:
     return number
 
 
-def _read_part(path: Path, kind: Any, section: str, content: dict[str, Any]) -> Any:
+def _read_part(path: Path, kind: Any, section: str, content: dict[str, Any] | None) -> Any:
+    """What a person leaves out is unknown: errors, ranges and residuals."""
+    if content is None and kind is Cone:
+        return NoResult("the card has none")
+    if not isinstance(content, dict):
+        raise ResultsError(f"{path}: has no '{section}'; {REMEDY}")
     if "failed" in content:
         return NoResult(str(content["failed"]))
+    _refuse_others(path, section, content, [field.name for field in fields(kind)])
     values: dict[str, Any] = {}
     for field in fields(kind):
-        given = content[field.name]
         where = f"{path}: {section}.{field.name}"
+        given = content.get(field.name)
         if field.type is Fitted:
-            unit = given.get("unit", "")
-            if unit != UNITS[field.name]:
-                raise ResultsError(
-                    f"{where} has the unit '{unit}'; allowed: '{UNITS[field.name]}'; {REMEDY}"
-                )
-            values[field.name] = Fitted(_finite(where, given["value"]), float(given["error"]))
+            if given is None and field.name == "speed_stress":
+                given = 0.0
+            if given is None:
+                raise ResultsError(f"{where} is missing; {REMEDY}")
+            values[field.name] = _fitted(where, UNITS[field.name], given if isinstance(given, dict) else {"value": given})
         elif field.type is Range:
-            low, high = (_finite(where, number) for number in given)
+            low, high = (_finite(where, number) for number in given) if given else (0.0, math.inf)
             values[field.name] = Range(low, high)
         else:
-            values[field.name] = _finite(where, given)
+            values[field.name] = math.nan if given is None and kind is not Cone else _finite(where, given)
     return kind(**values)
+
+
+def _fitted(where: str, unit: str, given: dict[str, Any]) -> Fitted:
+    """Value and error in the unit of the parameter."""
+    scale = _scale(where, unit, str(given.get("unit", unit)))
+    error = float(given.get("error", math.nan))
+    return Fitted(scale * _finite(where, given["value"]), scale * error)
+
+
+def _scale(where: str, unit: str, given: str) -> float:
+    """Size of a unit in that of the parameter."""
+    known = {prefix + unit: scale for prefix, scale in SCALES.items()} if unit[:1] in ("N", "P") else {unit: 1.0}
+    known |= OTHER_UNITS.get(unit, {})
+    if given not in known:
+        raise ResultsError(f"{where} has the unit '{given}'; allowed: {', '.join(map(repr, known))}; {REMEDY}")
+    return known[given]
 
 
 def _finite(where: str, value: object) -> float:

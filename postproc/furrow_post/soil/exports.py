@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
+from ..errors import ResultsError
 from ..analyse.terrain_values import LOOSE_SAND, terrain
 from ..read.soil_card import UNITS, SoilCard
 
@@ -21,6 +22,7 @@ CHRONO_DAMPING = 3e4
 
 def write_chrono(card: SoilCard, path: Path) -> None:
     """Chrono requires an elastic stiffness above k_phi."""
+    card.require_usable()
     plate, shear = card.bekker_and_shear()
     content = {
         "Type": "SCM",
@@ -45,6 +47,7 @@ def write_chrono(card: SoilCard, path: Path) -> None:
 def write_altair(card: SoilCard, path: Path) -> None:
     """C1 and C2, the place of the greatest stress under a wheel, are those of loose sand; plates do
     not give them."""
+    card.require_usable()
     (plate, shear), sand = card.bekker_and_shear(), terrain(LOOSE_SAND)
     soil = {
         "PHI": (math.radians(shear.phi.value), "angle of internal shearing resistance"),
@@ -54,7 +57,7 @@ def write_altair(card: SoilCard, path: Path) -> None:
         "SINKAGE_EXPONENT": (plate.n.value, "n"),
         "SOIL_STIFFNESS": (card.stiffness, "elastic stiffness"),
         "SOIL_DAMPING": (0.0, "not of a test"),
-        "SOIL_DENSITY": (card.density, "density"),
+        "SOIL_DENSITY": (_known(card, card.density, "density"), "density"),
         "KX0": (0.0, "shear deformation modulus over slip angle"),
         "KY0": (0.0, "the same"),
         "KX1": (shear.K.value, "shear deformation modulus"),
@@ -99,10 +102,22 @@ def write_table(card: SoilCard, path: Path) -> None:
         file.write(f"# {' '.join(card.title.split())}\n# {card.condition()}\n")
         for instrument, why in card.failures().items():
             file.write(f"# {instrument}: no result, {why}\n")
+        parameters = card.parameters()
+        try:
+            card.require_usable()
+        except ResultsError as error:
+            file.write(f"# K left out: {error}\n")
+            del parameters["K"]
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(("name", "value", "error", "unit"))
-        for name, fitted in card.parameters().items():
+        for name, fitted in parameters.items():
             writer.writerow((name, repr(fitted.value), repr(fitted.error), UNITS[name]))
+
+
+def _known(card: SoilCard, value: float, name: str) -> float:
+    if not math.isfinite(value):
+        raise ResultsError(f"{card.title}: has no {name}, which the file needs; write '{name}: ...' into the card")
+    return value
 
 
 EXPORTS: dict[str, tuple[str, Callable[[SoilCard, Path], None]]] = {

@@ -4,8 +4,7 @@
 from dataclasses import dataclass
 
 from ..errors import ResultsError
-
-EARTH = 9.80665  # [m/s2] standard gravity
+from ..read.soil_card import EARTH as EARTH, SMALLEST_K
 
 
 @dataclass(frozen=True)
@@ -31,7 +30,7 @@ PLAUSIBLE = {
     "k_c": Plausible("N/m^(n+1)", -5e6, 5e7, "kN/m^(n+1) times 1000"),
     "k_phi": Plausible("N/m^(n+2)", 1e4, 1e9, "kN/m^(n+2) times 1000"),
     "n": Plausible("", 0.1, 3.0, "n is a number without unit"),
-    "K": Plausible("m", 5e-4, 0.3, "cm over 100, mm over 1000"),
+    "K": Plausible("m", SMALLEST_K, 0.3, "cm over 100, mm over 1000"),
     "cone_index": Plausible("Pa", 5e3, 2e7, "kPa times 1000, psi times 6895"),
 }
 

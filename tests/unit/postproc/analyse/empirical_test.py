@@ -13,7 +13,7 @@ from furrow_post.analyse.terrain_values import terrain
 from furrow_post.analyse.statistics import rms
 from furrow_post.csv_table import read_numbers, read_rows
 from furrow_post.errors import ResultsError
-from support.command import SOURCE
+from support.command import SOURCE, run_post
 
 
 def reference(case: str) -> Path:
@@ -135,6 +135,25 @@ class SandTest(unittest.TestCase):
             terrain("moon")
         with self.assertRaisesRegex(ResultsError, "6 N on a wheel of 0.9 m x 0.35 m are 19 Pa over diameter and width"):
             empirical.bekker(6, 0.9, 0.35, lete)
+
+    def test_own_numbers_are_options_and_assumed_ones_are_printed(self) -> None:
+        """The values are those of an independent quadrature."""
+        wheel = "--load 400 --diameter 0.5 --width 0.16 --slip 0.2".split()
+        soil = "--k_phi 3.2e6 --n 1.4 --c 140 --phi 35 --K 0.01".split()
+        for place, sinkage, pull, torque in (("--c1 0.43 --c2 0.32", 47.6, 97.45, 54.27), ("", 38.8, 130.8, 55.16)):
+            done = run_post("empirical", "wong_reece", *wheel, *soil, *place.split())
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(f"sinkage                {sinkage:.1f} mm", done.stdout)
+            self.assertIn(f"drawbar pull           {pull:.4g} N", done.stdout)
+            self.assertIn(f"torque                 {torque:.2f} N m", done.stdout)
+            self.assertEqual("assumed      c1 0.18, that of Wong-Reece loose sand; give --c1" in done.stdout, not place)
+            self.assertIn("ground       k_c 0, k_phi 3.2e+06, n 1.4, c 140, phi 35, K 0.01, c1 0.", done.stdout)
+        for words, message in (
+            (soil[:-2], "empirical wong_reece needs --terrain, or --K as well"),
+            ([*soil[:-1], "10"], "K is 10 m; soils and snow have"),
+            (["--terrain", "Wong-Reece loose sand", "--n", "1.1"], "has the law of Reece; give --k_phi and --n without"),
+        ):
+            self.assertIn(message, run_post("empirical", "wong_reece", *wheel, *words).stderr)
 
     def test_card_is_used_within_its_plates(self) -> None:
         card = terrain(str(SOURCE / "inputs" / "soils" / "dry_sand_smooth.yaml"))

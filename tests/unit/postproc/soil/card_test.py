@@ -105,6 +105,53 @@ class SoilCardTest(FolderTest):
         write_card(card, target)
         self.assertEqual(read_card(target).gravity, 1.62)
 
+    def test_a_card_of_a_person_has_values_alone_in_other_units(self) -> None:
+        self.path.write_text(
+            "gravity: 9.80665\npressure_sinkage: {k_c: 0, k_phi: {value: 3200, unit: kN/m^(n+2)}, n: 1.4}\n"
+            "shear: {c: {value: 0.14, unit: kPa}, phi: 35, K: {value: 1, unit: cm}}\nc1: 0.43\nc2: 0.32\n",
+            encoding="utf-8",
+        )
+        ground = terrain(str(self.path))
+        self.assertEqual(
+            [ground.k_1, ground.k_2, ground.n, ground.c, ground.phi, ground.K, ground.c1, ground.c2],
+            [0.0, 3.2e6, 1.4, 140.0, 35.0, 0.01, 0.43, 0.32],
+        )
+        self.assertEqual(ground.assumed, ())
+        text = self.path.read_text()
+        for old, new, message in (
+            ("c1:", "c_1:", "the card has the key 'c_1', which no program of Furrow uses"),
+            ("phi: 35", "phi: 35, psi: 5", "shear has the key 'psi'"),
+            ("unit: cm", "unit: furlong", "shear.K has the unit 'furlong'; allowed: 'm', 'cm', 'mm'"),
+            ("n: 1.4", "m: 1.4", "pressure_sinkage has the key 'm'"),
+        ):
+            self.path.write_text(text.replace(old, new), encoding="utf-8")
+            with self.assertRaisesRegex(ResultsError, re.escape(message)):
+                read_card(self.path)
+
+    def test_chronos_file_comes_back_as_a_card(self) -> None:
+        target = self.folder / "scm.json"
+        write_chrono(CARD, target)
+        target.write_text("// a comment of Chrono\n" + target.read_text(), encoding="utf-8")
+        back = read_card(target)
+        plate, shear = back.bekker_and_shear()
+        self.assertEqual([plate.k_c.value, plate.k_phi.value, plate.n.value], [PLATE.k_c.value, PLATE.k_phi.value, PLATE.n.value])
+        self.assertEqual([shear.c.value, shear.phi.value, shear.K.value], [SHEAR.c.value, SHEAR.phi.value, SHEAR.K.value])
+        self.assertEqual(terrain(str(target)).assumed[0], "c1 0.18, that of Wong-Reece loose sand; give --c1")
+        target.write_text('{"Soil parameters": {"Bekker Kc": 0}}', encoding="utf-8")
+        with self.assertRaisesRegex(ResultsError, '"Soil parameters" have no "Bekker Kphi"'):
+            read_card(target)
+
+    def test_an_unusable_parameter_is_in_no_export(self) -> None:
+        small = replace(CARD, shear=replace(SHEAR, K=Fitted(4e-5, 9e-6)))
+        target = self.folder / "export"
+        for write in (write_chrono, write_altair):
+            with self.assertRaisesRegex(ResultsError, "K is 0.04 mm, .*A shear ring on grains determines it"):
+                write(small, target)
+        self.assertFalse(target.exists())
+        write_table(small, target)
+        self.assertNotIn("K", [row["name"] for row in read_rows(target)])
+        self.assertIn("# K left out: ", target.read_text())
+
     def test_a_negative_k_c_says_below_which_width_nothing_is_carried(self) -> None:
         """k_c/b + k_phi is zero there."""
 
@@ -175,9 +222,9 @@ class SoilCardTest(FolderTest):
     def test_wrong_cards_are_refused_with_the_key(self) -> None:
         text = self.path.read_text()
         for change, message in (
-            (("unit: degree", "unit: rad"), "shear.phi has the unit 'rad'; allowed: 'degree'"),
+            (("unit: degree", "unit: gon"), "shear.phi has the unit 'gon'; allowed: 'degree'"),
             (("value: 150.0", "value: .nan"), "shear.c is nan, a finite number is needed"),
-            (("cone:", "kone:"), "has no 'cone'"),
+            (("cone:", "kone:"), "has the key 'kone'"),
             (("gravity: 9.80665\n", ""), "has no 'gravity'"),
             (("gravity: 9.80665", "gravity: -1.62"), "gravity is -1.62; allowed: a number > 0 [m/s2]"),
             (("title:", "- title:"), "is no YAML"),
