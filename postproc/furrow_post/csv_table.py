@@ -5,6 +5,7 @@ tables of numbers."""
 import csv
 import io
 import math
+import re
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -16,17 +17,21 @@ from .errors import ResultsError, content_of
 import numpy as np
 
 ENCODING = "utf-8-sig"  # spreadsheets mark UTF-8 by a first character
+DECIMAL_COMMA = re.compile(r"^([-+]?\d*),(\d+(?:[eE][-+]?\d+)?)$")
 TABLE = "a table is CSV: a head with the names of its columns, then rows of as many cells"
 
 
 def read_rows(path: Path) -> list[dict[str, str]]:
-    """Rows of a table, name of the column -> text; comments are left out.
+    """Rows of a table, name of the column -> text; comments are left out. Cells are separated by commas, or by
+    semicolons or tabulators with a decimal point or comma.
 
     @raises OSError; ResultsError where a row has other cells than the head
     """
     with content_of(path, TABLE), open(path, encoding=ENCODING) as file:
         try:
-            reader = csv.DictReader(line for line in file if not line.startswith("#"))
+            lines = [line for line in file if line.strip() and not line.startswith("#")]
+            separator = next((mark for mark in ";\t" if lines and mark in lines[0]), ",")
+            reader = csv.DictReader(lines, delimiter=separator)
             rows = list(reader)
         except csv.Error as error:
             raise ResultsError(f"{path}: {error}; {TABLE}") from error
@@ -39,6 +44,8 @@ def read_rows(path: Path) -> list[dict[str, str]]:
                 f"{path}: row {number} has {'more' if None in row else 'fewer'} cells than the "
                 f"head; {TABLE}"
             )
+    if separator != ",":
+        rows = [{name: DECIMAL_COMMA.sub(r"\1.\2", text) for name, text in row.items()} for row in rows]
     return rows
 
 

@@ -2,11 +2,12 @@
 """Measured points for the figure of a sweep: a CSV file with columns of known names.
 
 A column is named as in sweep.csv, in SI units, or with its unit behind: hub_drop, hub_drop_mm, slip,
-load_kN, net_traction_coefficient. <name>_error is its standard deviation in the same unit; label tells
+load_kN, net_traction_coefficient. The unit may be in brackets: "hub_drop [mm]", "slip (%)". <name>_error is its standard deviation in the same unit; label tells
 several tests in one file apart. A table of another sweep can be read too.
 """
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,6 +31,7 @@ UNITS = {
     "_deg": 1.0,
     "_percent": 1e-2,
 }
+IN_BRACKETS = re.compile(r"(.+?)[\s_]*[\[(](.+)[\])]")
 ALSO_CALLED = {  # in inputs/validation/*/reference.csv, and by earlier versions
     "resistance_coefficient": ("resistance",),
     "hub_drop": ("sinkage",),
@@ -54,7 +56,7 @@ class MeasuredPoints:
 
 def require_measured(path: Path) -> None:
     """@raises ResultsError where a file is no table with a column of a quantity that curves show"""
-    rows = read_rows(path)
+    rows = _rows(path)
     names = [axis.key for axis in (HUB_DROP, RESISTANCE, PULL, TORQUE, EFFICIENCY, *SIDEWAYS)]
     if not rows or not any(_column(rows[0], name) for name in names):
         raise ResultsError(
@@ -65,7 +67,7 @@ def require_measured(path: Path) -> None:
 
 def read_measured_points(path: Path, label: str | None, figure: Figure) -> list[MeasuredPoints]:
     """@raises ResultsError where a column of the axes is missing or is no number; OSError"""
-    rows = read_rows(path)
+    rows = _rows(path)
     if not rows:
         raise ResultsError(f"{path}: has no rows")
     x = _column(rows[0], figure.x.key)
@@ -90,6 +92,19 @@ def read_measured_points(path: Path, label: str | None, figure: Figure) -> list[
         ]
     except ValueError as error:
         raise ResultsError(f"{path}: {error}; write a number, or leave the cell empty") from error
+
+
+def _rows(path: Path) -> list[dict[str, str]]:
+    """Rows with names as UNITS has them: "slip (%)" is slip_percent."""
+    return [{_plain(name): text for name, text in row.items()} for row in read_rows(path)]
+
+
+def _plain(name: str) -> str:
+    found = IN_BRACKETS.fullmatch(name.strip())
+    if not found:
+        return name.strip()
+    unit = found[2].strip().replace("%", "percent").replace(" ", "")
+    return f"{found[1]}_{unit}" if f"_{unit}" in UNITS else name.strip()
 
 
 def _column(row: Mapping[str, str], key: str) -> tuple[str, float] | None:

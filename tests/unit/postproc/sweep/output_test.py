@@ -152,6 +152,12 @@ class OutputTest(FolderTest):
         self.assertAlmostEqual(x, 0.1)
         self.assertAlmostEqual(value, 0.04)
         self.assertAlmostEqual(error, 0.002)
+        measured.write_text(
+            "\ufefflabel;slip (%);drawbar_coefficient;sinkage [mm];sinkage_mm_error\r\n"
+            "one;10,0;0,12;40,0;2\r\none;20,0;;45,0;\r\ntwo;10;0,2;5e1;1\r\n", encoding="utf-8", newline=""
+        )  # fmt: skip
+        again = evaluate([Named(self.folder / "a")], Wanted(measured=[Named(measured)])).measured
+        self.assertEqual([(p.x, p.values(HUB_DROP)[0]) for p in again], [(p.x, p.values(HUB_DROP)[0]) for p in (one, two)])
         (formula,) = result.formulas  # both lines have the same conditions
         self.assertEqual(formula.label, "Wong–Reece, Wong-Reece loose sand")
         self.assertEqual([x for x, _ in formula.values(PULL)], [0.1, 0.3])
