@@ -12,8 +12,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq, least_squares
+from scipy.optimize import brentq
 
+from furrow_post.analyse.fitter import Parameter, fit
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError
 from furrow_post.laboratory.evaluation import values_of
@@ -117,21 +118,19 @@ def fit_cone(tests: Sequence[LaboratoryTest]) -> Cone:
         difference: Floats = own - measured
         return difference
 
-    fit = least_squares(
-        residuals, (1.0, 0.8), bounds=((0.05, SMALLEST_RATIO), (2.9, LARGEST_RATIO))
-    )
-    variance = 2 * fit.cost / max(len(tests) - 2, 1) * np.linalg.inv(fit.jac.T @ fit.jac)
-    errors = np.sqrt(np.diag(variance))
+    cone = (Parameter("tan(beta)", "", 1.0, 0.05, 2.9), Parameter("K", "", 0.8, SMALLEST_RATIO, LARGEST_RATIO))
+    found = fit(cone, residuals, known=False)
+    tangent, ratio = found.parameters
     intermediate = np.mean(
         [v["intermediate_stress_ratio_end"] for v, k in zip(values, kinds) if k == "plane_strain"]
     )
     return Cone(
-        float(fit.x[0]),
-        float(errors[0]),
-        float(fit.x[1]),
-        float(errors[1]),
+        tangent.value,
+        tangent.deviation,
+        ratio.value,
+        ratio.deviation,
         kinds,
-        fit.fun,
+        found.residuals,
         float(intermediate),
         np.array([value["dilation_end"] for value in values]),
     )

@@ -4,15 +4,15 @@ a law its shape by least squares, and for each shape the hardening that follows 
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import least_squares
-
 from snow_paths import Points, confined, end_of, predicted
 from snow_record import Place, Row
 
+from furrow_post.analyse.fitter import Parameter, Search
+from furrow_post.analyse.fitter import fit as least_squares
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError
 
@@ -21,7 +21,7 @@ PASSES = 5  # over the hardening; what is left of the density is below 1e-3
 # What weighs as much as a factor of e in a stress: differences, and logarithms of densities
 SCALE = {"K0": 0.1, "lateral_ratio": 0.2, "density": 0.1}
 NO_STATE = 3.0  # residual of a value where the law has no state: a factor of 20
-STEP = 0.02  # of a parameter's logarithm, for differences
+SEARCH = Search(step=0.02, central=False, ftol=1e-4, xtol=1e-3, scale=1.0, evaluations=30)
 
 Table = list[tuple[float, float]]  # (density without load [kg/m3], strength [Pa])
 
@@ -31,20 +31,10 @@ class Elastic(NamedTuple):
     nu: float
 
 
-class Shape(NamedTuple):
-    """A number that gives a law its shape."""
-
-    name: str
-    unit: str
-    start: float
-    lower: float
-    upper: float
-
-
 @dataclass(frozen=True)
 class SnowLaw:
     title: str
-    shapes: tuple[Shape, Shape]
+    shapes: tuple[Parameter, Parameter]
     keys: Callable[[Sequence[float], Table], dict[str, float | str]]  # of the section "law"
 
 
@@ -63,17 +53,17 @@ def foam_keys(shape: Sequence[float], table: Table) -> dict[str, float | str]:
 LAWS = {
     "cam_clay": SnowLaw(
         "cohesive Cam clay",
-        (Shape("M", "", 3.0, 0.5, 6.0), Shape("tension_ratio", "", 0.1, 1e-3, 1.0)),
+        (Parameter("M", "", 3.0, 0.5, 6.0), Parameter("tension_ratio", "", 0.1, 1e-3, 1.0)),
         cam_clay_keys,
     ),
     "cap": SnowLaw(
         "Drucker-Prager cap",
-        (Shape("beta", "degrees", 62.0, 20.0, 70.0), Shape("d", "Pa", 1e3, 50.0, 1e5)),
+        (Parameter("beta", "degrees", 62.0, 20.0, 70.0), Parameter("d", "Pa", 1e3, 50.0, 1e5)),
         cap_keys,
     ),
     "foam": SnowLaw(
         "crushable foam",
-        (Shape("sigma0/pc0", "", 1.5, 0.3, 2.8), Shape("pt", "Pa", 500.0, 10.0, 1e4)),
+        (Parameter("sigma0/pc0", "", 1.5, 0.3, 2.8), Parameter("pt", "Pa", 500.0, 10.0, 1e4)),
         foam_keys,
     ),
 }
@@ -213,25 +203,17 @@ def fit(
     rows = [row for row in judged(record) if is_fitted(row.test)]
     weight = weights(rows)
 
-    def residuals(logs: Floats) -> Floats:
-        material = hardened(law, tuple(np.exp(logs)), record, points)
+    def residuals(shape: Floats) -> Floats:
+        material = hardened(law, tuple(shape), record, points)
         if material is None:
             return NO_STATE * weight
         found = predicted(material.sections(), rows, points)
         each: Floats = weight * np.array([residual(row, found[row.place]) for row in rows])
         return each
 
-    lower, upper = (np.log([getattr(s, name) for s in law.shapes]) for name in ("lower", "upper"))
-    best = least_squares(
-        residuals,
-        np.log([shape.start for shape in law.shapes] if start is None else start),
-        bounds=(lower, upper),
-        diff_step=STEP,
-        xtol=1e-3,
-        ftol=1e-4,
-        max_nfev=30,
-    )
-    material = hardened(law, tuple(np.exp(best.x)), record, points)
+    shapes = law.shapes if start is None else [replace(s, start=one) for s, one in zip(law.shapes, start)]
+    best = least_squares(shapes, residuals, SEARCH)
+    material = hardened(law, tuple(best.values), record, points)
     if material is None:
         raise ResultsError(f"{law.title}: follows no oedometer of this record")
     return material

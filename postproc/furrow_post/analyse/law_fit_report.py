@@ -12,7 +12,8 @@ from .. import __version__
 from ..csv_table import write_rows
 from ..formatting import in_unit
 from ..whole_file import replaced
-from .law_fit import PARTNER, Fitted, LawFit
+from .fitter import PARTNER, Fitted
+from .law_fit import LawFit
 from .point_curves import PointCurves
 
 CORRELATED = 0.95  # two parameters are reported together from this on
@@ -26,10 +27,10 @@ def report(point: PointCurves, fit: LawFit) -> str:
         f"  material      {point.material} ({point.law})",
         f"  data          {fit.data} values of {len(point.curves)} curve(s), "
         f"{len(fit.parameters)} parameters",
-        f"  residual      rms {fit.rms_start:.4g} at the start, {fit.rms:.4g} fitted; "
-        f"{fit.evaluations} evaluations; {fit.end}",
+        f"  residual      rms {fit.rms_start:.4g} at the start, {fit.fit.rms:.4g} fitted; "
+        f"{fit.fit.evaluations} evaluations; {fit.fit.end}",
     ]
-    if not fit.converged:
+    if not fit.fit.converged:
         lines.append("  WARNING       the fit did not converge")
     if fit.known and fit.rms > LARGEST_RMS:
         lines.append(
@@ -39,18 +40,18 @@ def report(point: PointCurves, fit: LawFit) -> str:
     lines += ["", f"  {'parameter':<24} {'start':>12} {'fitted':>12} {'deviation':>12}"]
     lines += map(_row, fit.parameters)
     scatter = ""
-    if fit.known and fit.scatter > 1.0:
-        scatter = f", times {fit.scatter:.3g}, the factor by which the law misses the data"
-    elif fit.scatter != 1.0:
-        scatter = f"; scatter of the data from the residuals, {fit.scatter:.3g}"
-    singular = ", ".join(f"{value:.3g}" for value in fit.singular_values)
+    if fit.fit.known and fit.fit.scatter > 1.0:
+        scatter = f", times {fit.fit.scatter:.3g}, the factor by which the law misses the data"
+    elif fit.fit.scatter != 1.0:
+        scatter = f"; scatter of the data from the residuals, {fit.fit.scatter:.3g}"
+    singular = ", ".join(f"{value:.3g}" for value in fit.fit.singular_values)
     lines += [
         "",
         f"  deviation: one standard deviation, linearised{scatter}",
         f"  singular values of the scaled Jacobian: {singular}",
     ]
     names = [fitted.parameter.name for fitted in fit.parameters]
-    direction = fit.directions[:, -1]
+    direction = fit.fit.directions[:, -1]
     direction = direction * np.sign(direction[np.argmax(np.abs(direction))])
     weakest = [f"{part:+.2f} {name}" for part, name in zip(direction, names) if abs(part) > PARTNER]
     if len(names) > 1:
@@ -59,11 +60,11 @@ def report(point: PointCurves, fit: LawFit) -> str:
             "values over their scale)"
         )
     lines += [
-        f"  {names[j]} and {names[i]} are correlated by {fit.correlation[i, j]:.4f}: the data fix "
+        f"  {names[j]} and {names[i]} are correlated by {fit.fit.correlation[i, j]:.4f}: the data fix "
         "them together better than each alone"
         for i in range(len(names))
         for j in range(i)
-        if abs(fit.correlation[i, j]) > CORRELATED
+        if abs(fit.fit.correlation[i, j]) > CORRELATED
     ]
     return "\n".join(lines) + "\n"
 

@@ -16,7 +16,8 @@ from ..arrays import Floats
 from ..errors import ResultsError
 from ..programs import find_program
 from ..run.case import point_text
-from .law_fit import Curve, NotComputed, Parameter
+from .fitter import NotComputed, Parameter
+from .law_fit import Curve
 
 PROGRAM = "furrow-point"
 

@@ -21,14 +21,13 @@ from ..arrays import Floats
 from ..csv_table import read_numbers
 from ..errors import ResultsError
 from ..programs import find_program
+from .fitter import NotComputed, Parameter, Search, fit, judge, slopes
 from .tyre_estimate import Catalogue, Guess, guesses, tyre_sections, tyre_text
 
 # Columns of a test, as furrow-tyre prints them -> relative error of a measurement
 MEASURED = {"deflection_cm": 0.03, "perimeter_area_cm2": 0.05, "section_width_cm": 0.02}
-STEP = 0.5  # of the derivatives, in units of x
-STEPS, HALVINGS = 6, 4  # of one series of Gauss-Newton steps, and of one step
-CONVERGED = 0.05  # length of a step, in units of x
-CORRECTIONS = 1  # of the coarse mesh by the fine one after the first
+# Steps of half a spread; slopes by differences once, which Broyden's updates keep, for each state takes furrow-tyre a second
+SEARCH = Search(step=0.5, central=False, update=True, ftol=1e-3, xtol=1e-3, scale=1.0, evaluations=12)
 
 
 @dataclass(frozen=True)
@@ -68,7 +67,7 @@ def read_tests(path: Path) -> list[PlateTest]:
     return tests
 
 
-class NotAtRest(ResultsError):
+class NotAtRest(NotComputed):
     """There is no such tyre, or furrow-tyre does not bring it to rest."""
 
 
@@ -104,7 +103,7 @@ def press(text: str, tests: Sequence[PlateTest], mesh: Mesh = FINE) -> States:
 
 
 @dataclass(frozen=True)
-class Fitted:
+class FittedTyre:
     """A parameter after the fit."""
 
     name: str
@@ -130,7 +129,7 @@ class TyreFit:
     known: Catalogue
     tests: Sequence[PlateTest]
     states: Sequence[dict[str, float]]  # of the fitted tyre in the tests
-    parameters: list[Fitted]
+    parameters: list[FittedTyre]
     singular_values: Floats  # of J, falling
     correlation: Floats
     stretch: float  # how much larger than assumed the misfit makes the tests' errors
@@ -152,130 +151,66 @@ class TyreFit:
 
 
 @dataclass
-class _Fit:
-    """The residuals of a trial tyre, by a coarse mesh corrected to a fine one."""
+class _Trials:
+    """The residuals of trial tyres, by a coarse mesh corrected to a fine one."""
 
     known: Catalogue
     tests: Sequence[PlateTest]
     solve: Solver
-    start: dict[str, Guess]
+    names: Sequence[str]
 
     def __post_init__(self) -> None:
         self.errors = np.array([MEASURED[name] for test in self.tests for name in test.measured])
         self.correction = np.zeros(len(self.errors))
-        self.known_states: dict[tuple[str, Mesh], States] = {}
+        self.solved: dict[tuple[str, Mesh], States] = {}
 
-    def values(self, x: Floats) -> dict[str, float]:
-        return {
-            name: guess.value * math.exp(guess.spread * float(shift))
-            for (name, guess), shift in zip(self.start.items(), x)
-        }
-
-    def states(self, x: Floats, mesh: Mesh) -> States:
-        blank = {name: "" for name in self.start}
+    def states(self, values: Floats, mesh: Mesh) -> States:
+        named, blank = dict(zip(self.names, map(float, values))), dict.fromkeys(self.names, "")
         try:
-            sections = tyre_sections(self.known, self.values(x), blank)
+            sections = tyre_sections(self.known, named, blank)
         except ResultsError as error:
             raise NotAtRest(str(error)) from error
         text = tyre_text("trial", [], sections)
-        if (text, mesh) not in self.known_states:
-            self.known_states[text, mesh] = self.solve(text, self.tests, mesh)
-        return self.known_states[text, mesh]
+        if (text, mesh) not in self.solved:
+            self.solved[text, mesh] = self.solve(text, self.tests, mesh)
+        return self.solved[text, mesh]
 
     def misfit(self, states: Sequence[dict[str, float]]) -> Floats:
         """Logarithms over measurements, in errors of a measurement."""
-        pairs = [
-            state[name] / value
-            for test, state in zip(self.tests, states)
-            for name, value in test.measured.items()
-        ]
+        pairs = [state[name] / value for test, state in zip(self.tests, states) for name, value in test.measured.items()]
         misfit: Floats = np.log(pairs) / self.errors
         return misfit
 
-    def coarse(self, x: Floats) -> Floats:
-        return self.misfit(self.states(x, COARSE)) + self.correction
+    def coarse(self, values: Floats) -> Floats:
+        return self.misfit(self.states(values, COARSE)) + self.correction
 
-    def correct(self, x: Floats) -> list[dict[str, float]]:
-        """The states by the fine mesh, which the coarse one reproduces at x from here on."""
-        states = self.states(x, FINE)
-        self.correction += self.misfit(states) - self.coarse(x)
+    def correct(self, values: Floats) -> States:
+        """The states by the fine mesh, which the coarse one reproduces at these values from here on."""
+        states = self.states(values, FINE)
+        self.correction += self.misfit(states) - self.coarse(values)
         return states
-
-    def derivatives(self, x: Floats, here: Floats) -> Floats:
-        columns = []
-        for i in range(len(x)):
-            step = np.zeros(len(x))
-            step[i] = STEP
-            try:
-                there = self.coarse(x + step)
-            except NotAtRest:  # then the other way
-                step = -step
-                there = self.coarse(x + step)
-            columns.append((there - here) / step[i])
-        return np.array(columns).T
-
-    def improve(self, x: Floats, jacobian: Floats) -> Floats:
-        """Gauss-Newton steps with Broyden's update of the derivatives."""
-        here = self.coarse(x)
-        for _ in range(STEPS):
-            information = jacobian.T @ jacobian + np.eye(len(x))
-            step = -np.linalg.solve(information, jacobian.T @ here + x)
-            there = here
-            for _ in range(HALVINGS):
-                try:
-                    there = self.coarse(x + step)
-                    if there @ there + (x + step) @ (x + step) < here @ here + x @ x:
-                        break
-                except NotAtRest:
-                    pass
-                step = 0.5 * step
-            else:
-                return x  # no better tyre in this direction
-            jacobian += np.outer(there - here - jacobian @ step, step) / (step @ step)
-            x, here = x + step, there
-            if np.abs(step).max() < CONVERGED:
-                break
-        return x
 
 
 def fit_tyre(known: Catalogue, tests: Sequence[PlateTest], solve: Solver = press) -> TyreFit:
     """@raises ResultsError where the guessed tyre does not come to rest in all tests"""
     start = guesses(known)
-    fit = _Fit(known, tests, solve, start)
-    x = np.zeros(len(start))
-    jacobian = np.zeros((0, len(x)))
-    misfit = np.zeros(0)
-    states: list[dict[str, float]] = []
+    trials = _Trials(known, tests, solve, list(start))
+    # x: logarithm over the guess, in units of its spread
+    parameters = [Parameter(name, "", 0.0, -math.inf, math.inf, spread=1.0) for name in start]
+
+    def values(x: Floats) -> Floats:
+        return np.array([guess.value * math.exp(guess.spread * shift) for guess, shift in zip(start.values(), x)])
+
+    states: States = []
+    found = judge(parameters, np.zeros(len(start)), np.zeros(0), np.zeros((0, len(start))))
     if tests:
-        fit.correct(x)
-        for _ in range(CORRECTIONS):
-            x = fit.improve(x, fit.derivatives(x, fit.coarse(x)))
-            states = fit.correct(x)
-        misfit = fit.misfit(states)
-        jacobian = fit.derivatives(x, fit.coarse(x))
-    stretch = _stretch(jacobian, misfit)
-    covariance = np.linalg.inv(jacobian.T @ jacobian / stretch**2 + np.eye(len(x)))
-    deviations = np.sqrt(np.diag(covariance))
+        trials.correct(values(found.z))
+        found = fit(parameters, lambda x: trials.coarse(values(x)), SEARCH)
+        states = trials.correct(values(found.z))
+        misfit, slope = trials.misfit(states), slopes(parameters, lambda x: trials.coarse(values(x)), found.z, SEARCH)
+        found = judge(parameters, found.z, misfit, slope)
     fitted = [
-        Fitted(
-            name,
-            value,
-            float(start[name].spread * deviation),
-            float(1 - deviation**2),
-            start[name],
-        )
-        for (name, value), deviation in zip(fit.values(x).items(), deviations)
+        FittedTyre(name, value, guess.spread * one.deviation, one.share, guess)
+        for (name, guess), value, one in zip(start.items(), map(float, values(found.z)), found.parameters)
     ]
-    singular = np.linalg.svd(jacobian / stretch, compute_uv=False) if tests else np.zeros(0)
-    correlation = covariance / np.outer(deviations, deviations)
-    return TyreFit(known, tests, states, fitted, singular, correlation, stretch)
-
-
-def _stretch(jacobian: Floats, misfit: Floats) -> float:
-    """Factor of the tests' errors with which the misfit is as large as they are, at least 1."""
-    if not len(misfit):
-        return 1.0
-    information = jacobian.T @ jacobian
-    used = float(np.trace(np.linalg.solve(information + np.eye(len(information)), information)))
-    free = max(len(misfit) - used, 1.0)
-    return max(1.0, math.sqrt(float(misfit @ misfit) / free))
+    return TyreFit(known, tests, states, fitted, found.singular_values / found.scatter, found.correlation, found.scatter)

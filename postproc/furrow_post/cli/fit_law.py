@@ -32,4 +32,4 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.no_plot:  # without a figure nobody waits for matplotlib
         figures = importlib.import_module("..figures.point", __package__)
         print(f"  figure        {figures.draw_point(folder)}")
-    return 0 if fit.converged else 1
+    return 0 if fit.fit.converged else 1

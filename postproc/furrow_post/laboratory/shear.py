@@ -4,8 +4,7 @@
 import math
 
 import numpy as np
-from scipy.optimize import curve_fit
-
+from ..analyse.fitter import Parameter, fit
 from ..analyse.statistics import block_mean
 from ..arrays import Floats
 from ..read.laboratory import LaboratoryTest, cell_curve
@@ -23,10 +22,9 @@ def shear(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     around, end = slice(first, first + window), travel > 0.6 * travel[-1]
     angle = np.arctan2(tau, normal)
     rise = slice(0, peak + 1)
-    start = (largest, max(travel[peak] / 3, 1e-6))
-    bounds = ((0, 1e-9), (np.inf, np.inf))
-    (top, length), covariance = curve_fit(_janosi, travel[rise], tau[rise], p0=start, bounds=bounds)
-    top_error, length_error = (float(e) for e in np.sqrt(np.diag(covariance)))
+    start = (float(largest), float(max(travel[peak] / 3, 1e-6)))
+    janosi = [Parameter("tau_max", "Pa", start[0], 0.0, np.inf), Parameter("K", "m", start[1], 1e-9, np.inf)]
+    top, length = fit(janosi, lambda x: _janosi(travel[rise], *x) - tau[rise], known=False).parameters
     reached = float(travel[np.argmax(tau > REACHED * largest)])
     gap = test.numbers.get("gap", math.nan)  # of results before there was one: none
     quantity = LaboratoryQuantity
@@ -51,8 +49,8 @@ def shear(test: LaboratoryTest) -> list[LaboratoryQuantity]:
             "without cohesion: tan = tau/sigma",
         ),
         quantity("friction_angle_end", *degrees(angle[end]), "deg", "the same, residual"),
-        quantity("janosi_K", float(length), length_error, "m", fitted),
-        quantity("janosi_tau_max", float(top), top_error, "Pa", "of that fit"),
+        quantity("janosi_K", length.value, length.deviation, "m", fitted),
+        quantity("janosi_tau_max", top.value, top.deviation, "Pa", "of that fit"),
     ]
 
 

@@ -5,8 +5,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.optimize import least_squares
-
+from ..analyse.fitter import fit, plain
 from ..analyse.statistics import line_fit
 from ..arrays import Floats
 from ..errors import content_of
@@ -92,14 +91,13 @@ def _bekker_of_plates(tests: Sequence[LaboratoryTest]) -> list[LaboratoryQuantit
         ratio: Floats = np.log(np.maximum(model, 1e-9) / p)
         return ratio
 
-    start = (0.0, float(np.median(p / z)), 1.0)
-    scale = (abs(start[1]) * 0.01, abs(start[1]), 1.0)
-    fit = least_squares(log_ratio, start, x_scale=scale)
-    variance = 2 * fit.cost / (len(p) - 3) * np.linalg.inv(fit.jac.T @ fit.jac)
-    spread = np.sqrt(np.diag(variance))
+    size = float(np.median(p / z))
+    scaled = plain((0.0, 1.0, 1.0), (-np.inf,) * 3, (np.inf,) * 3)
+    scale = np.array((size * 0.01, size, 1.0))
+    found = fit(scaled, lambda q: log_ratio(scale * q), known=False)
     names = (("bekker_kc", "N/m^(n+1)"), ("bekker_kphi", "N/m^(n+2)"), ("bekker_n", ""))
     meaning = f"of p = (kc/b + kphi) z^n, {len(tests)} plates"
     return [
         LaboratoryQuantity(name, float(value), float(error), unit, meaning)
-        for (name, unit), value, error in zip(names, fit.x, spread)
+        for (name, unit), value, error in zip(names, scale * found.values, scale * [one.deviation for one in found.parameters])
     ]

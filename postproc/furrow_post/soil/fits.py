@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import least_squares
-
+from ..analyse.fitter import fit, plain
 from ..analyse.statistics import line_fit
 from ..arrays import Floats
 from ..errors import ResultsError
@@ -229,19 +228,18 @@ def _fit(
     The covariance is J^-1 (sum over curves of the autocovariance) J^-T, where the residuals of a
     curve are correlated and those of two curves are not.
     """
-    fit = least_squares(lambda x: np.concatenate(residuals(x)), start, bounds=bounds)
-    parts = residuals(fit.x)
-    normal = fit.jac.T @ fit.jac
+    found = fit(plain(start, *bounds), lambda x: np.concatenate(residuals(x)), known=False)
+    parts, slope = residuals(found.values), found.value_slope
+    normal = slope.T @ slope
     _require(np.linalg.cond(normal) < LARGEST_CONDITION, "curves that determine every parameter")
     inverse = np.linalg.inv(normal)
     count, middle, first = sum(part.size for part in parts), np.zeros_like(inverse), 0
     for part in parts:
-        jacobian = fit.jac[first : first + part.size]
+        jacobian = slope[first : first + part.size]
         first += part.size
         middle += jacobian.T @ jacobian * float(np.mean(part**2)) * _correlation(part)
     freedom = count / max(count - len(start), 1)
-    rms = float(np.sqrt(2 * fit.cost / count))
-    return fit.x, inverse @ middle @ inverse * freedom, rms
+    return found.values, inverse @ middle @ inverse * freedom, found.rms
 
 
 def _correlation(residual: Floats) -> float:
