@@ -1,17 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Identifies the beginning of the field snow's compaction curve, three stresses, on the calibration
-rows with the tyre, by SciPy's least squares over their logarithms. See README.md.
+"""Identifies the beginning of the field snow's compaction curve, three stresses, on the calibration rows with the tyre.
 
-Seen are the twelve calibration rows only: sinkage and resistance, over the goals, and, weakly, the
-density under the wheel. Runs are made at three depths; rows between them are interpolated. Every run
-is kept and not made twice. Prints each trial and adds it to identified.csv next to this file.
+The fitter of laws (furrow_post/analyse/fitter.py) sees the twelve calibration rows only: sinkage and resistance, over
+the goals, and, weakly, the density under the wheel. Runs are made at three depths; rows between them are interpolated.
+Every run is kept. Each trial is printed and goes to identified.csv next to this file.
 """
 
 import argparse
 import math
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -22,131 +21,96 @@ sys.path.insert(0, str(HERE.parents[2] / "postproc"))
 import furrow_post  # first: reports which of the next ones are missing
 
 import numpy as np
-from scipy.optimize import least_squares
 
+from furrow_post.analyse.compressed_snow import cam_clay_confined
+from furrow_post.analyse.fitter import Parameter, Search, fit
 from furrow_post.analyse.statistics import rms
 from furrow_post.arguments import at_least, path, positive
 from furrow_post.arrays import Floats
-from furrow_post.errors import ResultsError
+from furrow_post.csv_table import read_numbers
 from furrow_post.program import run_program
 from furrow_post.run.case import Case
-from furrow_post.study.definition import cases_of, evaluation_of
-from furrow_post.run.tools import Tools
-from furrow_post.study.output import Output
-from furrow_post.run.record import Record
 from furrow_post.run.executor import Executor
-from furrow_post.study.runs import Run
-from furrow_post.study.tables import aligned
+from furrow_post.run.tools import Tools
+from furrow_post.study.definition import cases_of, evaluation_of
+from furrow_post.study.output import Output
+from furrow_post.tables.ground_measures import rut
+from furrow_post.tables.wheel_measures import steady
 
-study: Any = evaluation_of(HERE)
-
+SNOW: Any = evaluation_of(HERE)
 DEPTHS = (0.18, 0.20, 0.22)  # [m]
-DENSITY_SCALE = 50.0  # [kg/m3]
-START = (4e3, 25e3, 100e3)  # [Pa]
-STEP = 0.2  # of a logarithm, for differences: moves residuals by ten times the runs' scatter
-SEARCHED = tuple(f"stress_{rho:.0f}" for rho in study.IDENTIFIED_DENSITIES)  # [Pa]
-# Physical range of all three: above what half a metre of snow weighs, below the stress at 525 kg/m3
-# [CRREL95-7]
+GOAL, DENSITY, DENSITY_SCALE = {"sinkage_m": 0.012, "resistance": 0.031}, 510.0, 50.0  # rms over rows; [kg/m3] under the wheel
+# Physical range: above what half a metre of snow weighs, below the stress at 525 kg/m3 [CRREL95-7]
 LOWEST, HIGHEST = 1e3, 210e3  # [Pa]
+SEARCHED = ("stress_380", "stress_450", "stress_490")  # [Pa]
+SEARCH = Search(step=0.2, central=False, ftol=1e-8, xtol=1e-8, scale=1.0)  # moves residuals by ten times the runs' scatter
 
-Trial = dict[str, Any]  # a row of identified.csv
+
+def field_snow(density: float, beginning: tuple[float, ...] = SNOW.STRESSES[1:4], title: str = "Field snow", slope: float = 3.3) -> str:
+    """A material file. beginning: axial stresses [Pa] from 380 kg/m3 on; slope: M of Cam clay (3.3: K0 0.12)."""
+    share = cam_clay_confined(slope, 0.1)[1]
+    curve = [*zip(SNOW.DENSITIES[1:], beginning)] + [pair for pair in zip(SNOW.DENSITIES, SNOW.STRESSES) if pair[0] >= 525]
+    rows = [(SNOW.DENSITIES[0], SNOW.STRESSES[0]), *((rho, share * stress) for rho, stress in curve)]
+    law = f"law: {{type: cohesive_cam_clay, density: {density:g}, M: {slope:g}, tension_ratio: 0.1}}"
+    table = [f"  {key}: [{', '.join(f'{row[k]:{form}}' for row in rows)}]" for k, (key, form) in enumerate((("rho", "g"), ("p", ".6g")))]
+    lines = [f"title: {title}", law, "elasticity: {type: linear, E: 13.79e6, nu: 0.3}", "hardening:", "  type: by_density", *table]
+    return "\n".join([*lines, "  interpolation: log", "  beyond: extrapolate", ""])
 
 
 def case_of(stresses: tuple[float, ...], depth: float) -> Case:
     """The tyre on 220 kg/m3 of this depth [m], with a compaction curve that begins so."""
-    base = next(case for case in cases_of(HERE) if case.name == study.ERROR_BASE)
-    density = study.CALIBRATION_DENSITY
-    text = study.field_snow(density, stresses, f"field snow of {density:g} kg/m3")
-    label = "_".join(f"{stress / 1e3:.4g}" for stress in stresses)
-    cell = round(depth / round(depth / 0.04), 6)
-    return replace(
-        base,
-        name=f"identify/{label}_{100 * depth:.0f}cm",
-        stage="identify",
-        files={"material.yaml": text},
-        variables={**base.variables, "depth": depth, "cell": cell},
-    )
+    base = next(case for case in cases_of(HERE) if case.name == "row_220_20cm")
+    name = f"identify/{'_'.join(f'{stress / 1e3:.4g}' for stress in stresses)}_{100 * depth:.0f}cm"
+    text = field_snow(220.0, stresses, "field snow of 220 kg/m3")
+    variables = {**base.variables, "depth": depth, "cell": round(depth / round(depth / 0.04), 6)}
+    return replace(base, name=name, stage="identify", files={"material.yaml": text}, variables=variables)
 
 
-class Search:
-    """make: makes a run unless it is there, and evaluates it."""
+def identify(start: tuple[float, ...], make: Callable[[Case], Mapping[str, float]], iterations: int) -> list[dict[str, Any]]:
+    """Trials, rows of identified.csv. make: quantities of a run, which is made unless it is there."""
+    rows = [row for row in read_numbers(HERE / "reference.csv") if row["density_kgm3"] == 220 and 0.18 <= row["depth_m"] <= 0.22]
+    depths, trials = [row["depth_m"] for row in rows], list[dict[str, Any]]()
 
-    def __init__(self, start: tuple[float, ...], make: Callable[[Case], dict[str, Any]]) -> None:
-        self.start, self.make = start, make
-        self.trials: list[Trial] = []
+    def residuals(values: Floats) -> Floats:
+        rising = np.maximum.accumulate(np.maximum(values, LOWEST * np.array([1.0, 1.01, 1.03])))
+        stresses = tuple(float(f"{stress:.4g}") for stress in rising * np.array([1.0, 1.0 + 1e-9, 1.0 + 2e-9]))
+        found = [make(case_of(stresses, depth)) for depth in DEPTHS]
+        density = float(np.mean([run["density_under"] for run in found]))
+        trial, parts = {"trial": len(trials), **dict(zip(SEARCHED, stresses))}, [np.array([(density - DENSITY) / DENSITY_SCALE])]
+        for what, goal in GOAL.items():
+            wrong = np.interp(depths, DEPTHS, [run[what] for run in found]) - np.array([row[what] for row in rows])
+            trial |= {f"{what}_rms": round(rms(wrong), 4), f"{what}_mean": round(float(wrong.mean()), 4)}
+            parts.append(wrong / goal / math.sqrt(len(rows)))
+        each: Floats = np.concatenate(parts)
+        trials.append({**trial, "density_under": round(density), "sum_of_squares": round(float(each @ each), 3)})
+        print("  ".join(f"{name} {value}" for name, value in trials[-1].items()), flush=True)
+        return each
 
-    def stresses(self, logs: Floats) -> tuple[float, ...]:
-        """[Pa], increasing, in their range; logs: of the factors on the start."""
-        inside = np.clip(self.start * np.exp(logs), LOWEST, HIGHEST)
-        first, second, third = (float(f"{x:.4g}") for x in np.maximum.accumulate(inside))
-        return first, max(second, 1.01 * first), max(third, 1.02 * second, 1.03 * first)
-
-    def residuals(self, logs: Floats) -> Floats:
-        """Of the rows, over the goals and the square root of their number; of the density."""
-        stresses = self.stresses(logs)
-        found = [self.make(case_of(stresses, depth)) for depth in DEPTHS]
-        for run in found:
-            if run["failure"]:
-                raise ResultsError(f"{run['run']}: {run['failure']}")
-        rows = [row for row in study.reference() if study.is_calibration(row)]
-        depths = [row["depth_m"] for row in rows]
-        trial: Trial = {"trial": len(self.trials), **dict(zip(SEARCHED, stresses))}
-        parts: list[float] = []
-        for what, goal in study.GOAL.items():
-            computed = np.interp(depths, DEPTHS, [run[what] for run in found])
-            wrong = computed - np.array([row[what] for row in rows])
-            trial[f"{what}_rms"] = round(rms(wrong), 4)
-            trial[f"{what}_mean"] = round(float(wrong.mean()), 4)
-            parts += list(wrong / goal / math.sqrt(len(rows)))
-        trial["density_under"] = round(float(np.mean([run["density_under"] for run in found])))
-        parts.append((trial["density_under"] - study.DENSITY_UNDER) / DENSITY_SCALE)
-        residuals = np.array(parts)
-        trial["sum_of_squares"] = round(float(residuals @ residuals), 3)
-        self.trials.append(trial)
-        print(aligned([trial]), flush=True)
-        return residuals
-
-    def run(self, evaluations: int) -> Trial:
-        """The trial of the smallest sum of squares."""
-        least_squares(  # from ones: SciPy's steps are relative
-            lambda x: self.residuals(x - 1.0), np.ones(len(SEARCHED)), diff_step=STEP, max_nfev=evaluations
-        )
-        return min(self.trials, key=lambda trial: float(trial["sum_of_squares"]))
+    fit([Parameter(name, "Pa", one, LOWEST, HIGHEST) for name, one in zip(SEARCHED, start)], residuals, replace(SEARCH, evaluations=iterations))
+    return trials
 
 
-def parse() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument(
-        "--start", nargs=3, type=positive, metavar="PA", default=START, help="instead of START"
-    )
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--start", nargs=3, type=positive, metavar="PA", default=SNOW.STRESSES[1:4], help="stresses at the start")
     parser.add_argument("--iterations", type=at_least(1), default=4)
     parser.add_argument("--results", type=path, help="default: results/snow_wheel in the source tree")
     parser.add_argument("--build", type=path, help="build folder with the programs")
-    return parser.parse_args()
-
-
-def identify(parsed: argparse.Namespace) -> None:
+    parsed = parser.parse_args()
     tools = Tools.of(Path(__file__), parsed.build)
-    executor = Executor(parsed.results or tools.root / "results" / HERE.name, tools)
-    made: list[Record] = []
+    executor, records = Executor(parsed.results or tools.root / "results" / HERE.name, tools), []
 
-    def make(case: Case) -> dict[str, Any]:
-        executor.run([case])
-        record = executor.ended(case)
-        assert record
-        made.append(record)
-        row: dict[str, Any] = study.row_of(Run(case, executor.folder(case), record))
-        return row
+    def make(case: Case) -> Mapping[str, float]:
+        (run,) = executor.completed([case])
+        records.append(run.record)
+        return {**steady(run, 0.5), "density_under": rut(run)["under"]}
 
-    search = Search(tuple(parsed.start), make)
-    best = search.run(parsed.iterations)
-    print(f"best:\n{aligned([best])}\n")
+    trials = identify(tuple(parsed.start), make, parsed.iterations)
+    print("best:", min(trials, key=lambda trial: float(trial["sum_of_squares"])))
     with Output(HERE, page=False) as output:
-        output.table("identified.csv", search.trials)
-        output.publish(made, tools.root)
+        output.table("identified.csv", trials)
+        output.publish(records, tools.root)
 
 
 if __name__ == "__main__":
-    sys.exit(run_program("snow_wheel/identify.py", lambda: identify(parse())))
+    sys.exit(run_program("snow_wheel/identify.py", main))

@@ -51,3 +51,14 @@ class CompressedSnow:
             return self.carried(z, sides) + sides * self.width * self.contact(z) * shear - load
 
         return float(brentq(excess, 1e-4, 0.78 * self.depth))
+
+
+def cam_clay_confined(slope: float, tension_ratio: float) -> tuple[float, float]:
+    """K0, and p0 over the axial stress, of cohesive Cam clay with slope M in confined compression: closed form of
+    src/material/models/cohesive_cam_clay."""
+    ratio = slope / np.sqrt(1 + 2 * tension_ratio)
+    root = np.sqrt(9 + 4 * ratio**2)
+    centre, half = (1 - tension_ratio) / 2, (1 + tension_ratio) / 2  # of the ellipse, over p0
+    p, q = centre + 3 * half / root, 2 * ratio**2 * half / root
+    axial = p + 2 * q / 3
+    return float((p - q / 3) / axial), round(float(1 / axial), 3)

@@ -7,11 +7,13 @@ from pathlib import Path
 import numpy as np
 
 from ..analyse.evaluations import last_piece_of, path_states, plate_curve, pressure_near, whole_plate_curve
+from ..analyse.statistics import rms
 from ..laboratory.evaluation import evaluate
 from ..laboratory.reference import reference_error
 from ..read.laboratory import LaboratoryTest, cell_curve, read_oedometer_reference
 from ..run.executor import Run
-from .frames import Row
+from ..study.runs import Runs
+from .frames import Row, read_frame
 
 
 def plate(run: Run, whole: bool = True) -> Row:
@@ -26,6 +28,44 @@ def smooth_plate(run: Run, width: float) -> Row:
     bins = (curve[:, 1] / width).astype(int)
     means = np.array([curve[bins == k].mean(axis=0) for k in np.unique(bins)])
     return {"sinkage": means[:, 1], "load": means[:, 2], "pressure": means[:, 3]}
+
+
+SURFACES = np.arange(0.0, 0.601, 0.025)  # of the grain diameter: from the level of the mass to the highest grains
+
+
+def smooth_force(run: Run, points: int = 11) -> Row:
+    """sinkage [mm] and force [N], smoothed over so many rows of curve.txt."""
+    curve, ones = whole_plate_curve(run.folder), np.ones(points) / points
+    return {"sinkage": 1000 * curve[:, 1], "force": np.convolve(np.pad(curve[:, 2], points // 2, "edge"), ones, "valid")}
+
+
+def plate_calibration(runs: Runs, candidates: Sequence[str], sizes: Sequence[int], measured: str) -> list[Row]:
+    """A row for each candidate of grains whose plates plate_CANDIDATE_SIZE were pressed. surface [mm] above the level of
+    the bed's mass, from which sinkage is counted, has the least rms of ln(computed/measured force): best. plain: that
+    without a surface; by_size: rms of each plate; run: the smallest plate; plates: all. measured: table with kind,
+    size_mm, sinkage_mm, force_N."""
+    tests = [row for row in read_frame(Path(measured)).to_dict("records") if row["kind"] == "plate"]
+    rows: list[Row] = []
+    for candidate in candidates:
+        plates = {size: run for size in sizes if (run := runs.one(f"plate_{candidate}_{size}"))}
+        if not plates:
+            continue
+        curves = {size: smooth_force(run) for size, run in plates.items()}
+        run = plates[min(plates)]
+
+        def off(surface: float, size: int) -> list[float]:
+            c = curves[size]
+            mine = [test for test in tests if test["size_mm"] == size]
+            return [float(np.log(np.interp(t["sinkage_mm"], c["sinkage"] + surface, c["force"]) / t["force_N"])) for t in mine]
+
+        def error(surface: float) -> float:
+            return rms([one for size in curves for one in off(surface, size)])
+
+        surface = float(min(1000 * run.number("diameter") * SURFACES, key=error))
+        by_size = {size: rms(off(surface, size)) for size in curves}
+        found = {"candidate": candidate, "surface": surface, "best": error(surface), "plain": error(0.0)}
+        rows.append({**found, "by_size": by_size, "run": run, "plates": list(plates.values())})
+    return rows
 
 
 def plate_pressure(run: Run, sinkages: Sequence[float], near: float) -> list[Row]:

@@ -11,7 +11,7 @@
     where: expression               of the rows that are kept
     columns: {name: expression}
     blocks: [{runs, measure, columns}, ...]   several groups of runs, each with further keys
-    rows: function or "= list"      of evaluate.py, in place of runs: rows of other numbers
+    rows: function or "= list"      in place of runs: rows of other numbers
 
 A measure is a function of the run in measures.py or in the study's evaluate.py, or resistance (furrow-resistance): its
 numbers, or a list of them, one per row. An expression sees them, `reference` (columns of reference.csv), the names of
@@ -43,11 +43,14 @@ from ..study.runs import Run, Runs
 from . import measures, panels
 from .expressions import filled, value_of
 from .frames import Row, cell, frame_of, plain, read_frame, rows_of
+from .identification import identify
 from .operations import OPERATIONS, cells, select
 
 RUN = "name, last, what, arguments, stage, seconds, cpu, cpu_time, error, v (variables), facts"
 BLOCK_KEYS = {"runs", "rows", "failed", "measure", "expand", "let", "where", "columns", "with"}
 TABLE_KEYS = BLOCK_KEYS | {"blocks", "of", "texts", "do", "comments", "transpose"}
+
+LIMIT_KEYS = {"table", "where", "holds", "message", "least", "absent", "key", "repeats", "within"}
 
 Spec = Mapping[str, Any]
 
@@ -138,20 +141,27 @@ class Engine:
     ) -> Iterator[Row]:
         if "rows" not in block:
             for run in self.chosen(runs, block):
-                yield from self.rows_of_run(runs, run, block, name)
+                yield from self.rows_of_run(runs, run, block, name, tables)
             return
         names = {**self.constants, "tables": tables, **(block.get("with") or {})}
-        made = filled(block["rows"], names, self.where(name))
-        for row in self.function(made, {}, name)(runs) if isinstance(made, str) else made:
+        made = block["rows"]
+        if isinstance(made, str) and made.startswith("="):
+            rows = filled(made, names, self.where(name))
+        else:
+            called = filled({made: {}} if isinstance(made, str) else made, names, self.where(name))
+            rows = [row for one, given in called.items() for row in self.function(one, measures.ROWS, name)(runs, **given)]
+        for row in rows:
             yield cells({**names, **row}, block["columns"], self.where(name)) if block.get("columns") else row
 
     def chosen(self, runs: Runs, block: Spec) -> list[Run]:
         names = panels.listed(block.get("runs", "*"))
         return runs.ended(*names) if block.get("failed") else runs.done(*names)
 
-    def rows_of_run(self, runs: Runs, run: Run, block: Spec, name: str) -> Iterator[Row]:
+    def rows_of_run(
+        self, runs: Runs, run: Run, block: Spec, name: str, tables: Mapping[str, pandas.DataFrame]
+    ) -> Iterator[Row]:
         where = f"{self.where(name)}, run {run.name}"
-        names = {**self.constants, **(block.get("with") or {}), **names_of(run)}
+        names = {**self.constants, "tables": tables, **(block.get("with") or {}), **names_of(run)}
         parts: list[Row] = [{}]
         columns = block.get("columns") or {}
         if run.error and block["failed"] != "all":
@@ -199,12 +209,12 @@ class Engine:
         frame = pandas.concat(
             [read_frame(self.folder / one, texts) if texts else tables[one] for one in sources], ignore_index=True
         )
-        constants = {**self.constants, **(spec.get("with") or {})}
+        constants = {**self.constants, "tables": tables, **(spec.get("with") or {})}
         for step in spec.get("do") or []:
             if not len(frame):
                 return frame
             for one, arguments in ({step: {}} if isinstance(step, str) else step).items():
-                operation = self.function(one, OPERATIONS, name)
+                operation = self.function(one, {**OPERATIONS, "identify": identify}, name)
                 given = {"condition": arguments} if isinstance(arguments, str) else arguments or {}
                 frame = operation(frame, tables, constants, **filled(given, constants, self.where(name)))
         if len(frame) and spec.get("columns"):
@@ -263,7 +273,7 @@ class Engine:
                 function(runs, tables, output.path(name), **given)
         else:
             curve = partial(self.curve, runs)
-            panels.draw(spec, panels.Sources(runs, tables, self.constants, names_of, curve), output.path(name))
+            panels.draw(spec, panels.Sources(runs, tables, {**self.constants, "tables": tables}, names_of, curve), output.path(name))
 
     def curve(self, runs: Runs, name: str, run: Run, arguments: Spec) -> Row:
         """Numbers of a run for a line of a figure; columns of several rows."""
@@ -274,6 +284,8 @@ class Engine:
     def missed(self, tables: Tables) -> Iterator[str]:
         """A sentence for each limit that is missed."""
         for limit in self.content.get("limits") or []:
+            if unknown := set(limit) - LIMIT_KEYS:
+                raise ResultsError(f"{self.where('limits')} have unknown keys {sorted(map(str, unknown))}; allowed are {sorted(LIMIT_KEYS)}")
             frame = tables[limit["table"]]
             if "repeats" in limit:
                 yield from self.changed(limit, frame)

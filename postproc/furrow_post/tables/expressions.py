@@ -23,9 +23,14 @@ def number(cell: Any) -> float:
     return float(cell) if cell != "" else math.nan
 
 
+def whole(cell: Any) -> Any:
+    """A cell of a column of whole numbers that may be empty."""
+    return "" if math.isnan(number(cell)) else int(number(cell))
+
+
 FUNCTIONS: Mapping[str, Any] = {
     **{name: getattr(math, name) for name in ("sqrt", "exp", "log", "hypot", "sin", "cos", "tan", "radians", "degrees", "pi", "nan", "isnan")},
-    "round": rounded, "number": number, "mean": np.mean, "rms": rms, "block_mean": block_mean, "drift": drift, "np": np, "re": re,
+    "round": rounded, "number": number, "whole": whole, "mean": np.mean, "rms": rms, "block_mean": block_mean, "drift": drift, "np": np, "re": re,
 }  # fmt: skip  # next to Python's own
 
 

@@ -6,6 +6,7 @@ Each takes a frame and its arguments, and gives another frame. Expressions see t
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import pandas
 
 from ..analyse import evaluations
 from ..analyse.grid_convergence import grid_convergence
+from ..analyse.statistics import rms
 from ..errors import ResultsError
 from .expressions import value_of
 from .frames import Row
@@ -34,6 +36,8 @@ def cells(names: Mapping[str, Any], columns: Columns, where: str) -> Row:
     """One row of new columns. @raises ResultsError for a name that is not known"""
     row: Row = {}
     for column, text in columns.items():
+        if not isinstance(column, str):
+            raise ResultsError(f"{where}: {column} is no name; YAML reads on, off, yes and no as truth values, so quote them")
         try:
             row[column] = value_of(column if text is None else text, {**row, **names}, f"{where}, column {column}")
         except NameError as error:
@@ -80,6 +84,28 @@ def summary(
         names = {**constants, **arrays, **key, "count": len(rows)}
         made.append({**key, **cells(names, columns, "summary")})
     return pandas.DataFrame(made)
+
+
+def transform(
+    frame: pandas.DataFrame, tables: Tables, constants: Row, columns: Columns, by: str | Sequence[str] = ()
+) -> pandas.DataFrame:
+    """Further columns, the same in all rows of a group; expressions as in summary."""
+    parts = []
+    for key, rows in groups(frame, by):
+        names = {**constants, **{str(name): rows[name].to_numpy() for name in rows}, **key, "count": len(rows)}
+        parts.append(rows.assign(**cells(names, columns, "transform")))
+    return pandas.concat(parts).sort_index() if parts else frame
+
+
+def pair_scatter(
+    frame: pandas.DataFrame, tables: Tables, constants: Row, by: str | Sequence[str], values: Columns
+) -> pandas.DataFrame:
+    """Further columns, values: NAME -> column: the standard deviation of one run, pooled over all pairs of runs of one
+    group. NaN where no group has two."""
+    for name, column in values.items():
+        pairs = [one - other for _, rows in groups(frame, by) for one, other in combinations(rows[column], 2)]
+        frame = frame.assign(**{name: rms(pairs) / math.sqrt(2.0) if pairs else np.nan})
+    return frame
 
 
 def packings(
@@ -228,7 +254,9 @@ def join(
         kept = {own for own, their in pairs.items() if own == their}
         other = other.rename(columns={name: f"{prefix}{name}" for name in other if name not in kept})
     right = [their if own == their or not prefix else f"{prefix}{their}" for own, their in pairs.items()]
-    return frame.merge(other, how=how, left_on=list(pairs), right_on=right, suffixes=("", "_other"))
+    rows = frame.assign(row_of_frame=range(len(frame)))
+    found = rows.merge(other, how=how, left_on=list(pairs), right_on=right, suffixes=("", "_other"))
+    return found.sort_values("row_of_frame", kind="stable").drop(columns="row_of_frame")
 
 
 def stack(
@@ -277,7 +305,7 @@ def transpose(frame: pandas.DataFrame, tables: Tables, constants: Row, key: str)
 
 
 _ALL: Sequence[Operation] = (
-    where, derive, select, summary, packings, finest, against, size_series, off_curve, cost_ratio, join, stack, pivot, sort,
+    where, derive, select, summary, transform, packings, pair_scatter, finest, against, size_series, off_curve, cost_ratio, join, stack, pivot, sort,
     append, transpose,
 )  # fmt: skip
 OPERATIONS: Mapping[str, Operation] = {str(getattr(one, "__name__")): one for one in _ALL}

@@ -19,7 +19,7 @@ def line(data: Floats, deviation: float = 1.0):  # type: ignore[no-untyped-def]
 
 class FitterTest(unittest.TestCase):
     def test_a_prior_weighs_as_its_variance(self) -> None:
-        """The mean of the posterior of a line: (x.y/s^2 + m/t^2)/(x.x/s^2 + 1/t^2)."""
+        """The posterior of a line has a closed form."""
         data, s, t = 2.0 * X + 0.01 * np.sin(9 * X), 0.1, 0.5
         found = fit([Parameter("slope", "", 1.0, -math.inf, math.inf, spread=t)], line(data, s))
         precision = X @ X / s**2 + 1 / t**2

@@ -69,7 +69,7 @@ class InstantsTest(unittest.TestCase):
         first, second = mean_of_instants(instants, "away")
         self.assertEqual((first["depth_mm"], second["depth_mm"]), (47, 84))
         self.assertEqual((first["shear_ahead_mm"], second["shear_ahead_mm"]), (48.5, 85.5))
-        # deviation of 0, 1, 2, 3: the square root of 5/3; of the mean of four: half of it
+        # half of the standard deviation, which is the square root of 5/3
         self.assertEqual(first["shear_ahead_mm_error"], 0.65)
 
 

@@ -42,6 +42,22 @@ class PackingsTest(unittest.TestCase):
         self.assertEqual(done("against", self.ROWS, base='change == "none"'), [])
 
 
+    def test_the_finest_grains_have_their_scatter_and_the_step_from_the_next(self) -> None:
+        rows = [{"d": d, "value": value} for d, value in ((0.05, 90.0), (0.05, 110.0), (0.07, 70.0))]
+        (row,) = done("finest", rows, by=[], size="d")
+        self.assertEqual(row["mean"], 100.0)
+        self.assertAlmostEqual(row["error"], math.hypot(10, 30))
+
+    def test_scatter_of_one_run_comes_from_pairs_of_one_point(self) -> None:
+        rows = [{"h": 8.0, "f": -0.2}, {"h": 8.0, "f": -0.16}, {"h": 6.0, "f": 5.0}]
+        found = done("pair_scatter", rows, by="h", values={"u": "f"})
+        self.assertAlmostEqual(found[2]["u"], 0.04 / math.sqrt(2))
+
+    def test_rows_of_a_group_share_a_column(self) -> None:
+        found = done("transform", self.ROWS, by="change", columns={"n": "count", "middle": "value.mean()"})
+        self.assertEqual([(row["n"], row["middle"]) for row in found], [(2, 29.0), (1, 30.0), (2, 29.0)])
+
+
 class SeriesTest(unittest.TestCase):
     def test_a_power_law_is_extrapolated_to_its_value_at_zero_size(self) -> None:
         rows = [{"law": law, "h": h, "z": z + 0.1 * h, "z_error": 1e-4} for law, z in (("a", 1.0), ("b", 2.0)) for h in (8.0, 4.0, 2.0)]

@@ -18,7 +18,7 @@ def is_stored(engine: Engine, name: str) -> bool:
         return True
     if "of" not in spec:
         return False
-    joined = [one["table"] for step in spec.get("do") or [] if isinstance(step, dict) for one in step.values() if "table" in one]
+    joined = [one["table"] for step in spec.get("do") or [] if isinstance(step, dict) for one in step.values() if isinstance(one, dict) and "table" in one]
     sources = [spec["of"]] if isinstance(spec["of"], str) else spec["of"]
     return all(is_stored(engine, one) for one in (*sources, *joined))
 
@@ -35,6 +35,12 @@ class StoredTablesTest(unittest.TestCase):
                         self.assertEqual(engine.text(name, Tables(engine)), stored)
                         made += 1
         self.assertGreater(made, 2)
+
+    def test_stored_tables_are_within_the_limits_of_their_study(self) -> None:
+        for folder in study_folders(SOURCE):
+            engine = Engine(folder, load_yaml(folder / DEFINITION), evaluation_of(folder))
+            with self.subTest(study=folder.name):
+                self.assertEqual(list(engine.missed(Tables(engine))), [])
 
 
 if __name__ == "__main__":
