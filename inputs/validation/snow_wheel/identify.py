@@ -49,7 +49,7 @@ SEARCH = Search(step=0.2, central=False, ftol=1e-8, xtol=1e-8, scale=1.0)  # mov
 def field_snow(density: float, beginning: tuple[float, ...] = SNOW.STRESSES[1:4], title: str = "Field snow", slope: float = 3.3) -> str:
     """A material file. beginning: axial stresses [Pa] from 380 kg/m3 on; slope: M of Cam clay (3.3: K0 0.12)."""
     share = cam_clay_confined(slope, 0.1)[1]
-    curve = [*zip(SNOW.DENSITIES[1:], beginning)] + [pair for pair in zip(SNOW.DENSITIES, SNOW.STRESSES) if pair[0] >= 525]
+    curve = [*zip(map(float, SNOW.DENSITIES[1:]), beginning)] + [pair for pair in zip(SNOW.DENSITIES, SNOW.STRESSES) if pair[0] >= 525]
     rows = [(SNOW.DENSITIES[0], SNOW.STRESSES[0]), *((rho, share * stress) for rho, stress in curve)]
     law = f"law: {{type: cohesive_cam_clay, density: {density:g}, M: {slope:g}, tension_ratio: 0.1}}"
     table = [f"  {key}: [{', '.join(f'{row[k]:{form}}' for row in rows)}]" for k, (key, form) in enumerate((("rho", "g"), ("p", ".6g")))]
@@ -62,7 +62,7 @@ def case_of(stresses: tuple[float, ...], depth: float) -> Case:
     base = next(case for case in cases_of(HERE) if case.name == "row_220_20cm")
     name = f"identify/{'_'.join(f'{stress / 1e3:.4g}' for stress in stresses)}_{100 * depth:.0f}cm"
     text = field_snow(220.0, stresses, "field snow of 220 kg/m3")
-    variables = {**base.variables, "depth": depth, "cell": round(depth / round(depth / 0.04), 6)}
+    variables: dict[str, Any] = {**base.variables, "depth": depth, "cell": round(depth / round(depth / 0.04), 6)}
     return replace(base, name=name, stage="identify", files={"material.yaml": text}, variables=variables)
 
 
@@ -76,7 +76,8 @@ def identify(start: tuple[float, ...], make: Callable[[Case], Mapping[str, float
         stresses = tuple(float(f"{stress:.4g}") for stress in rising * np.array([1.0, 1.0 + 1e-9, 1.0 + 2e-9]))
         found = [make(case_of(stresses, depth)) for depth in DEPTHS]
         density = float(np.mean([run["density_under"] for run in found]))
-        trial, parts = {"trial": len(trials), **dict(zip(SEARCHED, stresses))}, [np.array([(density - DENSITY) / DENSITY_SCALE])]
+        trial: dict[str, Any] = {"trial": len(trials), **dict(zip(SEARCHED, stresses))}
+        parts = [np.array([(density - DENSITY) / DENSITY_SCALE])]
         for what, goal in GOAL.items():
             wrong = np.interp(depths, DEPTHS, [run[what] for run in found]) - np.array([row[what] for row in rows])
             trial |= {f"{what}_rms": round(rms(wrong), 4), f"{what}_mean": round(float(wrong.mean()), 4)}

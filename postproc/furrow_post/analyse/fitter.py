@@ -204,7 +204,7 @@ class _Problem:
 
     def __init__(self, parameters: Sequence[Parameter], residuals: Residuals, search: Search, held: Booleans | None):
         self.parameters, self.residuals, self.search = parameters, residuals, search
-        self.fitted = slice(None) if held is None else ~held
+        self.fitted: slice | Booleans = slice(None) if held is None else ~held
         self.evaluations = 0
         self.low, self.high, self.first = (np.array([getattr(p, end) for p in parameters]) for end in ("low", "high", "first"))
         self.weight = np.array([1.0 / p.spread for p in parameters])

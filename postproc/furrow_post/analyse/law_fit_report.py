@@ -32,9 +32,9 @@ def report(point: PointCurves, fit: LawFit) -> str:
     ]
     if not fit.fit.converged:
         lines.append("  WARNING       the fit did not converge")
-    if fit.known and fit.rms > LARGEST_RMS:
+    if fit.fit.known and fit.fit.rms > LARGEST_RMS:
         lines.append(
-            f"  WARNING       this law cannot follow the data: the rms residual is {fit.rms:.3g} "
+            f"  WARNING       this law cannot follow the data: the rms residual is {fit.fit.rms:.3g} "
             "deviations; try another law, or check the deviations"
         )
     lines += ["", f"  {'parameter':<24} {'start':>12} {'fitted':>12} {'deviation':>12}"]

@@ -12,15 +12,20 @@
 
 A run is a LIGGGHTS script (script, variables, log), a path of a material point (point: {title,
 material, path}), or a program with its arguments. Other keys are those of a Case; shares lists the
-variables that make equal what runs with the same script share. In texts {here} is
-the folder of the study, {inputs}, {materials}, {scenes}, {tyres} are those folders, {folder} that of
-the run, {run} its name, {what} its words, and every key of `with` stands for its value. A study whose
-runs are rows of a table has a function cases() in its evaluate.py in the place of `runs`.
+variables that make equal what runs with the same script share. In texts {here} is the folder of
+the study, {inputs}, {materials}, {scenes}, {tyres} are those folders, {folder} that of the run,
+{run} its name, {what} its words, and every key of `with` stands for its value. A file's text that
+begins with "=" is an expression of the functions in evaluate.py. An entry with `for: {key: [value,
+...]}` is a run for each combination of the values; {key} stands for the value, in the run's name
+too. A value may give further keys: `for: {key: {value: {other: ...}}}`. A study whose runs are
+rows of a table has a function cases() in its evaluate.py in the place of `runs`.
 """
 
 import importlib.util
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import product
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -35,7 +40,7 @@ EVALUATION = "evaluate.py"
 FOLDERS = ("materials", "scenes", "tyres")
 KEYS = {
     "what", "program", "script", "arguments", "variables", "files", "point", "with", "time_limit",
-    "may_fail", "fallback", "log", "ranks", "shares", "reads",
+    "may_fail", "fallback", "log", "ranks", "shares", "reads", "for",
 }  # fmt: skip
 MERGED = ("variables", "files", "point", "with", "fallback")  # key by key; of others the last counts
 
@@ -64,8 +69,23 @@ def cases_of(folder: Path, content: Mapping[str, Any] | None = None) -> tuple[Ca
         own = _merged(common, runs.get("defaults") or {})
         for name, run in runs.items():
             if name != "defaults":
-                found.append(_case(folder, str(stage), str(name), _merged(own, run or {}), texts))
+                each = _each(str(name), _merged(own, run or {}))
+                found += [_case(folder, str(stage), *one, texts) for one in each]
     return tuple(found)
+
+
+def _each(name: str, run: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """The runs of an entry with `for`, one for each combination of its values; of another entry itself."""
+    values = run.pop("for", None) or {}
+    several = [one if isinstance(one, Mapping) else dict.fromkeys(one, {}) for one in values.values()]
+    for combination in product(*(one.items() for one in several)):
+        given = dict(run.get("with") or {})
+        for key, (value, more) in zip(values, combination):
+            given |= {key: value, **more}
+        own = name
+        for key, value in given.items():
+            own = own.replace(f"{{{key}}}", str(value))
+        yield own, {**run, "with": given}
 
 
 def _merged(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
@@ -106,8 +126,12 @@ def _case(
     more["stage"] = "" if stage == "all" else stage
     more["fallback"] = {key: filled(value) for key, value in (run.get("fallback") or {}).items()}
     more["reads"] = tuple(filled(value) for value in run.get("reads") or ())
-    files = {key: texts.get(text, text) for key, text in (run.get("files") or {}).items()}
-    more["files"] = {key: str(filled(text)) for key, text in files.items()}
+    files = {key: str(filled(text)) for key, text in (run.get("files") or {}).items()}
+    more["files"] = {key: str(filled(texts.get(text, text))) for key, text in files.items()}
+    for key, text in more["files"].items():
+        if text.startswith("="):
+            functions = dict(vars(evaluation_of(folder)))
+            more["files"][key] = str(eval(text[1:], functions))  # a study may hold programs
     variables: dict[str, Value] = {k: filled(v) for k, v in (run.get("variables") or {}).items()}
     if names := run.get("shares"):
         own = run.get("variables") or {}
@@ -118,8 +142,9 @@ def _case(
         return script_case(name, script, variables, log=bool(run.get("log")), **more)
     if run.get("point") is not None:
         point = {key: filled(value) for key, value in run["point"].items()}
-        more.pop("files")
+        texts_of_run = more.pop("files")
         title = str(point.get("title", name))
-        return point_case(name, title, Path(point["material"]), str(point["path"]), **more)
+        case = point_case(name, title, Path(point["material"]), str(point["path"]), **more)
+        return replace(case, files={**case.files, **texts_of_run})
     arguments = tuple(filled(word) for word in run.get("arguments") or ())
     return Case(name, run["program"], arguments, variables, **more)

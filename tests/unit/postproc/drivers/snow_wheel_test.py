@@ -2,10 +2,11 @@
 """inputs/validation/snow_wheel: the field snow of its runs and presets, and the identification of its beginning."""
 
 import contextlib
+import importlib.util
 import io
 import re
-import sys
 import unittest
+from typing import Any
 
 import numpy as np
 
@@ -14,10 +15,14 @@ from furrow_post.run.case import Case
 from support.command import SOURCE
 from support.evaluation import VALIDATION, cases, evaluation
 
-sys.path.insert(0, str(VALIDATION / "snow_wheel"))
-
-from identify import SEARCHED, field_snow, identify
-
+# Not by its name: inputs/laboratory has an identify.py, too
+specification = importlib.util.spec_from_file_location(
+    "snow_wheel_identify", VALIDATION / "snow_wheel" / "identify.py"
+)
+assert specification and specification.loader
+program: Any = importlib.util.module_from_spec(specification)
+specification.loader.exec_module(program)
+field_snow = program.field_snow
 study = evaluation("snow_wheel")
 CRUSHED, FINE = 3.3, 1.25  # slopes M
 TWO_STRESSES = study.STRESSES[1:3]
@@ -90,9 +95,9 @@ class IdentifyTest(unittest.TestCase):
             return {"sinkage_m": sinkage, "resistance": resistance, "density_under": 510.0 + 60.0 * apart[2]}
 
         with contextlib.redirect_stdout(io.StringIO()):
-            trials = identify(study.STRESSES[1:4], make, 8)
+            trials = program.identify(study.STRESSES[1:4], make, 8)
         best = min(trials, key=lambda trial: float(trial["sum_of_squares"]))
-        for name, stress in zip(SEARCHED, (5e3, 20e3, 90e3)):
+        for name, stress in zip(program.SEARCHED, (5e3, 20e3, 90e3)):
             self.assertAlmostEqual(best[name] / stress, 1.0, delta=0.15, msg=name)
 
 

@@ -70,6 +70,21 @@ class DefinitionTest(unittest.TestCase):
         self.assertEqual(made["tyre"].arguments[1:], ("--load", 6227))
         self.assertEqual(made["tyre"].arguments[0], self.root / "inputs" / "tyres" / "t.yaml")
 
+    def test_an_entry_may_be_a_run_for_each_combination_of_values(self) -> None:
+        (self.folder / "evaluate.py").write_text("def column(height: float) -> str:\n    return f'{height:.1f}'\n")
+        made = self.cases(
+            "texts: {soil: 'e: {e}'}\n"
+            "runs:\n  all:\n    plate_{size}/{law}:\n"
+            "      for: {size: [0.1, 0.2], law: {cap: {e: 1}, norsand: {e: 2}}}\n"
+            "      script: plate.lig\n"
+            "      variables: {size: '{size}'}\n"
+            "      files: {material.yaml: soil, column.txt: '= column(2 * {e})'}\n"
+        )
+        names = ["plate_0.1/cap", "plate_0.1/norsand", "plate_0.2/cap", "plate_0.2/norsand"]
+        self.assertEqual(list(made), names)
+        self.assertEqual(made["plate_0.2/cap"].variables["size"], "0.2")
+        self.assertEqual(made["plate_0.2/cap"].files, {"material.yaml": "e: 1", "column.txt": "2.0"})
+
     def test_mistakes_are_refused(self) -> None:
         for text, message in (
             ("runs: {all: {a: {skript: x}}}", "run 'a' has unknown keys \\['skript'\\]; allowed are"),
