@@ -16,6 +16,7 @@
 #include "coupling/liggghts/library_check.h"
 #include "coupling/liggghts/rescue.h"
 #include "coupling/liggghts/signals.h"
+#include "coupling/output/fix_wheel_history.h"
 #include "coupling/run_script.h"
 #include "io/version.h"
 #include "lammps.h"
@@ -63,6 +64,7 @@ int main(int argc, char** argv) {
       report_stop(*lammps);
     else
       warn_without_run(*lammps);
+    print_verdicts(*lammps);
     delete lammps;
     status = agreed_signal() ? failure_status() : 0;
   }

@@ -39,14 +39,15 @@ using Clock = std::chrono::steady_clock;
 std::vector<std::string> reasons(const Summary& summary, double target) {
   if (!summary.trouble.empty()) return {summary.trouble};
   std::vector<std::string> found;
-  for (const char* name : {"hub_drop", "resistance_coefficient"}) {
-    const SteadyValue& value = summary.resistance.value(name);
+  const Resistance& r = summary.resistance;
+  for (const SteadyValue& value : {r.value("hub_drop"), r.answer()}) {
     const double least = value.unit.empty() ? smallest_scale : 0.0;
     const double share = value.standard_error / std::max(std::abs(value.mean), least);
     if (!value.steady)
-      found.push_back(fmt::format("{}: {}", name, value.verdict));
+      found.push_back(fmt::format("{}: {}", plain_name(value.name), value.verdict));
     else if (!(share <= target))
-      found.push_back(fmt::format("{}: its standard error is {:.2g} % of it", name, 100.0 * share));
+      found.push_back(fmt::format("{}: its standard error is {:.2g} % of it",
+                                  plain_name(value.name), 100.0 * share));
   }
   return found;
 }
@@ -59,8 +60,8 @@ const StyleRow run_until_steady_style =
 Schema CommandRunUntilSteady::schema() {
   Schema schema("command run_until_steady");
   schema.number("error", "", Range::open(0.0, 1.0),
-                "largest relative standard error of hub drop and resistance coefficient; for a "
-                "coefficient below 0.1, its error over 0.1");
+                "largest relative standard error of hub drop and coefficient; for a coefficient "
+                "below 0.1, its error over 0.1");
   schema
       .number("wall_time", "s", Range::positive(),
               "wall time from this line after which no further stretch begins; by default no limit")
@@ -97,9 +98,10 @@ void CommandRunUntilSteady::command(int narg, char** arg) {
   if (agreed_signal()) return;
   const long added = static_cast<long>(update->ntimestep) - first;
   if (end.empty())
-    announce(*lmp, fmt::format("run_until_steady: hub drop and resistance coefficient are steady "
-                               "within {:g} %, after {} steps more",
-                               100.0 * target, added));
+    announce(*lmp,
+             fmt::format("run_until_steady: hub drop and coefficient are steady within {:g} %, "
+                         "after {} steps more",
+                         100.0 * target, added));
   else
     warn(*lmp, fmt::format("run_until_steady: not steady within {:g} % after {} steps more: {}. {}",
                            100.0 * target, added, end, problem));

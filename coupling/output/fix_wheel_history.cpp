@@ -92,7 +92,17 @@ void FixWheelHistory::close() {
   const std::string& folder = options().text("folder");
   const Summary summary = summarise(folder);
   write_summary(folder, summary);
+  verdict_ = "Verdict: " + verdict_of(summary);
   if (screen) fmt::print(screen, "\n{}\n", summary_text(summary));
+}
+
+void print_verdicts(LAMMPS_NS::LAMMPS& lammps) {
+  if (!lammps.screen) return;
+  const std::vector<FixWheelHistory*> histories = fixes_of<FixWheelHistory>(*lammps.modify);
+  for (const FixWheelHistory* history : histories)
+    if (!history->verdict().empty())
+      fmt::print(lammps.screen, "\nSummary: {}/summary.txt\n{}\n", history->folder(),
+                 history->verdict());
 }
 
 GroundLosses FixWheelHistory::ground_losses() {

@@ -22,6 +22,8 @@ class FixWheelHistory : public FixHistory {
 
   const std::string& folder() const { return options().text("folder"); }
   const WheelHub& wheel() const;
+  /// "Verdict: ..." of the last run; empty before it, and on all ranks but the first.
+  const std::string& verdict() const { return verdict_; }
 
   void post_create() override;
   void setup(int vflag) override;
@@ -41,10 +43,15 @@ class FixWheelHistory : public FixHistory {
   std::optional<VtkSeries> wheel_frames_;
   std::optional<VtkSeries> grain_frames_;
   Grains reference_;
+  std::string verdict_;
 
   long first_step_ = 0;
   double first_time_ = 0.0;    // [s]
   double first_energy_ = 0.0;  // [J] residual of the wheel's energy
 };
+
+/// Prints the verdict on each wheel, for the end of a program: LIGGGHTS prints its statistics
+/// after the summary.
+void print_verdicts(LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace furrow::coupling

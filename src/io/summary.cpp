@@ -16,14 +16,17 @@ namespace furrow {
 
 namespace {
 
-/// Standard error to two digits and the value to the same place: "0.01712 +- 0.00043".
-std::string with_error(double value, double error) {
+/// Standard error to so many digits and the value to the same place: "0.01712 +- 0.00043".
+std::string with_error(double value, double error, int digits = 2) {
   constexpr double rounding = 1e-12;  // of what vanishes by symmetry, or is prescribed
   if (std::abs(value) < rounding && error < rounding) return "0";
   if (!(error > rounding * std::abs(value))) return fmt::format("{:.6g}", value);
-  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error))));
+  const int decimals = std::max(0, digits - 1 - static_cast<int>(std::floor(std::log10(error))));
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
 }
+
+constexpr char verdict_head[] = "Verdict: ";
+constexpr std::size_t longest_verdict = 91;  // with its head a line of 100 characters
 
 std::string clock_text(double seconds) {
   return seconds < 60.0 ? fmt::format("{:.1f} s", seconds)
@@ -31,46 +34,46 @@ std::string clock_text(double seconds) {
                                       std::lround(seconds) % 60);
 }
 
-std::string title_of(const std::string& name) {
-  std::string text = name;
-  for (char& c : text)
-    if (c == '_') c = ' ';
-  return text;
-}
-
 std::string row_of(const std::string& name, const SteadyValue& v, const std::string& word) {
   return fmt::format("  {:<26} {:>24} {:<5}  {}\n", name, with_error(v.mean, v.standard_error),
                      v.unit, word);
 }
 
-const char* coefficient_of(const Resistance& r) {
-  return r.driven ? "net_traction_coefficient" : "resistance_coefficient";
+std::string state_of(const SteadyValue& value) {
+  return value.imposed ? "imposed by the scene" : value.steady ? "steady" : "not steady";
 }
 
 /// What a run is made for, first.
-std::string answer(const Resistance& r) {
+std::string answer_table(const Resistance& r) {
   std::string text;
-  for (const char* name : {"hub_drop", "tyre_deflection", "rut_depth", coefficient_of(r), "slip",
-                           r.driven ? "drive_torque" : ""}) {
-    if (!r.has(name)) continue;
-    const SteadyValue& value = r.value(name);
-    text += row_of(title_of(name), value, value.steady ? "steady" : "not steady");
-  }
+  for (const std::string& name :
+       {std::string("hub_drop"), std::string("tyre_deflection"), std::string("rut_depth"),
+        r.coefficient().name, std::string("slip"), std::string(r.driven ? "drive_torque" : "")})
+    if (r.has(name)) text += row_of(plain_name(name), r.value(name), state_of(r.value(name)));
   return text;
 }
 
+/// "hub drop 101.1 ± 0.2 mm"; depths in mm.
+std::string value_text(const SteadyValue& value) {
+  const bool depth = value.unit == "m";
+  const double scale = depth ? 1e3 : 1.0;
+  const std::string unit = depth ? " mm" : value.unit.empty() ? "" : " " + value.unit;
+  return fmt::format("{} {}{}", plain_name(value.name),
+                     with_error(scale * value.mean, scale * value.standard_error, 1), unit);
+}
+
 std::string steady_table(const Resistance& r) {
-  std::string text =
-      fmt::format("Verdict: {}\nWindow: {:.4g} s to {:.4g} s, {:.4g} m of travel ({})\n", r.verdict,
-                  r.window.begin, r.window.end, r.window.distance, r.window.how);
-  if (!r.window.warning.empty()) text += "  note: " + r.window.warning + "\n";
-  text += "\nAll values\n";
+  std::string text;
+  if (!r.reasons.empty()) text += "Not steady\n";
+  for (const std::string& reason : r.reasons) text += "  " + reason + "\n";
+  text += fmt::format("Window: {:.4g} s to {:.4g} s, {:.4g} m of travel ({})\n\nAll values\n",
+                      r.window.begin, r.window.end, r.window.distance, r.window.how);
   const std::string other = r.driven ? "resistance_coefficient" : "net_traction_coefficient";
   for (const SteadyValue& v : r.values)
     if (v.name != other)
       text +=
-          row_of(title_of(v.name), v,
-                 !v.steady ? "not steady"
+          row_of(plain_name(v.name), v,
+                 v.imposed || !v.steady ? state_of(v)
                  : v.independent_samples < static_cast<double>(SteadyCriteria{}.min_blocks)
                      ? "steady, hardly changes"
                      : fmt::format("steady, {:.0f} independent samples", v.independent_samples));
@@ -152,6 +155,7 @@ nlohmann::ordered_json json_of(const SteadyValue& v) {
           {"standard_error", v.standard_error},
           {"unit", v.unit},
           {"steady", v.steady},
+          {"imposed", v.imposed},
           {"verdict", v.verdict},
           {"minimum", v.minimum},
           {"maximum", v.maximum},
@@ -187,11 +191,26 @@ Summary summarise(const std::string& folder, const ResistanceOptions& options) {
   return summary;
 }
 
+std::string verdict_of(const Summary& s) {
+  if (!s.trouble.empty()) {
+    const std::string text = "no steady values, " + s.trouble;
+    return text.size() > longest_verdict ? text.substr(0, text.find_first_of(":;(")) : text;
+  }
+  const SteadyValue &answer = s.resistance.answer(), &drop = s.resistance.value("hub_drop");
+  const bool steady = answer.steady && drop.steady && s.resistance.window.warning.empty();
+  const std::string text = (steady ? "steady, " : "not steady, ") + value_text(answer);
+  const std::string both = text + ", " + value_text(drop), of_time = "; ± over time";
+  for (const std::string& whole : {both + of_time, both, text + of_time})
+    if (whole.size() <= longest_verdict) return whole;
+  return text;
+}
+
 std::string summary_text(const Summary& s) {
   std::string text = fmt::format("{}\n{}\n\n", s.info.title, std::string(s.info.title.size(), '='));
   if (!s.closed)
     text += "THE RUN DID NOT COME TO ITS END: what follows is what there was when it stopped.\n\n";
-  text += s.trouble.empty() ? answer(s.resistance) + "\n" + steady_table(s.resistance) +
+  text += verdict_head + verdict_of(s) + "\n\n";
+  text += s.trouble.empty() ? answer_table(s.resistance) + "\n" + steady_table(s.resistance) +
                                   passes_table(s.passes) + parts_table(s.resistance.parts)
                             : fmt::format("No steady values: {}\n", s.trouble);
   if (s.closed) text += "\n" + audit_text(s.closing.audit) + "\n" + cost_text(s.closing.cost);
@@ -226,10 +245,11 @@ std::string summary_json(const Summary& s) {
   json["script"] = s.info.script;
   json["started"] = s.info.started;
   json["complete"] = s.closed;
+  json["verdict"] = verdict_of(s);
   if (s.trouble.empty()) {
     const Resistance& r = s.resistance;
     json["steady"] = r.steady;
-    json["verdict"] = r.verdict;
+    json["reasons"] = r.reasons;
     json["window"] = {{"start", r.window.begin},
                       {"end", r.window.end},
                       {"distance", r.window.distance},
@@ -245,13 +265,13 @@ std::string summary_json(const Summary& s) {
       nlohmann::ordered_json values;
       for (const SteadyValue& v : pass.values) values[v.name] = json_of(v);
       nlohmann::ordered_json& of_pass = json["passes"].emplace_back();
-      of_pass = {{"steady", pass.steady}, {"verdict", pass.verdict}, {"quantities", values}};
+      of_pass = {{"steady", pass.steady}, {"reasons", pass.reasons}, {"quantities", values}};
       if (pass.parts.known()) of_pass["resistance_parts"] = json_of(pass.parts);
     }
     if (r.parts.known()) json["resistance_parts"] = json_of(r.parts);
   } else {
     json["steady"] = false;
-    json["verdict"] = s.trouble;
+    json["reasons"] = {s.trouble};
   }
   if (s.closed) {
     const Audit& a = s.closing.audit;
@@ -298,7 +318,7 @@ std::string vehicle_text(const std::vector<std::string>& folders,
   }
   text += "\nTogether\n";
   for (const SteadyValue& v : vehicle.values)
-    text += row_of(title_of(v.name), v, v.steady ? "steady" : "not steady");
+    text += row_of(plain_name(v.name), v, v.steady ? "steady" : "not steady");
   return text + parts_table(vehicle.parts);
 }
 

@@ -44,6 +44,32 @@ bool any_not_zero(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; });
 }
 
+/// Marks the inputs: a slip or torque that does not change, and the pull of a free axle. A towed
+/// wheel answers with its slip, whether this changes or not.
+void mark_imposed(std::vector<SteadyValue>& values, bool driven, bool axle_free) {
+  for (SteadyValue& value : values) {
+    const bool constant = value.standard_error == 0.0;
+    if (value.name == "slip") value.imposed = driven && constant;
+    if (value.name == "drive_torque") value.imposed = constant;
+    if (value.name == "drawbar_pull" || value.name == "net_traction_coefficient" ||
+        value.name == "resistance_coefficient")
+      value.imposed = axle_free;
+    if (value.imposed) value.standard_error = 0.0;
+  }
+}
+
+/// One standard error, the larger one, for a quantity and its negative.
+void share_error_of_negatives(std::vector<SteadyValue>& values, const std::string& first,
+                              const std::string& second) {
+  const auto named = [&](const std::string& name) -> SteadyValue& {
+    return *std::find_if(values.begin(), values.end(),
+                         [&](const SteadyValue& value) { return value.name == name; });
+  };
+  SteadyValue &a = named(first), &b = named(second);
+  const double larger = std::max(a.standard_error, b.standard_error);
+  if (std::abs(a.mean + b.mean) <= larger) a.standard_error = b.standard_error = larger;
+}
+
 /// Of the wheel [m], from its fastest turn; 0 where the history does not have it.
 double radius_of(const History& history) {
   if (!history.has("rim_speed") || !history.has("spin_rate")) return 0.0;
@@ -80,6 +106,20 @@ const SteadyValue& Resistance::value(const std::string& name) const {
                                   [&](const SteadyValue& value) { return value.name == name; });
   if (found == values.end()) throw Error(fmt::format("no steady value '{}'", name));
   return *found;
+}
+
+const SteadyValue& Resistance::coefficient() const {
+  return value(driven ? "net_traction_coefficient" : "resistance_coefficient");
+}
+
+const SteadyValue& Resistance::answer() const {
+  return coefficient().imposed ? value("slip") : coefficient();
+}
+
+std::string plain_name(const std::string& name) {
+  std::string title = name;
+  std::replace(title.begin(), title.end(), '_', ' ');
+  return title;
 }
 
 std::vector<double> linearised_ratio(const std::vector<double>& a, const std::vector<double>& b) {
@@ -151,6 +191,9 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   add("drive_torque", "N m", part("drive_torque"), torque_scale);
   result.driven = std::abs(result.values.back().mean) > no_torque * torque_scale;
   add("slip", "", part("slip"), slip_scale);
+  mark_imposed(result.values, result.driven,
+               history.has(axle_free_channel) && any_not_zero(part(axle_free_channel)));
+  share_error_of_negatives(result.values, "resistance_coefficient", "net_traction_coefficient");
   if (history.has("tractive_force")) {
     const std::vector<double> tractive = part("tractive_force");
     add("tractive_force", "N", tractive, force_scale);
@@ -171,30 +214,28 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
                                          noise_sideways * std::abs(result.value("force_z").mean);
   result.parts = resistance_parts(history, window);
 
-  std::string reason;
-  const auto because = [&](const std::string& text) {
-    reason += (reason.empty() ? "" : "; ") + text;
-  };
-  if (!window.warning.empty()) because(window.warning);
+  if (!window.warning.empty()) result.reasons.push_back(window.warning);
   if (window.distance < options.shortest_distance)
-    because(fmt::format(
+    result.reasons.push_back(fmt::format(
         "the window is too short: the wheel travels {:.3g} m in it, {:.3g} m are needed",
         window.distance, options.shortest_distance));
+  const std::string other = result.driven ? "resistance_coefficient" : "net_traction_coefficient";
   // Values that are not steady for the same reason share it.
-  std::vector<std::pair<std::string, std::string>> names_of_reason;
+  std::vector<std::pair<std::string, std::string>> titles_of_reason;
   for (const SteadyValue& value : result.values) {
-    if (value.steady || repeats_another(value) || (straight && is_sideways(value))) continue;
+    if (value.steady || value.imposed || value.name == other || repeats_another(value) ||
+        (straight && is_sideways(value)))
+      continue;
     const std::string why = value.verdict.substr(std::string("not steady: ").size());
-    const auto same = std::find_if(names_of_reason.begin(), names_of_reason.end(),
+    const auto same = std::find_if(titles_of_reason.begin(), titles_of_reason.end(),
                                    [&](const auto& known) { return known.first == why; });
-    if (same == names_of_reason.end())
-      names_of_reason.emplace_back(why, value.name);
+    if (same == titles_of_reason.end())
+      titles_of_reason.emplace_back(why, plain_name(value.name));
     else
-      same->second += ", " + value.name;
+      same->second += ", " + plain_name(value.name);
   }
-  for (const auto& [why, names] : names_of_reason) because(names + ": " + why);
-  result.steady = reason.empty();
-  result.verdict = result.steady ? "steady" : "not steady: " + reason;
+  for (const auto& [why, titles] : titles_of_reason) result.reasons.push_back(titles + ": " + why);
+  result.steady = result.reasons.empty();
   return result;
 }
 

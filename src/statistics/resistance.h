@@ -40,11 +40,19 @@ struct Resistance {
   ResistanceParts parts;
   bool driven = false;  ///< an axle torque drives or brakes the wheel: it is not towed
   bool steady = false;  ///< the window is good and every value is steady
-  std::string verdict;  ///< "steady", or "not steady: " and what is not, and why
+  /// why it is not steady: "hub drop, slip: it drifts by ..."; empty for a steady run
+  std::vector<std::string> reasons;
 
   bool has(const std::string& name) const;
   const SteadyValue& value(const std::string& name) const;  ///< @throws Error for an unknown name
+  /// net_traction_coefficient of a driven wheel, resistance_coefficient of a towed one
+  const SteadyValue& coefficient() const;
+  /// Value that the run was made for: the coefficient, or the slip where the pull is imposed.
+  const SteadyValue& answer() const;
 };
+
+/// Name of a value as people read it: "hub drop".
+std::string plain_name(const std::string& name);
 
 /// Ratio of the means of two series, r = sum a / sum b, with the error of its linearisation: the
 /// series r + (a_i - r b_i)/mean(b) has the mean r, and its blocks carry the correlation of a and
@@ -58,8 +66,9 @@ std::vector<double> linearised_ratio(const std::vector<double>& a, const std::ve
 /// is for a towed wheel, the second for a driven one. In a steady run drawbar pull and force_x
 /// agree; the first is the reading of a load cell between vehicle and wheel, inertia included. A
 /// negligible change is relative to the value or to the scales above, whichever is larger; the
-/// radius follows from the channels rim_speed and spin_rate. A wheel that is free along x and makes
-/// no progress (free_travel.h) has no averages, unless the window is given.
+/// radius follows from the channels rim_speed and spin_rate. Imposed are a constant slip or torque,
+/// and the pull of a wheel that is free along x, which slope and drawbar load set. A wheel that is
+/// free along x and makes no progress (free_travel.h) has no averages, unless the window is given.
 /// @throws StateError for such a wheel, Error for a missing channel, a history that ends before the
 /// cruise, or rows that are missing
 Resistance measure_resistance(const History& history, const ResistanceOptions& options = {});

@@ -315,6 +315,7 @@ SteadyValue analyse_steady(const std::string& name, const std::string& unit,
   result.halves_error = 2.0 * residual.standard_error;
 
   if (is_constant(values, reference)) {
+    result.standard_error = 0.0;
     result.steady = true;
     result.verdict = "steady";
     return result;

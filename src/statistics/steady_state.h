@@ -80,12 +80,14 @@ struct SteadyValue {
   double halves_difference = 0.0;    ///< mean of the second half minus mean of the first
   double halves_error = 0.0;         ///< its standard error
   bool steady = false;
-  std::string verdict;  ///< "steady", or "not steady: " and why
+  bool imposed = false;  ///< an input of the run: its value is that of the scene, without an error
+  std::string verdict;   ///< "steady", or "not steady: " and why
 };
 
 /// Mean, error and verdict of equally spaced values.
 ///
-/// Standard error: theory: errors, eqs. 2 and 3. The remaining bias is about -tau/(2 length).
+/// Standard error: theory: errors, eqs. 2 and 3; 0 where the values differ by rounding alone. The
+/// remaining bias is about -tau/(2 length).
 /// Steady: neither the straight line nor the two halves differ from a constant by more than the
 /// negligible drift, at 99 % by Student's t. The errors are those of the detrended values (eq. 5).
 /// In addition there are enough blocks, or the mean is well known with few, or all values are

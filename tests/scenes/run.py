@@ -92,9 +92,27 @@ DRAWN = ("grains_on_continuum", "rover_wheel_mesh", "two_axles", "tyre_on_contin
 def scene(script, ranks, results):
     folder, drawn = empty(results), Path(script).stem in DRAWN
     # A cache of its own: the bed is made, not read.
-    inputs_run(script, "--quick", "-n", ranks, "-o", folder / BLANKS, *([] if drawn else ["--no-pictures"]),
-               FURROW_CACHE=str(folder / "cache"))
+    said = inputs_run(script, "--quick", "-n", ranks, "-o", folder / BLANKS, *([] if drawn else ["--no-pictures"]),
+                      FURROW_CACHE=str(folder / "cache"))
     check_scene(script, folder / BLANKS, drawn)
+    if (folder / BLANKS / "history.h5").is_file():
+        check_verdict(folder / BLANKS, said)
+
+
+def check_verdict(folder, said):
+    """One short line ends the screen, of inputs/run and of furrow; the summary has its values under their names."""
+    verdict = json.loads((folder / "summary.json").read_text())["verdict"]
+    summary = (folder / "summary.txt").read_text()
+    screen = (folder / "screen.txt").read_text()
+    for text in (said, screen):
+        last = text.rstrip().splitlines()[-1]
+        if not last.startswith("Verdict: ") or len(last) > 100:
+            sys.exit(f"the last line is no verdict of at most 100 characters: '{last}'\n{text}")
+    if f"\nVerdict: {verdict}\n" not in screen.rpartition("Loop time")[2]:  # of several wheels not the last one
+        sys.exit(f"LIGGGHTS hides '{verdict}':\n{screen}")
+    for name in re.findall(r", ([a-z ]+) -?\d", verdict.partition(";")[0]):
+        if f"\n  {name} " not in summary:
+            sys.exit(f"the verdict names '{name}', which the summary does not list:\n{summary}")
 
 
 def two_grounds(results):

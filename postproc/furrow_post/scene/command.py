@@ -25,7 +25,7 @@ from .one import SceneRun, require_folder, run_scenes, show, words_of
 from .options import called, parse
 from .restart import Former, continuation, read_former
 from .two_grounds import run_two_grounds
-from .verdict import summary_text
+from .verdict import verdict_line
 
 POST = "furrow-post"  # the first word of a formula's options in a table of errors
 
@@ -195,4 +195,5 @@ def _run_and_show(run: SceneRun, options: argparse.Namespace) -> None:
     if (run.folder / "history.h5").is_file():
         if not options.no_pictures:
             show(run.folder, options.quick)
-        print(summary_text(run.folder, options.quick), end="")
+        print((run.folder / "summary.txt").read_text(encoding="utf-8"))
+        print(verdict_line(run.folder, options.quick))

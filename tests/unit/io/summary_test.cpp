@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/summary.h"
+
+#include <gmock/gmock.h>
+
+namespace furrow::summary_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+SteadyValue value(const std::string& name, const std::string& unit, double mean, double error,
+                  bool steady = true, bool imposed = false) {
+  SteadyValue found;
+  found.name = name;
+  found.unit = unit;
+  found.mean = mean;
+  found.standard_error = error;
+  found.steady = steady;
+  found.imposed = imposed;
+  return found;
+}
+
+/// Of a driven wheel at a prescribed slip.
+Summary summary() {
+  Summary summary;
+  summary.info.title = "rigid wheel";
+  Resistance& r = summary.resistance;
+  r.driven = true;
+  r.values = {value("hub_drop", "m", 0.10114, 0.00017),
+              value("resistance_coefficient", "", 0.113, 0.014),
+              value("net_traction_coefficient", "", -0.113, 0.014, false),
+              value("drive_torque", "N m", 12.0, 0.3), value("slip", "", 0.1, 0.0, true, true)};
+  r.reasons = {"net traction coefficient: it drifts by 0.08 over the window"};
+  return summary;
+}
+
+TEST(Summary, VerdictIsOneShortLineBeforeTheValues) {
+  EXPECT_EQ(
+      verdict_of(summary()),
+      "not steady, net traction coefficient -0.11 ± 0.01, hub drop 101.1 ± 0.2 mm; ± over time");
+  const std::string text = summary_text(summary());
+  EXPECT_THAT(text, HasSubstr("\n\nVerdict: not steady, net traction coefficient -0.11 ± 0.01, "));
+  EXPECT_LT(text.find("Verdict: "), text.find("Window: "));
+  EXPECT_THAT(text, HasSubstr("Not steady\n  net traction coefficient: it drifts by 0.08"));
+}
+
+TEST(Summary, VerdictNamesValuesOfTheSummary) {
+  for (const bool driven : {true, false}) {
+    Summary each = summary();
+    each.resistance.driven = driven;
+    const std::string text = summary_text(each);
+    const std::string answer = driven ? "net traction coefficient" : "resistance coefficient";
+    EXPECT_THAT(verdict_of(each), HasSubstr(answer));
+    EXPECT_THAT(text, HasSubstr("\n  " + answer + " "));
+    EXPECT_THAT(text, HasSubstr("\n  hub drop "));
+  }
+}
+
+TEST(Summary, VerdictHasAtMost91Characters) {
+  Summary tiny = summary();
+  for (SteadyValue& each : tiny.resistance.values) {
+    each.mean *= 1.23456789;
+    each.standard_error = 1e-9;
+  }
+  EXPECT_LE(verdict_of(tiny).size(), 91u);
+  EXPECT_THAT(verdict_of(tiny), HasSubstr("net traction coefficient"));
+  Summary none;
+  none.trouble =
+      "the wheel digs in: it sinks from 0.1 to 0.3 m over the second half of the cruise; "
+      "the axle moves at 0.1 m/s, the rim at 1 m/s";
+  EXPECT_EQ(verdict_of(none), "no steady values, the wheel digs in");
+}
+
+TEST(Summary, ImposedValuesAreMarkedAndHaveNoError) {
+  const std::string text = summary_text(summary());
+  EXPECT_THAT(text, HasSubstr("imposed by the scene"));
+  Summary free = summary();
+  free.resistance.values[2].imposed = true;
+  free.resistance.values[4] = value("slip", "", 0.0864, 0.041, false);
+  EXPECT_THAT(verdict_of(free),
+              StartsWith("not steady, slip 0.09 ± 0.04, hub drop 101.1 ± 0.2 mm"));
+}
+
+TEST(Summary, JsonHasVerdictAndReasonsApart) {
+  const std::string json = summary_json(summary());
+  EXPECT_THAT(json, HasSubstr(R"("verdict": "not steady, net traction coefficient)"));
+  EXPECT_THAT(json, HasSubstr(R"("reasons": [)"));
+  EXPECT_THAT(json, HasSubstr(R"("imposed": true)"));
+}
+
+}  // namespace
+}  // namespace furrow::summary_test
