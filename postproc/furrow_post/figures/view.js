@@ -12,7 +12,7 @@
   const CREASE = Math.cos((50 * Math.PI) / 180); // sharper edges of a body stay sharp
   const MARGIN = 1.05; // around all that is shown
   const TOWARDS = {
-    oblique: [0.62, -1.25, 0.62], side: [0, -1, 0.02], front: [1, 0, 0.05], above: [0, -0.02, 1],
+    oblique: [-0.72, -1.1, 0.75], side: [0, -1, 0.02], front: [1, 0, 0.05], above: [0, -0.02, 1],
   };
 
   // ---- data: base64 -> zlib -> levels -------------------------------------------------------
@@ -534,12 +534,17 @@
       return bar;
     }
 
-    // The length of the bar, written below it in the picture of each run
+    // The length of the bar, written behind its right end in the picture of each run
     writeScale(width, height) {
       const { length, camera } = this;
       const text = length < 1 ? `${Math.round(1000 * length)} mm` : `${length} m`;
       this.place.querySelectorAll(".furrow-scale").forEach((label, k) => {
-        const place = this.runs[k].scale.position.clone().project(camera);
+        const { scale } = this.runs[k], axis = scale.scale.x > scale.scale.y ? "x" : "y";
+        const place = [-0.5, 0.5].map((end) => {
+          const at = scale.position.clone();
+          at[axis] += end * length;
+          return at.project(camera);
+        }).reduce((left, other) => (other.x > left.x ? other : left));
         label.textContent = text;
         label.style.left = `${(k + 0.5 + 0.5 * place.x) * width}px`;
         label.style.top = `${(0.5 - 0.5 * place.y) * height}px`;

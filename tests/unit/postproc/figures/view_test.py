@@ -180,8 +180,9 @@ class ViewTest(SharedFolderTest):
                 drawn = np.abs(stage - stage[1, 1]).max(axis=2) > 0.05
                 for edge in (drawn[:EDGE], drawn[-EDGE:], drawn[:, :EDGE], drawn[:, -EDGE:]):
                     self.assertFalse(edge.any(), look)
-                if look == "oblique":  # and no larger than needed
-                    self.assertGreater(np.ptp(np.flatnonzero(drawn.any(axis=0))), 0.6 * drawn.shape[1])
+                # and no further away than needed
+                filled = [np.ptp(np.flatnonzero(drawn.any(axis=k))) / drawn.shape[1 - k] for k in (0, 1)]
+                self.assertGreater(max(filled), 0.75, look)
 
     def test_scale_result_and_error_are_on_the_page(self) -> None:
         self.show("grains")
