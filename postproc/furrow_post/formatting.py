@@ -10,15 +10,18 @@ ROUNDING = 1e-12  # of a value
 
 def with_error(mean: float, error: float, short: bool = False) -> str:
     """ "10.8 ± 0.5": two digits of the error when they start with 1, else one; the mean as far.
-    short: one digit always, for titles.
+    short: two digits below 1.5 alone, and zeros in place of digits beyond, for titles.
     Rounding, of which no digit would be seen, in powers of ten: "6.1e-13 ± 2e-13". A prescribed
     value, whose error is rounding of it, stands alone: "10"."""
     if not error > ROUNDING * abs(mean):
         return f"{mean:.3g}"
     exponent = math.floor(math.log10(error))
-    digits = max(-exponent + (not short and error < 2 * 10.0**exponent), 0)
+    digits = (error < (1.5 if short else 2) * 10.0**exponent) - exponent
     if digits > MOST_DECIMALS:
         return f"{mean:.1e} ± {error:.0e}"
+    if short:
+        mean, error = round(mean, digits), round(error, digits)
+    digits = max(digits, 0)
     return f"{mean:.{digits}f} ± {error:.{digits}f}"
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <utility>
@@ -28,6 +29,13 @@ std::string with_error(double value, double error, int digits = 2) {
 constexpr char verdict_head[] = "Verdict: ";
 constexpr std::size_t longest_verdict = 91;  // with its head a line of 100 characters
 
+/// Of a text in UTF-8.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
+}
+
 std::string clock_text(double seconds) {
   return seconds < 60.0 ? fmt::format("{:.1f} s", seconds)
                         : fmt::format("{} min {:02} s", static_cast<long>(seconds) / 60,
@@ -53,13 +61,14 @@ std::string answer_table(const Resistance& r) {
   return text;
 }
 
-/// "hub drop 101.1 ± 0.2 mm"; depths in mm.
+/// "hub drop 101.1 ± 0.2 mm"; depths in mm, errors of two digits below 1.5 alone.
 std::string value_text(const SteadyValue& value) {
   const bool depth = value.unit == "m";
-  const double scale = depth ? 1e3 : 1.0;
+  const double scale = depth ? 1e3 : 1.0, error = scale * value.standard_error;
+  const double first = error > 0.0 ? error / std::pow(10.0, std::floor(std::log10(error))) : 0.0;
   const std::string unit = depth ? " mm" : value.unit.empty() ? "" : " " + value.unit;
   return fmt::format("{} {}{}", plain_name(value.name),
-                     with_error(scale * value.mean, scale * value.standard_error, 1), unit);
+                     with_error(scale * value.mean, error, first < 1.5 ? 2 : 1), unit);
 }
 
 std::string steady_table(const Resistance& r) {
@@ -194,14 +203,14 @@ Summary summarise(const std::string& folder, const ResistanceOptions& options) {
 std::string verdict_of(const Summary& s) {
   if (!s.trouble.empty()) {
     const std::string text = "no steady values, " + s.trouble;
-    return text.size() > longest_verdict ? text.substr(0, text.find_first_of(":;(")) : text;
+    return characters(text) > longest_verdict ? text.substr(0, text.find_first_of(":;(")) : text;
   }
   const SteadyValue &answer = s.resistance.answer(), &drop = s.resistance.value("hub_drop");
   const bool steady = answer.steady && drop.steady && s.resistance.window.warning.empty();
   const std::string text = (steady ? "steady, " : "not steady, ") + value_text(answer);
   const std::string both = text + ", " + value_text(drop), of_time = "; ± over time";
   for (const std::string& whole : {both + of_time, both, text + of_time})
-    if (whole.size() <= longest_verdict) return whole;
+    if (characters(whole) <= longest_verdict) return whole;
   return text;
 }
 

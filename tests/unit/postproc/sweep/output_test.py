@@ -264,6 +264,10 @@ class OutputTest(FolderTest):
     def test_rounding_is_shown_in_powers_of_ten(self) -> None:
         self.assertEqual(with_error(6.1e-13, 2e-13), "6.1e-13 ± 2e-13")
         self.assertEqual(with_error(10.0, 1.1e-15), "10")
+        self.assertEqual(with_error(101.14, 0.17), "101.14 ± 0.17")
+        self.assertEqual(with_error(101.14, 0.17, short=True), "101.1 ± 0.2")
+        self.assertEqual(with_error(6244.0, 31.0, short=True), "6240 ± 30")
+        self.assertEqual(with_error(-471.3, 14.6, short=True), "-471 ± 15")  # not 10
         self.assertEqual(with_error(0.00012, 0.00003), "0.00012 ± 0.00003")
 
     def test_failures_and_what_is_missing_are_told_apart(self) -> None:
