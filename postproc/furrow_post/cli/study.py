@@ -55,11 +55,13 @@ def study_folders(root: Path) -> list[Path]:
 
 
 def folder_of(root: Path, name: str) -> Path:
-    """@raises ResultsError where there is no such study"""
+    """Of a name, or a folder anywhere that has a study.yaml. @raises ResultsError where there is no such study"""
     given = Path(name).resolve()
+    if (given / DEFINITION).is_file():
+        return given
     known = study_folders(root)
     for folder in known:
-        if folder.name == name or folder == given:
+        if folder.name == name:
             return folder
     raise ResultsError(
         f"there is no study '{name}'; there are {', '.join(folder.name for folder in known)}"

@@ -12,8 +12,8 @@ from ..programs import find_program, inputs_folder
 
 
 def project_root(path: Path) -> Path:
-    """The folder above path that has the project's inputs. @raises ResultsError without one"""
-    for folder in path.resolve().parents:
+    """The folder above path that has the project's inputs, or the tree of this package. @raises ResultsError without one"""
+    for folder in (*path.resolve().parents, Path(__file__).resolve().parents[3]):
         if (folder / "inputs").is_dir() and (folder / "CMakeLists.txt").is_file():
             return folder
     raise ResultsError(f"{path}: does not lie in a source tree of Furrow")

@@ -6,6 +6,7 @@ that has the given texts. The tables lie beside the study.yaml.
 """
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cache
@@ -251,11 +252,22 @@ def number(value: float | None, digits: int = 3) -> str:
 # ---- study.yaml
 
 
+class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]
+    """YAML in which on, off, yes and no are words."""
+
+
+_Loader.yaml_implicit_resolvers = {
+    first: [(tag, words) for tag, words in known if not tag.endswith(":bool")]
+    for first, known in yaml.SafeLoader.yaml_implicit_resolvers.items()
+}
+_Loader.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile("^(true|false)$"), list("tf"))
+
+
 def load_yaml(path: Path) -> dict[str, Any]:
     """The mapping of a study.yaml. @raises ResultsError"""
     try:
         with content_of(path, "a study is described in YAML"), open(path, encoding="utf-8") as file:
-            content = yaml.load(file, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+            content = yaml.load(file, Loader=_Loader)
     except yaml.YAMLError as error:
         raise ResultsError(f"{path}: {' '.join(str(error).split())}; correct the YAML") from error
     if not isinstance(content, dict):

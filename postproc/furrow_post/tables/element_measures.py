@@ -8,10 +8,12 @@ import numpy as np
 
 from ..analyse.evaluations import last_piece_of, path_states, plate_curve, pressure_near, whole_plate_curve
 from ..analyse.statistics import rms
+from ..csv_table import read_columns
 from ..laboratory.evaluation import evaluate
 from ..laboratory.reference import reference_error
 from ..read.laboratory import LaboratoryTest, cell_curve, read_oedometer_reference
 from ..run.executor import Run
+from ..soil import fits, instruments
 from ..study.runs import Runs
 from .frames import Row, read_frame
 
@@ -81,6 +83,17 @@ def cone_resistance(run: Run, depths: Sequence[float], near: float) -> Row:
         chosen = np.abs(curve[:, 1] - depth) < near
         found.append(float(np.polyval(np.polyfit(curve[chosen, 1] - depth, curve[chosen, 3], 1), 0.0)))
     return {"resistance": found}
+
+
+def cone_index(run: Run, size: float) -> Row:
+    """index: mean pressure on a cone, whose base is so wide [m], down to this depth of the base [Pa]."""
+    curve = instruments.cone_curve(instruments.read_curve(run.folder), size).down_to(size)
+    return {"index": fits.cone_index(curve).index.value}
+
+
+def columns(run: Run, file: str) -> Row:
+    """Columns of a CSV file that the run wrote, by their names."""
+    return dict(read_columns(run.folder / file))
 
 
 def path(run: Run, steps: int, parts: int = 1) -> Row:

@@ -201,6 +201,17 @@ class Engine:
 
     # ---- tables of tables
 
+    def is_of_stored(self, name: str) -> bool:
+        """Whether a table can be made of stored ones: none of its sources is a table of runs that is not stored."""
+        spec = self.tables.get(name)
+        if spec is None or Path(name).suffix and "of" not in spec:
+            return True
+        if "of" not in spec:
+            return False
+        steps = [one for step in spec.get("do") or [] if isinstance(step, Mapping) for one in step.values()]
+        joined = [one["table"] for one in steps if isinstance(one, Mapping) and "table" in one]
+        return all(self.is_of_stored(one) for one in (*panels.listed(spec["of"]), *joined))
+
     def derived(self, name: str, tables: Tables) -> pandas.DataFrame:
         """A table made of others."""
         spec = self.tables[name]
@@ -218,7 +229,7 @@ class Engine:
                 given = {"condition": arguments} if isinstance(arguments, str) else arguments or {}
                 frame = operation(frame, tables, constants, **filled(given, constants, self.where(name)))
         if len(frame) and spec.get("columns"):
-            frame = select(frame, tables, constants, **spec["columns"])
+            frame = select(frame, tables, constants, **{str(name): text for name, text in spec["columns"].items()})
         return frame
 
     def text(self, name: str, tables: Tables) -> str:
@@ -243,7 +254,8 @@ class Engine:
             if "of" in spec:
                 rows = rows_of(self.derived(name, tables))
                 known: Sequence[Mapping[str, Any]] = rows
-                output.of_all_runs(name)
+                if self.is_of_stored(name):
+                    output.of_all_runs(name)
             else:
                 rows = self.rows(runs, name, tables)
                 if key := spec.get("transpose"):

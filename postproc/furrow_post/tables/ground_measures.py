@@ -13,6 +13,7 @@ from ..analyse.half_space import ELASTIC, below_point_loads
 from ..analyse.rut import bow_wave, rut_densities, rut_depth, share_left
 from ..analyse.statistics import block_mean, place_of_greatest
 from ..arrays import Booleans, Floats
+from ..laboratory.deposit import outer_radius, slope_angle
 from ..read.results import MIRROR, Results
 from ..read.terrain import Outline, Terrain, TerrainStress, is_half, read_terrain_fields
 from ..run.executor import Run
@@ -70,6 +71,21 @@ def below_plate(run: Run, radius: float, depth: float, layers: int, under: float
         "beside": snow.mean_density((r > radius + beside[0]) & (r < radius + beside[1])),
         "greatest": float(snow.density.max()),
         "moved_out": float(np.mean(r[edge] - before[edge])),
+    }
+
+
+def deposit(run: Run, radius: float, layer: float, reach: float, ring: float, thin: float) -> Row:
+    """Of a column of this radius that fell on a layer: runout, from its edge to where the deposit is as thin as given
+    [m]; top, height of its middle above the layer [m]; slope [degrees]. reach, ring: radius and width of the profile's
+    rings [m]."""
+    terrain = Terrain.read(run.folder)
+    edges = np.arange(0.0, reach, ring)
+    volume = np.histogram(np.hypot(terrain.x[:, 0], terrain.x[:, 1]), edges, weights=terrain.volume)[0]
+    thickness = volume / (np.pi * np.diff(edges**2)) - layer
+    return {
+        "runout": outer_radius(thickness, edges, thin) - radius,
+        "top": volume[:2].sum() / (np.pi * edges[2] ** 2) - layer,
+        "slope": slope_angle(thickness, edges)[0],
     }
 
 

@@ -18,7 +18,7 @@ _ALL: Sequence[Measure] = (
     *(tyre.tyre, tyre.tyre_states_of, tyre.tyre_at_measured, tyre.tyre_print, tyre.line_means, tyre.across_middle, tyre.rib_shares, tyre.sidewalls, tyre.rib_lean),
     *(tyre.shift_on_plane, tyre.shift_in_run, tyre.modes, tyre.shift_by_mode, tyre.come_in, tyre.lift_on_plane),
     *(tyre.lift_on_ground, element.plate, element.smooth_plate, element.smooth_force, element.plate_pressure, element.cone_resistance),
-    *(element.path, element.piece, element.laboratory, element.cell),
+    *(element.path, element.piece, element.laboratory, element.cell, element.cone_index, element.columns, ground.deposit),
 )
 ROWS: Mapping[str, Measure] = {"plate_calibration": element.plate_calibration}
 MEASURES: Mapping[str, Measure] = {str(getattr(one, "__name__")): one for one in _ALL}

@@ -37,7 +37,7 @@ def cells(names: Mapping[str, Any], columns: Columns, where: str) -> Row:
     row: Row = {}
     for column, text in columns.items():
         if not isinstance(column, str):
-            raise ResultsError(f"{where}: {column} is no name; YAML reads on, off, yes and no as truth values, so quote them")
+            raise ResultsError(f"{where}: {column} is no name; put it in quotes")
         try:
             row[column] = value_of(column if text is None else text, {**row, **names}, f"{where}, column {column}")
         except NameError as error:
@@ -274,17 +274,23 @@ def stack(
 
 
 def pivot(
-    frame: pandas.DataFrame, tables: Tables, constants: Row, keep: str | Sequence[str], columns: str, value: Any = "value"
+    frame: pandas.DataFrame,
+    tables: Tables,
+    constants: Row,
+    keep: str | Sequence[str],
+    columns: str,
+    value: Any = "value",
+    expect: Sequence[str] = (),
 ) -> pandas.DataFrame:
     """A row for each combination of the cells of keep, with a column for each cell of columns. Several values have
-    columns CELL_VALUE; of one the column is CELL."""
+    columns CELL_VALUE; of one the column is CELL. expect: columns that are there in any case."""
     made = []
     for key, rows in groups(frame, keep):
         row = dict(key)
         for one in rows.to_dict("records"):
             for name in _listed(value):
                 row[str(one[columns]) + ("" if isinstance(value, str) else f"_{name}")] = one[name]
-        made.append(row)
+        made.append({**row, **{name: np.nan for name in expect if name not in row}})
     return pandas.DataFrame(made)
 
 

@@ -6,6 +6,7 @@
       panels:
         - axes: {xlabel: ..., ylabel: ..., xlim: [0, 1]}      of matplotlib's Axes.set
           legend: {fontsize: 7}                               none: false
+          xticks: {ticks: [0, 1], labels: [a, b]}             further ones of Axes.set_xticks
           lines:
             - {table: results.csv, where: ..., by: law, x: ..., y: ..., yerr: ..., label: ..., look: {fmt: o}}
             - {runs: [stage], curve: plate, x: 1e3 * sinkage, y: load, label: '{what}', look: {lw: 1}}
@@ -85,6 +86,8 @@ def draw(spec: Spec, sources: Sources, target: Path) -> None:
         for line in panel.get("lines") or []:
             draw_line(axes, line, sources)
         axes.set(**panel.get("axes", {}))
+        if "xticks" in panel:
+            axes.set_xticks(**panel["xticks"])
         if panel.get("grid"):
             axes.grid(alpha=0.3)
         if "title" in panel:
