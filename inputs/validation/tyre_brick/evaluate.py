@@ -14,4 +14,4 @@ def mesh_error(rows: pandas.DataFrame, tables: Any, constants: Any, by: str) -> 
         others = [*peaks[1:], *peaks[-2:-1]]
         if len(peaks) > 1:
             made.append(mine.assign(mesh_error=[round(abs(other / peak - 1), 4) for peak, other in zip(peaks, others)]))
-    return pandas.concat(made)
+    return pandas.concat(made) if made else rows.iloc[:0]

@@ -2,6 +2,7 @@
 """The programs of one build and the source tree that they belong to."""
 
 import os
+import shutil
 import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,6 +10,8 @@ from pathlib import Path
 
 from ..errors import ResultsError
 from ..programs import find_program, inputs_folder
+
+OTHERS = {"ccx": "calculix-ccx", "yade": "yade"}  # programs of others that studies compare with -> their packages
 
 
 def project_root(path: Path) -> Path:
@@ -40,7 +43,12 @@ class Tools:
         return cls(find_program("furrow").parent.parent, inputs.parent if inputs else Path.cwd())
 
     def program(self, name: str) -> Path:
-        """@raises ResultsError where it is not built"""
+        """Of the build, or one of OTHERS. @raises ResultsError where it is not there"""
+        if name in OTHERS:
+            found = shutil.which(name)
+            if not found:
+                raise ResultsError(f"{name}: is not installed, and this study compares with it; install Debian's package {OTHERS[name]}")
+            return Path(found)
         path = self.build / "bin" / name
         if not os.access(path, os.X_OK):
             raise ResultsError(

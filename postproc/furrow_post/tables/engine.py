@@ -283,6 +283,8 @@ class Engine:
                 function(runs, tables, output, file=name, **given)
             else:
                 function(runs, tables, output.path(name), **given)
+                if not output.path(name).is_file():
+                    output.files.remove(name)  # none of its runs is there
         else:
             curve = partial(self.curve, runs)
             panels.draw(spec, panels.Sources(runs, tables, {**self.constants, "tables": tables}, names_of, curve), output.path(name))
@@ -298,7 +300,7 @@ class Engine:
         for limit in self.content.get("limits") or []:
             if unknown := set(limit) - LIMIT_KEYS:
                 raise ResultsError(f"{self.where('limits')} have unknown keys {sorted(map(str, unknown))}; allowed are {sorted(LIMIT_KEYS)}")
-            frame = tables[limit["table"]]
+            frame = self.made_or_stored(limit["table"], tables)
             if "repeats" in limit:
                 yield from self.changed(limit, frame)
                 continue
@@ -311,6 +313,11 @@ class Engine:
                         yield str(limit["message"]).format(**names)
             if found < limit.get("least", 0):
                 yield limit["absent"]
+
+    def made_or_stored(self, name: str, tables: Tables) -> pandas.DataFrame:
+        """A table of this evaluation; the stored one, if no run of it is there."""
+        frame, path = tables[name], self.folder / name
+        return frame if len(frame) or not path.is_file() else read_frame(path)
 
     def changed(self, limit: Spec, frame: pandas.DataFrame) -> Iterator[str]:
         """What differs of rows made again from the stored ones."""

@@ -174,16 +174,19 @@ def prints(
     runs: Runs, tables: Mapping[str, pandas.DataFrame], target: Path, titles: Mapping[str, str], pressure: float, load: float
 ) -> None:
     """Contact pressures of treads on a plane, both halves, a panel for each run. titles: run -> words"""
-    size = (5.2 * len(titles), 4.6)
-    figure, panels = plt.subplots(1, len(titles), figsize=size, squeeze=False, layout="constrained")
-    for axes, (name, words) in zip(panels[0], titles.items()):
-        nodes = tyre_print(runs.done(name)[0], pressure, load)
+    shown = [(run, words) for name, words in titles.items() if (run := runs.one(name))]
+    if not shown:
+        return
+    size = (5.2 * len(shown), 4.6)
+    figure, panels = plt.subplots(1, len(shown), figsize=size, squeeze=False, layout="constrained")
+    for axes, (run, words) in zip(panels[0], shown):
+        nodes = tyre_print(run, pressure, load)
         x, y, stress = (np.concatenate([one, one]) for one in (nodes["x"], nodes["y"], 1e-3 * nodes["p"]))
         y[len(y) // 2 :] *= -1
-        shown = axes.scatter(100 * y, 100 * x, c=stress, s=45, marker="s", vmin=0.0)
+        points = axes.scatter(100 * y, 100 * x, c=stress, s=45, marker="s", vmin=0.0)
         axes.set(xlabel="across [cm]", ylabel="along the travel [cm]", aspect="equal", xlim=(-10, 10), ylim=(-12, 12))
         axes.set_title(f"{words}: {stress.min():.0f} to {stress.max():.0f} kPa")
-        figure.colorbar(shown, ax=axes, label="contact pressure [kPa]", shrink=0.8)
+        figure.colorbar(points, ax=axes, label="contact pressure [kPa]", shrink=0.8)
     save(figure, target, dpi=90)
 
 
