@@ -57,6 +57,8 @@ const std::vector<Option>& options() {
       {{"-seedtolerant", "-st"}, 0},
       {{"-wb"}, 0},
       {{"--help"}, 0},
+      {{"--variables"}, 1},
+      {{"--keys"}, 0},
       {{"--version"}, 0},
   };
   return list;
@@ -155,19 +157,26 @@ void check_writable(const std::string& path, const std::string& script) {
   close(handle);
 }
 
-void check_variables(const CommandLine& line) {
+ScriptVariables variables_of(const CommandLine& line) {
   std::map<std::string, std::string> values;
   for (const CommandLine::Variable& variable : line.variables)
     values.emplace(variable.name, variable.values[0]);
-  const ScriptVariables script = find_variables(line.script, values);
-  if (!script.complete) return;
+  return find_variables(line.script, values);
+}
+
+void check_variables(const CommandLine& line) {
+  const ScriptVariables script = variables_of(line);
+  // Nothing is known of what a missing file reads.
+  if (!script.not_found.empty()) return;
+  std::vector<std::string> names;
+  for (const auto& [name, value] : script.defaults) names.push_back(name);
   for (const CommandLine::Variable& variable : line.variables) {
     if (script.mentioned.count(variable.name)) continue;
     refuse(
         fmt::format("has a variable '{}' that no line of '{}' reads", variable.name, line.script),
-        script.set_by_script.empty() ? "no variable, as the script has none"
-                                     : fmt::format("{}", fmt::join(script.set_by_script, ", ")),
-        did_you_mean(script.set_by_script, variable.name));
+        names.empty() ? "no variable, as the script has none"
+                      : fmt::format("{}", fmt::join(names, ", ")),
+        did_you_mean(names, variable.name));
   }
 }
 
@@ -202,9 +211,14 @@ CommandLine read_command_line(const std::vector<std::string>& words) {
     const std::string& meaning = option->names[0];
     if (meaning == "--help") line.help = true;
     if (meaning == "--version") line.version = true;
-    if (meaning == "-in" && !line.script.empty()) refuse("has two scripts", "one -in");
-    if (meaning == "-in") line.script = values[0];
-    if (meaning == "-in" && values[0].empty()) refuse("has an empty argument after -in", "a path");
+    if (meaning == "--variables") line.lists_variables = true;
+    if (meaning == "--keys") line.lists_keys = true;
+    if (meaning == "-in" || meaning == "--variables") {
+      if (!line.script.empty()) refuse("has two scripts", "one -in or --variables");
+      if (values[0].empty())
+        refuse(fmt::format("has an empty argument after {}", meaning), "a path");
+      line.script = values[0];
+    }
     if (meaning == "-var") add_variable(line, as_variable(name, values));
     if ((meaning == "-log" || meaning == "-screen") && values[0] != "none")
       line.written_files.push_back(values[0]);
@@ -228,6 +242,11 @@ std::vector<std::string> words_for_liggghts(std::vector<std::string> words) {
   return words;
 }
 
+std::string script_variables(const CommandLine& line) {
+  check_script(line.script);
+  return variables_json(variables_of(line));
+}
+
 std::string usage() {
   return "Usage: furrow -in <script> [-var <name> <value>]... [-log <file>|none] "
          "[-screen <file>|none]\n"
@@ -237,6 +256,9 @@ std::string usage() {
          "  -in <script>         input script; without it, standard input is read\n"
          "  -var <name> <value>  sets a variable of the script\n"
          "  -log, -screen        where LIGGGHTS's messages go; without -log: log.liggghts\n"
+         "  --variables <script> prints the variables and files of a script as JSON, and runs "
+         "nothing\n"
+         "  --keys               prints the keywords of all styles of Furrow as JSON\n"
          "  --help, --version    this text; the versions of Furrow and LIGGGHTS\n"
          "Status: 0 the script has come to its end, 1 error, 2 wrong command line, 129, 130 "
          "or 143 stopped by SIGHUP, SIGINT or SIGTERM.\n";

@@ -13,7 +13,7 @@ struct CommandLine {
     std::vector<std::string> values;
   };
 
-  bool help = false, version = false;
+  bool help = false, version = false, lists_variables = false, lists_keys = false;
   std::string script;  ///< empty: standard input
   std::vector<Variable> variables;
   std::vector<std::string> written_files;  ///< log and screen
@@ -29,6 +29,9 @@ void check_command_line(const CommandLine& line);
 /// What LIGGGHTS is started with instead of "-screen none": its mesh fixes write to the screen
 /// without asking whether there is one. @param words the program's name and what follows
 std::vector<std::string> words_for_liggghts(std::vector<std::string> words);
+
+/// Variables and files of the script, as JSON. @throws InputError
+std::string script_variables(const CommandLine& line);
 
 std::string usage();
 

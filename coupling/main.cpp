@@ -2,6 +2,7 @@
 // furrow: LIGGGHTS with the fix styles of this folder. Same command line, same scripts: furrow -in
 // script.
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <optional>
@@ -16,8 +17,10 @@
 #include "coupling/liggghts/library_check.h"
 #include "coupling/liggghts/rescue.h"
 #include "coupling/liggghts/signals.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/output/fix_wheel_history.h"
 #include "coupling/run_script.h"
+#include "io/law_json.h"
 #include "io/version.h"
 #include "lammps.h"
 
@@ -43,9 +46,32 @@ std::optional<int> read_words(int argc, char** argv, bool tells) {
   return std::nullopt;
 }
 
+std::string keys_of_styles() {
+  std::vector<furrow::Schema> schemas;
+  for (const Style& style : styles()) schemas.push_back(style.schema());
+  return furrow::schemas_json(schemas);
+}
+
+/// Answers that need no MPI, which takes most of the time of a start.
+/// @return the status that ends the program, or nothing
+std::optional<int> answer(int argc, char** argv) {
+  try {
+    const CommandLine line = read_command_line({argv + 1, argv + argc});
+    if (!line.lists_variables && !line.lists_keys) return std::nullopt;
+    std::puts((line.lists_variables ? script_variables(line) : keys_of_styles()).c_str());
+    return 0;
+  } catch (const std::exception& problem) {
+    const bool asked = std::count(argv + 1, argv + argc, std::string("--variables")) > 0;
+    if (!asked) return std::nullopt;  // every rank stops at the same fault below
+    std::fprintf(stderr, "ERROR: %s\n", problem.what());
+    return wrong_command_line;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (const std::optional<int> status = answer(argc, argv)) return *status;
   handle_signals();
   prepare_rescue();
   initialize_mpi(&argc, &argv);

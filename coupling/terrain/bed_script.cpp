@@ -53,7 +53,7 @@ BedScript::BedScript(const fs::path& path) : path_(path) {
   if (!fs::is_regular_file(path, failed) || !file)
     throw InputError("command bed", fmt::format("cannot read '{}'", path.string()),
                      "the path of a script that makes a bed",
-                     "give it relative to the folder of the main script");
+                     "give it relative to the folder of the file with the line");
   std::ostringstream text;
   text << file.rdbuf();
   text_ = text.str();

@@ -135,9 +135,9 @@ const StyleRow bed_style = command_style<CommandBed>("bed", "terrain/command_bed
 
 Schema CommandBed::schema() {
   Schema schema("command bed");
-  schema.text(
-      "script",
-      "first argument, without the keyword: path of the bed script, relative to the main script");
+  schema.text("script",
+              "first argument, without the keyword: path of the bed script, relative to the file "
+              "with the line");
   schema.number("depth", "m", Range::positive(),
                 "height above the floor at which the bed is levelled");
   schema.number("gravity", "m/s^2", admissible_gravity(), "in which the bed settles, downwards")

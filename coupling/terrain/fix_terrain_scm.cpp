@@ -29,7 +29,7 @@ void refuse_other_gravity(const Options& options, const SoilCard& card) {
                   card.gravity),
       fmt::format("a difference of at most {:g} %, because k_phi of sand grows with gravity",
                   100.0 * largest_change),
-      fmt::format("make a card with 'furrow-soil card GROUND --gravity {:.6g}', or write "
+      fmt::format("make a card with 'furrow-post card make GROUND --gravity {:.6g}', or write "
                   "'gravity {:.6g}' if the run takes place there; give k_c to K in the line and no "
                   "card to use them in any gravity",
                   gravity, card.gravity));

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/nearest_word.h"
+#include "core/usual_range.h"
 
 namespace furrow {
 
@@ -31,6 +32,14 @@ std::optional<double> to_number(const std::string& text) {
 }
 
 /// Why a text is no number.
+/// What a key means, and how values in other units become its own.
+std::string remedy_of(const Key& key) {
+  const UsualRange* usual = find_usual_range(key.name, key.unit);
+  const std::string hint = usual ? "give SI units: " + usual->hint : "";
+  if (key.meaning.empty() || key.meaning == key.name) return hint;
+  return "it is: " + key.meaning + (hint.empty() ? "" : "; " + hint);
+}
+
 std::string no_number(const std::string& text) {
   double value = 0.0;
   const char* begin = text.data() + (!text.empty() && text.front() == '+' ? 1 : 0);
@@ -180,19 +189,19 @@ void Schema::accept(Options& options, const Key& key, const std::vector<std::str
   if (key.count == 0 ? texts.empty() : texts.size() != key.count)
     throw InputError(where,
                      texts.empty() ? "has no value" : fmt::format("has {} value(s)", texts.size()),
-                     key.allowed());
+                     key.allowed(), remedy_of(key));
   Options::Value value{texts, {}, given, origin};
   if (key.kind == Key::Kind::choice || key.kind == Key::Kind::flag) {
     if (std::find(key.choices.begin(), key.choices.end(), texts[0]) == key.choices.end())
-      throw InputError(where, fmt::format("is '{}'", texts[0]), key.allowed());
+      throw InputError(where, fmt::format("is '{}'", texts[0]), key.allowed(), remedy_of(key));
   } else if (key.kind != Key::Kind::text) {
     for (const std::string& text : texts) {
       const std::optional<double> number = to_number(text);
-      if (!number) throw InputError(where, no_number(text), key.allowed());
+      if (!number) throw InputError(where, no_number(text), key.allowed(), remedy_of(key));
       if (!key.range.contains(*number) ||
           (key.kind == Key::Kind::integer &&
            (*number != std::round(*number) || std::abs(*number) > largest_integer)))
-        throw InputError(where, fmt::format("is {}", text), key.allowed());
+        throw InputError(where, fmt::format("is {}", text), key.allowed(), remedy_of(key));
       value.numbers.push_back(*number);
     }
   }
@@ -230,8 +239,7 @@ Options Schema::read(const std::vector<Entry>& entries) const {
   for (const Key& key : keys_) {
     if (options.given(key.name)) continue;
     if (key.required)
-      throw InputError(options.where(key.name), "is missing", key.allowed(),
-                       "it is: " + key.meaning);
+      throw InputError(options.where(key.name), "is missing", key.allowed(), remedy_of(key));
     if (!key.default_values.empty())
       accept(options, key, key.default_values, false, {}, options.where(key.name));
   }

@@ -13,7 +13,7 @@ namespace furrow {
 
 namespace {
 
-constexpr char what_a_card_is[] = "of a soil card, which furrow-soil card writes";
+constexpr char what_a_card_is[] = "of a soil card, which furrow-post card make writes";
 
 /// A schema of one value; its ranges are those of any soil.
 double value_of(const YamlTree& entry, const std::string& name, const Range& range) {

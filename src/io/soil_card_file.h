@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Soil cards, as furrow-soil card writes them: parameters of the soil contact model.
+/// Soil cards, as furrow-post card make writes them: parameters of the soil contact model.
 
 #include <limits>
 #include <map>

@@ -4,17 +4,18 @@
 /// found.
 
 #include <string>
+#include <vector>
 
 namespace furrow {
 
-/// Runs a subcommand of furrow-post, which lies in the folder of this program, for a results
-/// folder.
-/// @param subcommand "point", "sidewall" or "modes"
+/// Runs "furrow-post figure", which lies in the folder of this program, for a results folder.
+/// @param name "point", "sidewall" or "modes"
 /// @throws Error when furrow-post is missing or fails; the results stay
-void draw_figure(const std::string& subcommand, const std::string& folder);
+void draw_figure(const std::string& name, const std::string& folder);
 
-/// Replaces this program by a subcommand of furrow-post with these arguments. Returns never.
+/// Replaces this program by a command of furrow-post with these arguments. Returns never.
 /// @throws Error when furrow-post or Python is missing
-[[noreturn]] void become_furrow_post(const std::string& subcommand, int argc, char** argv);
+[[noreturn]] void become_furrow_post(const std::vector<std::string>& command, int argc,
+                                     char** argv);
 
 }  // namespace furrow

@@ -20,6 +20,7 @@
 #include "core/error.h"
 #include "end_output.h"
 #include "figure.h"
+#include "io/law_json.h"
 #include "io/point_file.h"
 #include "io/point_results.h"
 #include "io/version.h"
@@ -103,9 +104,24 @@ void channels() {
   });
 }
 
+/// The effective values of a material file with its bases.
+void show(const std::string& input, bool json, double pressure) {
+  const furrow::MaterialFile file = furrow::read_material_file(input);
+  if (json) {
+    std::cout << furrow::material_json(file, pressure) << '\n';
+    return;
+  }
+  show_warnings(file);
+  std::cout << furrow::material_file_text(file.title, file.model, file.sections);
+}
+
+furrow::MaterialModels laws_named(const std::string& name) {
+  if (name.empty()) return furrow::material_models();
+  return {furrow::find_material_model(name)};
+}
+
 void list_laws(const std::string& name) {
-  for (const furrow::MaterialModel& model : furrow::material_models()) {
-    if (!name.empty() && model.name != name) continue;
+  for (const furrow::MaterialModel& model : laws_named(name)) {
     std::cout << model.name << ": " << model.meaning << '\n';
     for (const furrow::SectionSchema& section : model.sections)
       for (const furrow::SectionChoice& choice : section.choices) {
@@ -151,25 +167,40 @@ int main(int argc, char** argv) {
   CLI::App* laws_command =
       app.add_subcommand("laws", "list the laws with their keys, units, ranges and meanings");
   laws_command->add_option("name", law, "only this law");
+  CLI::App* show_command = app.add_subcommand(
+      "show", "print the effective values of a material file, with those of its bases");
+  show_command->add_option("file", input, "a material file (inputs/materials/*.yaml)")->required();
+  bool json = false;
+  for (CLI::App* command : {laws_command, show_command})
+    command->add_flag("--json", json, "as JSON");
+  double pressure = 0.0;
+  show_command->add_option("--pressure", pressure,
+                           "[Pa] for the elastic constants in JSON; 0 unless given");
+  CLI::App* usual_command =
+      app.add_subcommand("usual", "print values that soils and snow have, by key, as JSON");
   CLI::App* paths_command = app.add_subcommand("paths", "list the paths and the keys of a fit");
   const bool fit = argc > 1 && std::string(argv[1]) == "fit";
   if (!fit)
     if (const auto status = furrow::parse_options(app, argc, argv)) return *status;
   if (!fit && app.get_subcommands().empty()) {
-    std::cerr << "furrow-point: needs one of the commands run, fit, curves, channels, laws or "
-                 "paths; see --help\n";
+    std::cerr << "furrow-point: needs one of the commands run, fit, curves, channels, laws, "
+                 "show, usual or paths; see --help\n";
     return 1;
   }
 
   try {
-    if (fit) furrow::become_furrow_post("fit-law", argc - 2, argv + 2);
+    if (fit) furrow::become_furrow_post({"fit", "law"}, argc - 2, argv + 2);
     if (*run_command) run(input, output, !no_plot);
     if (*curves_command) curves(input);
     if (*channels_command) channels();
     if (*laws_command) {
-      if (!law.empty()) furrow::find_material_model(law);
-      list_laws(law);
+      if (json)
+        std::cout << furrow::laws_json(laws_named(law)) << '\n';
+      else
+        list_laws(law);
     }
+    if (*show_command) show(input, json, pressure);
+    if (*usual_command) std::cout << furrow::usual_ranges_json() << '\n';
     if (*paths_command) std::cout << furrow::path_tables();
     furrow::end_output();
     return 0;

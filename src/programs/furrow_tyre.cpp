@@ -297,7 +297,7 @@ int main(int argc, char** argv) {
   if (!fit)
     if (const auto status = parse_options(app, argc, argv)) return *status;
   try {
-    if (fit) become_furrow_post("fit-tyre", argc - 2, argv + 2);
+    if (fit) become_furrow_post({"fit", "tyre"}, argc - 2, argv + 2);
     run(app, request);
     end_output();
   } catch (const std::exception& error) {

@@ -8,23 +8,22 @@
 #include "core/check_number.h"
 #include "core/error.h"
 #include "core/types.h"
+#include "core/usual_range.h"
 
 namespace furrow {
 
 namespace {
 
-constexpr double least_angle = 2.0, largest_angle = 60.0;  // degrees
+constexpr double largest_angle = 60.0;  // degrees
 const Range exponents{0.0, 3.0, true, false};
 // Soils of [Wong2008] and snow have c to 7e4 Pa and K to 0.04 m, compacted sand c of 7e5 Pa
 const Range cohesions = Range::closed(0.0, 1e6), shear_lengths{0.0, 0.3, true, false};
-constexpr double least_cohesion = 20.0;      // [Pa]
 constexpr double no_cohesion = 1e-6;         // [Pa] a fit gives this for 0
 constexpr double least_shear_length = 1e-3;  // [m]; soils of [Wong2008] have 5 mm and more
 // Bekker's pressure at this sinkage under a contact of this width [m]: snow has 2 kPa, heavy clay
 // 1.1 MPa [Wong2008]; 10 times less and more
 constexpr double usual_sinkage = 0.05, usual_width = 0.1;
 const Range pressures = Range::closed(200.0, 1e7);
-constexpr double least_modulus = 1e4;  // [N/m^(n+2)] of k_phi; snow has 6.6e4 [Wong2008]
 constexpr char si_of_modulus[] = "give N/m^(n+2), not kN/m^(n+2) or MN/m^(n+2)";
 
 }  // namespace
@@ -80,15 +79,16 @@ namespace {
 template <class Where>
 void check_plausible(const Soil& soil, Where where) {
   const double angle = degrees(soil.friction_angle);
-  if (angle > 0.0 && angle < least_angle)
-    throw InputError(where("phi"), fmt::format("is {:g} degrees", angle),
-                     fmt::format("0, or {:g} to {:g} degrees", least_angle, largest_angle),
-                     "give degrees, not radians");
-  if (soil.k_phi > 0.0 && soil.k_phi < least_modulus)
+  if (angle > 0.0 && angle < usual_range("phi").range.lower)
     throw InputError(
-        where("k_phi"), fmt::format("is {:g} N/m^(n+2)", soil.k_phi),
-        fmt::format("at least {:g} N/m^(n+2), or below 0 for a large k_c", least_modulus),
-        si_of_modulus);
+        where("phi"), fmt::format("is {:g} degrees", angle),
+        fmt::format("0, or {:g} to {:g} degrees", usual_range("phi").range.lower, largest_angle),
+        "give degrees, not radians");
+  if (soil.k_phi > 0.0 && soil.k_phi < usual_range("k_phi").range.lower)
+    throw InputError(where("k_phi"), fmt::format("is {:g} N/m^(n+2)", soil.k_phi),
+                     fmt::format("at least {:g} N/m^(n+2), or below 0 for a large k_c",
+                                 usual_range("k_phi").range.lower),
+                     si_of_modulus);
   const double modulus = soil.k_c / usual_width + soil.k_phi;
   if (modulus <= 0.0) return;  // refused during the run, where the width is known
   const double pressure = modulus * std::pow(usual_sinkage, soil.n);
@@ -156,10 +156,10 @@ void check(const Soil& soil, const std::string& where) {
 
 std::vector<std::string> doubts(const Soil& soil) {
   std::vector<std::string> found;
-  if (soil.cohesion > no_cohesion && soil.cohesion < least_cohesion)
+  if (soil.cohesion > no_cohesion && soil.cohesion < usual_range("c").range.lower)
     found.push_back(fmt::format(
         "the cohesion c is {:g} Pa; soils have 0, or {:g} Pa and more; give Pa, not kPa",
-        soil.cohesion, least_cohesion));
+        soil.cohesion, usual_range("c").range.lower));
   if (soil.shear_length < least_shear_length)
     found.push_back(
         fmt::format("the shear displacement K is {:.2g} m; soils have 0.005 to 0.025 m: the "

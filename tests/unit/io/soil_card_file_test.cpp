@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A soil card as furrow-soil writes it, and cards with missing or impossible values.
+// A soil card as furrow-post card writes it, and cards with missing or impossible values.
 
 #include "io/soil_card_file.h"
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Values that soils and snow have. A value far outside has probably another unit. Programs print
+/// this table as JSON, from which Python reads it.
+
+#include <string>
+#include <vector>
+
+#include "core/options.h"
+
+namespace furrow {
+
+struct UsualRange {
+  std::string key;   ///< "c", "k_phi"
+  std::string unit;  ///< SI, degrees
+  Range range;
+  bool zero;         ///< 0 is usual too
+  std::string hint;  ///< how other units become this one: "kPa times 1000"
+
+  bool contains(double value) const { return range.contains(value) || (zero && value == 0.0); }
+};
+
+const std::vector<UsualRange>& usual_ranges();
+/// Null for a key that the table does not have in this unit.
+const UsualRange* find_usual_range(const std::string& key, const std::string& unit);
+/// @throws Error for a key that the table does not have
+const UsualRange& usual_range(const std::string& key);
+
+}  // namespace furrow

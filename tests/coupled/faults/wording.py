@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Every keyword of every style, law and tyre file, missing, misspelt, of another type, outside of its
+range, with too few or too many values: the message has the place, the keyword, what is allowed, and a
+remedy. The keywords come from the programs (furrow --keys, furrow-point laws --json).
+
+    wording.py <folder of the programs>
+"""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import yaml
+
+from faults import Table, run, run_script
+
+SOURCE = Path(__file__).resolve().parents[3]
+BOX = """units si
+atom_style granular
+atom_modify sort 0 0
+region box block -1 1 -1 1 -1 1 units box
+create_box 1 box
+"""
+LINES = len(BOX.splitlines())
+# Lines that LIGGGHTS reads itself, or that the script must not have
+OTHERS = {"fix ave/time", "fix furrow/expected_states", "fix furrow/system", "fix wall/gran/body", "model snow/bond"}
+FIRST = {"command bed", "command read_restart"}  # stand before the box, with a file as first argument
+UNKNOWN = "nonsense"
+
+
+def wrong_values(key, in_script=False):
+    """Values that a key does not take, each as words, with what the message says of them.
+
+    in_script: a list ends there with the first word that is no number
+    """
+    kind, count = key["kind"], key.get("count", 1)
+    if kind == "text":
+        return
+    if kind in ("choice", "flag"):
+        yield [UNKNOWN], f"is '{UNKNOWN}'"
+        return
+    count = count or 1
+    if count == 1 and key.get("count") != 0:
+        yield [UNKNOWN], "not a number"
+    if not in_script or key.get("count") != 0:
+        yield ["1e999"] * count, "too large for a number"
+    lower, upper = key.get("lower"), key.get("upper")
+    if lower is not None:
+        yield [f"{lower - 1:.9g}" if not key.get("lower_open") else f"{lower:.9g}"] * count, "is "
+    elif upper is not None:
+        yield [f"{upper + 1:.9g}"] * count, "is "
+    if kind == "integer":
+        yield ["1.5"] * count, "is 1.5"
+
+
+def styles(table, furrow):
+    """Lines of a script with one fault each."""
+    declared = json.loads(run([furrow, "--keys"], table.folder).text)
+    tested = 0
+    for subject, keys in declared.items():
+        kind, _, style = subject.partition(" ")
+        if subject in OTHERS | FIRST or not keys:
+            continue
+        start = f"fix x all {style}" if kind == "fix" else style
+        cases = [([UNKNOWN, "1"], f"{subject} has no keyword '{UNKNOWN}'")]
+        for name, key in keys.items():
+            if len(name) > 4:
+                cases.append(([name[:-1], "1"], f"{subject} has no keyword '{name[:-1]}'", "did you mean"))
+            for values, problem in wrong_values(key, in_script=True):
+                cases.append(([name, *values], f"{subject}, keyword '{name}'", problem, "it is: "))
+        missing = [name for name, key in keys.items() if key["required"]]
+        if missing:
+            cases.append(([], f"{subject}, keyword '{missing[0]}' is missing", "it is: "))
+        for words, *texts in cases:
+            line = " ".join([start, *words])
+            said = run_script(furrow, table.folder, f"{BOX}{line}\n")
+            table.check(line, said, 1, *texts, "; allowed: ", f"/script.lig, line {LINES + 1}: {line}")
+            tested += 1
+    table.expect("styles", tested > 500, f"{tested} lines only")
+
+
+class Answers:
+    """furrow-point that stays open: the error of one file after the other."""
+
+    def __init__(self, point, folder):
+        self.folder = folder
+        self.process = subprocess.Popen([point, "channels"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def error(self, content):
+        """Of a material; empty where it is accepted."""
+        (self.folder / "made.yaml").write_text(yaml.safe_dump(content, sort_keys=False))
+        path = "{type: confined, stress: [10], steps: 1}"
+        (self.folder / "path.yaml").write_text(f"title: x\nmaterial: {self.folder}/made.yaml\npath: {path}\n")
+        self.process.stdin.write(f"{self.folder}/path.yaml\n")
+        self.process.stdin.flush()
+        answer = self.process.stdout.readline()
+        return answer.removeprefix("error: ").rstrip() if answer.startswith("error: ") else ""
+
+    def close(self):
+        self.process.communicate()
+
+
+def examples(point, folder):
+    """A material of each law: sections with effective values."""
+    found = {}
+    for file in sorted((SOURCE / "inputs" / "materials").rglob("*.yaml")):
+        content = json.loads(run([point, "show", file, "--json"], folder).text)
+        found.setdefault(content["law"], content["sections"])
+    found.setdefault("elastic", {
+        "law": {"type": "elastic", "density": 1500},
+        "elasticity": {"type": "linear", "E": 1e7, "nu": 0.3},
+    })
+    return found
+
+
+def laws(table, point):
+    declared = json.loads(run([point, "laws", "--json"], table.folder).text)
+    made = examples(point, table.folder)
+    table.expect("laws", set(made) == set(declared), f"materials of {sorted(made)}, laws {sorted(declared)}")
+    answers = Answers(point, table.folder)
+    tested = 0
+
+    def check(name, content, *texts):
+        nonlocal tested
+        tested += 1
+        error = answers.error(content)
+        place = f"{table.folder}/made.yaml"
+        absent = [text for text in (place, "; allowed: ", *texts) if text not in error]
+        table.expect(name, not absent, f"{absent} not in: {error}")
+
+    for law, sections in made.items():
+        for section, values in sections.items():
+            keys = declared[law]["sections"][section][law if section == "law" else values.get("type", "")]
+            for name, key in keys.items():
+                for wrong, problem in wrong_values(key):
+                    value = wrong if key["kind"] == "numbers" else wrong[0]
+                    changed = {**sections, section: {**values, name: value}}
+                    check(f"{law}, {section}, {name}: {wrong[0]}", changed, f"keyword '{name}'", problem, "it is: ", "line ")
+                if key["required"] and name in values:
+                    rest = {other: value for other, value in values.items() if other != name}
+                    check(f"{law}, {section} without {name}", {**sections, section: rest}, f"keyword '{name}' is missing", "it is: ")
+            changed = {**sections, section: {**values, UNKNOWN: 1}}
+            check(f"{law}, {section}: unknown key", changed, f"has no keyword '{UNKNOWN}'", "line ")
+        check(f"{law}: unknown section", {**sections, UNKNOWN: {"a": 1}}, UNKNOWN, "line ")
+    answers.close()
+    table.expect("laws", tested > 200, f"{tested} files only")
+
+
+def tyres(table, tyre):
+    """Each key of a tyre file of each kind, of another type or unknown."""
+    tested = 0
+    for name in ("p235_75r15", "p235_75r15_lugged"):
+        content = yaml.safe_load((SOURCE / "inputs" / "tyres" / f"{name}.yaml").read_text())
+        for section, values in content.items():
+            if not isinstance(values, dict):
+                continue
+            changes = {key: {**values, key: UNKNOWN} for key, value in values.items() if isinstance(value, float)}
+            changes[UNKNOWN] = {**values, UNKNOWN: 1}
+            for key, changed in changes.items():
+                file = table.folder / "tyre.yaml"
+                text = yaml.safe_dump({**content, section: changed}, sort_keys=False)
+                file.write_text(text.replace(": true\n", ": yes\n").replace(": false\n", ": no\n"))
+                said = run([tyre, file, "--pressure", "241", "--load", "6000"], table.folder)
+                problem = f"'{UNKNOWN}'" if key == UNKNOWN else f"keyword '{key}'"
+                table.check(f"{name}, {section}, {key}", said, 1, str(file), problem, "; allowed: ", "line ")
+                tested += 1
+    table.expect("tyre files", tested > 10, f"{tested} files only")
+
+
+def main(programs):
+    table = Table()
+    folder = Path(programs).resolve()
+    laws(table, folder / "furrow-point")
+    tyres(table, folder / "furrow-tyre")
+    styles(table, folder / "furrow")
+    table.end()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
