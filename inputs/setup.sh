@@ -8,7 +8,8 @@ furrow_build=${FURROW_BUILD:-$furrow_root/build}
 # To build and run.
 furrow_packages="g++ cmake ninja-build liggghts libliggghts-dev libopenmpi-dev openmpi-bin libeigen3-dev libhdf5-dev
   libvtk9-dev libyaml-cpp-dev libfmt-dev libcli11-dev nlohmann-json3-dev libspectra-dev pybind11-dev
-  python3 python3-dev python3-numpy python3-h5py python3-matplotlib python3-pandas python3-scipy python3-yaml python3-jsonschema libjs-three"
+  python3 python3-dev python3-numpy python3-h5py python3-click python3-jinja2 python3-jsonschema python3-matplotlib python3-pandas
+  python3-scipy python3-yaml libjs-three"
 # To test as well.
 furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev mypy chromium-headless-shell
   ffmpeg python3-pip python3-setuptools python3-wheel python3-mpi4py python3-nbclient python3-ipykernel"

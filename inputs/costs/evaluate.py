@@ -13,10 +13,10 @@ from pathlib import Path
 from furrow_post.analyse import cost, cost_table
 from furrow_post.csv_table import read_rows, write_rows
 from furrow_post.errors import ResultsError
-from furrow_post.figures.cost import Answer, draw_models
+from furrow_post.figures.cost_figure import Answer, draw_models
 from furrow_post.read.wheel_run import read_wheel_run
 from furrow_post.run.case import Case, named_values, script_case
-from furrow_post.study.output import Output
+from furrow_post.study.study_files import Output
 from furrow_post.study.runs import Runs
 
 HERE = Path(__file__).resolve().parent

@@ -17,7 +17,7 @@ from series import draw_series, lines_of_series
 from wheel_cases import WheelCase, cited_lines, cited_table
 
 from furrow_post.run.case import Case
-from furrow_post.study.output import Output
+from furrow_post.study.study_files import Output
 from furrow_post.study.runs import Runs
 
 

@@ -16,8 +16,8 @@ from furrow_post.analyse.curves import Curve
 from furrow_post.analyse.entry import FORMULA, MEASURED, Entry
 from furrow_post.analyse.terrain_values import terrain
 from furrow_post.csv_table import read_numbers
-from furrow_post.figures.curves import Line, draw_curves
-from furrow_post.study.output import Output
+from furrow_post.figures.curves_figure import Line, draw_curves
+from furrow_post.study.study_files import Output
 
 MEASURED_PLATE = INPUTS / "validation" / "snow_plate" / "reference.csv"
 # [m], deeper than a grain

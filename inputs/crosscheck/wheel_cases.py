@@ -18,10 +18,10 @@ from furrow_post.analyse.terrain_values import terrain
 from furrow_post.analyse.verdict import QUANTITIES
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
-from furrow_post.figures.comparison import draw_comparison
-from furrow_post.figures.flow import draw_flow
+from furrow_post.figures.comparison_figure import draw_comparison
+from furrow_post.figures.flow_figure import draw_flow
 from furrow_post.read.wheel_run import WheelRun, read_wheel_run
-from furrow_post.study.output import Output
+from furrow_post.study.study_files import Output
 
 GROUNDS = ("continuum", "grains")  # what a case compares at least
 HYBRID = "hybrid"

@@ -10,7 +10,7 @@ import furrow_post  # first: says which of the next ones are missing
 import yaml
 
 from furrow_post.errors import ResultsError
-from furrow_post.read.script import check_variables, script_variables
+from furrow_post.run.script import check_variables, script_variables
 
 HERE = Path(__file__).resolve().parent
 

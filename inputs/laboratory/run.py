@@ -26,7 +26,7 @@ from checks import (
 
 from furrow_post.arguments import at_least, path, shield_negative_numbers, words
 from furrow_post.errors import ResultsError
-from furrow_post.figures.laboratory import draw_laboratory
+from furrow_post.figures.laboratory_figure import draw_laboratory
 from furrow_post.laboratory.report import report_tests
 from furrow_post.program import run_program
 from furrow_post.read.laboratory import read_oedometer_reference

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __version__ = "0.2.0"  # of the whole project: pyproject.toml and CMakeLists.txt read this line
 
 # Checked before any module imports them; programs that need them import this package first.
-_absent = [name for name in ("numpy", "h5py", "matplotlib", "pandas", "scipy", "yaml") if not find_spec(name)]
+_absent = [name for name in ("numpy", "click", "h5py", "jinja2", "matplotlib", "pandas", "scipy", "yaml") if not find_spec(name)]
 if _absent:
     raise ImportError(
         f"furrow_post: {sys.executable} has no {', '.join(_absent)}; write 'apt install "

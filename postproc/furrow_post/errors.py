@@ -6,12 +6,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import numpy as np
-
 # What code raises on values, keys or types that it does not expect
 CONTENT_ERRORS = (
     *(ArithmeticError, IndexError, KeyError, RuntimeError, TypeError, ValueError),
-    *(np.linalg.LinAlgError, SystemError),
+    SystemError,
 )
 
 
@@ -35,7 +33,9 @@ def content_of(file: Path | str, remedy: str) -> Iterator[None]:
     """
     try:
         yield
-    except CONTENT_ERRORS as error:
+    except Exception as error:
+        if not isinstance(error, CONTENT_ERRORS) and type(error).__name__ != "LinAlgError":  # of numpy
+            raise
         raise ResultsError(f"{file}: {_in_words(error)}; {remedy}") from error
 
 

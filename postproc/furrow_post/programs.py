@@ -10,6 +10,7 @@ from typing import Any
 
 from .errors import ResultsError
 
+CALLED = "FURROW_CALLED"  # environment variable: how the user started furrow-post run
 PACKAGE = Path(__file__).resolve().parent
 TREE = PACKAGE.parents[1]  # of the sources, if the package lies in one
 

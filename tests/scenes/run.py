@@ -42,8 +42,8 @@ from refused import REFUSED
 
 PROJECT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(PROJECT / "postproc"), str(PROJECT / "tests" / "support")]
-from furrow_post.scene import command
-from furrow_post.read.script import script_variables
+from furrow_post.cli.main import main as post
+from furrow_post.run.script import script_variables
 from furrow_post.scene.catalogue import GROUPS, head_entry
 from furrow_post.scene.restart import continuation
 
@@ -207,13 +207,12 @@ def sweep(results):
 def check_command(words, folder):
     """A command of the page that takes too long to be run, in a copy of this process."""
     from copied import run_both  # imports matplotlib, which other tests here do not need
-    from furrow_post.cli import main
 
     program, *rest = words[1:] if words[0] == "bash" else words
     is_run = program == str(PROJECT / "inputs" / "run")  # which becomes furrow-post run
     given = ["run", "--no-build", *rest, "--check"] if is_run else rest
     print("+", shlex.join(given), flush=True)
-    done = run_both(main.main, [PROJECT / "postproc" / "furrow-post", *given], folder)
+    done = run_both(post, [PROJECT / "postproc" / "furrow-post", *given], folder)
     # the options of the others are right, the results are not there
     if done.returncode != (0 if is_run else 1) or not is_run and "is no folder" not in done.stderr:
         sys.exit(f"{PAGE}: '{shlex.join(words)}' says\n{done.stdout}{done.stderr}")
@@ -251,7 +250,7 @@ def refused(words):
     """(status, what is said) of the program that inputs/run becomes."""
     said = io.StringIO()
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-        status = command.main(words)
+        status = post(["run", *words])
     return status, said.getvalue()
 
 

@@ -33,7 +33,7 @@ from furrow_post.run.case import Case
 from furrow_post.run.executor import Executor
 from furrow_post.run.tools import Tools
 from furrow_post.study.definition import cases_of, evaluation_of
-from furrow_post.study.output import Output
+from furrow_post.study.study_files import Output
 from furrow_post.tables.ground_measures import rut
 from furrow_post.tables.wheel_measures import steady
 

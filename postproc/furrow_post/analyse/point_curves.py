@@ -3,71 +3,35 @@
 
 import json
 import math
-import subprocess
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 
 from ..arrays import Floats
-from ..errors import ResultsError
 from ..programs import find_program
 from ..run.case import point_text
+from ..run.conversation import Conversation
 from .fitter import NotComputed, Parameter
 from .law_fit import Curve
 
 PROGRAM = "furrow-point"
 
 
-class _OpenPoint:
+class _OpenPoint(Conversation):
     """furrow-point with a line of answer for each line of input."""
 
     def __init__(self, *words: str | Path, program: Path | None = None) -> None:
-        self._process = subprocess.Popen(
-            [program or find_program(PROGRAM), *words],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            encoding="utf-8",
-            errors="backslashreplace",
-        )
+        super().__init__(program or find_program(PROGRAM), *words)
 
-    def _answer(self, question: str) -> str:
-        assert self._process.stdin
-        try:
-            self._process.stdin.write(question + "\n")
-            self._process.stdin.flush()
-        except BrokenPipeError:
-            pass  # the missing answer has the cause
-        answer = self._line()
+    def answer(self, question: str) -> str:
+        """@raises NotComputed with the message of furrow-point; ResultsError where it ended"""
+        answer = self.ask(question)
         if answer.startswith("error: "):
             raise NotComputed(answer.removeprefix("error: ").rstrip())
         return answer
-
-    def _line(self) -> str:
-        assert self._process.stdout and self._process.stderr
-        line = self._process.stdout.readline()
-        if not line:
-            cause = " ".join(self._process.stderr.read().split()).removeprefix(f"{PROGRAM}: ")
-            raise ResultsError(cause or f"{PROGRAM} ended without a message; start it by hand")
-        return line
-
-    def close(self) -> None:
-        self._process.communicate()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 class PointPaths(_OpenPoint):
@@ -85,7 +49,7 @@ class PointPaths(_OpenPoint):
             file = Path(folder) / "path.yaml"
             file.write_text(point_text("path", material.resolve(), path), encoding="utf-8")
             try:
-                channels = json.loads(self._answer(str(file)))
+                channels = json.loads(self.answer(str(file)))
             except NotComputed as error:
                 raise NotComputed(f"{material}: {error}") from error
         return {name: np.array(values, dtype=np.float64) for name, values in channels.items()}
@@ -98,7 +62,7 @@ class PointCurves(_OpenPoint):
         """@raises ResultsError with what furrow-point refuses in the file"""
         super().__init__("curves", file)
         try:
-            head = json.loads(self._line())
+            head = json.loads(self.line())
         except BaseException:
             self.close()
             raise
@@ -111,12 +75,12 @@ class PointCurves(_OpenPoint):
 
     def __call__(self, values: Floats) -> Sequence[Floats]:
         """Each curve at its points. @raises NotComputed, ResultsError"""
-        whole = np.array(self._answer(_words(values)).split(), dtype=np.float64)
+        whole = np.array(self.answer(_words(values)).split(), dtype=np.float64)
         return np.split(whole, np.cumsum([len(curve.driven) for curve in self.curves])[:-1])
 
     def material_file(self, values: Floats) -> str:
         """The text of a material file with these values. @raises NotComputed, ResultsError"""
-        text: str = json.loads(self._answer(f"material {_words(values)}"))
+        text: str = json.loads(self.answer(f"material {_words(values)}"))
         return text
 
 

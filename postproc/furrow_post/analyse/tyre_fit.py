@@ -9,7 +9,6 @@ above 1 is a combination of parameters that the tests determine better than the 
 """
 
 import math
-import subprocess
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -21,6 +20,7 @@ from ..arrays import Floats
 from ..csv_table import read_numbers
 from ..errors import ResultsError
 from ..programs import find_program
+from ..run.tools import Refused, answer
 from .fitter import NotComputed, Parameter, Search, fit, judge, slopes
 from .tyre_estimate import Catalogue, Guess, guesses, tyre_sections, tyre_text
 
@@ -91,12 +91,11 @@ def press(text: str, tests: Sequence[PlateTest], mesh: Mesh = FINE) -> States:
             loads = sorted({test.load for test in tests if test.pressure == pressure})
             command = [str(program), str(file), "--half", "--mesh", *map(str, mesh)]
             command += ["--pressure", f"{pressure!r}", "--load", *(f"{load!r}" for load in loads)]
-            done = subprocess.run(command, capture_output=True, text=True)
-            if done.returncode != 0:
-                message = done.stderr.replace(str(file), "the tyre").strip()
-                raise NotAtRest(message.removeprefix("furrow-tyre: "))
             table = Path(folder) / "states.csv"
-            table.write_text(done.stdout, encoding="utf-8")
+            try:
+                table.write_text(answer(command), encoding="utf-8")
+            except Refused as refused:
+                raise NotAtRest(refused.cause.replace(str(file), "the tyre")) from refused
             for load, row in zip(loads, read_numbers(table)[1:]):  # the first is without load
                 states[pressure, load] = row
     return [states[test.pressure, test.load] for test in tests]

@@ -13,7 +13,7 @@ from ..errors import ResultsError
 from ..read.motion import Motion
 from ..read.results import Surface
 from .canvas import View
-from .quantities import COLOURS, Quantity, quantities_of
+from .ground_quantities import COLOURS, Quantity, quantities_of
 from .render import SURFACE_COLOUR, shaded_picture
 from .style import GROUND_COLOURS, use_style
 

@@ -20,7 +20,7 @@ from ..errors import ResultsError
 from ..read.motion import Body, Cloud, Motion, Points, evenly_chosen
 from ..run.summary import Summary
 from .page import escaped, html_page
-from .quantities import COLOURS, Quantity, quantities_of
+from .ground_quantities import COLOURS, Quantity, quantities_of
 from .style import GROUND_COLOURS, MILLIMETRE
 
 LARGEST = 12e6  # [byte] of a view; a report has its figures beside it

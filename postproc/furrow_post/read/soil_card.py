@@ -29,7 +29,7 @@ UNITS = {  # of the parameters; lists of two numbers have the unit of the last c
     "index": "Pa",
     "gradient": "Pa/m",
 }
-REMEDY = "write it with furrow-soil card"
+REMEDY = "write it with furrow-post card make"
 SCALES = {"": 1.0, "k": 1e3, "M": 1e6}  # before a unit
 OTHER_UNITS = {  # unit of a parameter -> others, and their size
     "degree": {"degrees": 1.0, "deg": 1.0, "°": 1.0, "rad": math.degrees(1)},
@@ -188,7 +188,7 @@ class SoilCard:
         if isinstance(shear, Shear) and shear.K.value < SMALLEST_K:
             raise ResultsError(
                 f"{self.title}: K is {1e3 * shear.K.value:.2g} mm, that of a law which mobilises its strength at once; "
-                f"soils have 5 to 25 mm. A shear ring on grains determines it ('furrow-soil card GROUND.lig'), or a "
+                f"soils have 5 to 25 mm. A shear ring on grains determines it ('furrow-post card make GROUND.lig'), or a "
                 f"shear test of the soil: give it as --K"
             )
 
@@ -306,7 +306,7 @@ def write_card(card: SoilCard, path: Path) -> None:
         "notes": list(card.notes),
     }
     head = (
-        "# Soil card, SI units and degrees, written by furrow-soil card. value and error: fit and\n"
+        "# Soil card, SI units and degrees, written by furrow-post card make. value and error: fit and\n"
         "# standard error. Lists of two numbers: range of the tests. inputs/soils/README.md\n"
         "# explains every key.\n"
     )

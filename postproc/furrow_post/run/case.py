@@ -13,11 +13,13 @@ import yaml
 
 from ..errors import ResultsError
 from ..formatting import yaml_text
+from .script import script_variables
 
 Value = str | float | int | Path
 
 YAML_NAMES = (".yaml", ".yml")
 LONGEST_NAME = 256  # letters; longer texts are no names of files
+SCRIPT = ".lig"
 FOLDER = "{folder}"  # in an argument, a variable or a file's text: the folder of the run
 
 
@@ -83,9 +85,9 @@ class Case:
             "files": {name: portable(text) for name, text in self.files.items()},
         }
 
-    def input_files(self) -> list[Path]:
-        """Files that the command line names: scripts, materials, tyres; those of reads; and what YAML files of them
-        name, as a material its base."""
+    def input_files(self, furrow: Path | None = None) -> list[Path]:
+        """Files that the command line names: scripts, materials, tyres; those of reads; what YAML files of them
+        name, as a material its base; and with the program furrow what its scripts include and name."""
         named = [Path(str(value)) for value in (*self.arguments, *self.variables.values())]
         found: dict[Path, None] = {}
         for path in (*named, *self.reads):
@@ -94,7 +96,21 @@ class Case:
         for text in (text for name, text in self.files.items() if Path(name).suffix in YAML_NAMES):
             for path in _named_in(text, Path("/")):
                 _add_with_named(path, found)
+        for script in (*named, *self.reads):
+            if furrow and script in found and script.suffix == SCRIPT:
+                for path in self._files_of(script, furrow):
+                    _add_with_named(path, found)
         return list(found)
+
+    def _files_of(self, script: Path, furrow: Path) -> Iterator[Path]:
+        """The script, what it includes, and files that its variables name."""
+        given = {name: str(value) for name, value in self.variables.items()}
+        known = script_variables(script, given, furrow)
+        yield from known.files
+        for value in {**known.defaults, **given}.values():
+            path = script.parent / value
+            if Path(value).suffix and path.is_file():
+                yield path.resolve()
 
 
 def _add_with_named(path: Path, found: dict[Path, None]) -> None:

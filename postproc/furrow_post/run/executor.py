@@ -114,15 +114,27 @@ class Executor:
             return None
         if self.same_program and record.program != digest(self.tools.program(case.program)):
             return None
-        if self.same_inputs and record.inputs != digests(case.input_files()):
+        if self.same_inputs and record.inputs != digests(case.input_files(self._furrow)):
             return None
         return record
+
+    @property
+    def _furrow(self) -> Path | None:
+        """The program that knows what scripts include, where it is built."""
+        try:
+            return self.tools.program("furrow")
+        except ResultsError:
+            return None
 
     def changed(self, case: Case) -> list[str]:
         """Input files that differ from those of the run, as far as its record has them."""
         record = self.ended(case)
-        now = digests(case.input_files()) if record else {}
-        return [name for name, found in record.inputs.items() if now.get(name) != found] if record else []
+        if not record:
+            return []
+        furrow = self._furrow
+        now = digests(case.input_files(furrow))
+        names = record.inputs if furrow else now.keys() & record.inputs.keys()
+        return [name for name in names if now.get(name) != record.inputs[name]]
 
     def state(self, case: Case) -> State:
         if self.record(case):
@@ -152,7 +164,8 @@ class Executor:
         """Makes what is missing. Of cases that share something the first runs before the others.
 
         A failed run stops no other one. A run that another program makes at the same time is waited
-        for and taken from it. ended: takes each case whose run has ended, in its thread.
+        for and taken from it. ended: takes each case whose run came to its end, one at a
+        time, while others run.
         @raises Interrupted; ResultsError without the program
         """
         self._run(self.missing(cases), ended, anew=False)
@@ -177,17 +190,16 @@ class Executor:
                 record = self._make(case, processes, progress, anew)
                 if stop and record.error and not case.may_fail:
                     failures.append(Run(case, self.folder(case), record))
-                if ended:
-                    ended(case)
                 return record
 
             for wave in _waves(cases):
-                self._run_together(wave, make, processes, progress)
+                self._run_together(wave, make, ended, processes, progress)
 
     def _run_together(
         self,
         cases: Sequence[Case],
         make: Callable[[Case], Record],
+        ended: Callable[[Case], None] | None,
         processes: Processes,
         progress: Progress,
     ) -> None:
@@ -199,7 +211,10 @@ class Executor:
                     done, pending = wait(pending, LOOK_EVERY, FIRST_COMPLETED)
                     for future in done:
                         case = futures[future]
-                        progress.report(case.name, self.folder(case), future.result())
+                        record = future.result()
+                        progress.report(case.name, self.folder(case), record)
+                        if ended and not record.error:
+                            ended(case)
                     running = [futures[future] for future in pending if future.running()]
                     progress.show([self.folder(case) for case in running])
             except BaseException:
@@ -253,7 +268,7 @@ class Executor:
         record = Record(
             job=case.identity(self.tools.root),
             program=digest(program),
-            inputs=digests(case.input_files()),
+            inputs=digests(case.input_files(self._furrow)),
             commit=self.tools.commit(),
             started=started,
             wall_time=round(ending.wall_time, 3),

@@ -66,12 +66,21 @@ class Tools:
             return ""
 
 
-def answer(command: Sequence[object], remedy: str = "") -> str:
-    """What a program prints. @raises ResultsError with its message where it fails"""
+class Refused(ResultsError):
+    """A program ended with an error; cause: its message."""
+
+    def __init__(self, program: str, cause: str) -> None:
+        super().__init__(f"{program}: {cause}")
+        self.cause = cause
+
+
+def answer(command: Sequence[object]) -> str:
+    """What a program prints. @raises Refused with its message where it fails"""
     words = [str(word) for word in command]
     done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode:
+        name = Path(words[0]).name
         lines = [line.strip() for line in done.stderr.splitlines() if line.strip()]
-        cause = lines[-1] if lines else f"status {done.returncode}"
-        raise ResultsError(f"{Path(words[0]).name} stopped: {cause}{remedy and f'; {remedy}'}")
+        cause = lines[-1].removeprefix("ERROR: ").removeprefix(f"{name}: ") if lines else f"status {done.returncode}"
+        raise Refused(name, cause)
     return done.stdout

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What 'furrow-post run' does: checks all that is asked for, runs it, and shows what came out."""
 
-import argparse
 import importlib
 import shlex
-import subprocess
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -12,20 +10,20 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import Interrupted, ResultsError
-from ..programs import find_program, source_tree
-from ..read.script import RESERVED, check_variables
+from ..programs import source_tree
+from ..run.script import RESERVED, check_variables
 from ..run.executor import Failed
 from ..run.process import CHECKPOINT
 from ..run.tools import Tools
 from ..sweep.continued import continued_script
-from ..sweep.plan import Plan
+from ..sweep.sweep_plan import Plan
 from .catalogue import Variables, head_lines, quick_variables, script_of
-from .choice import Chosen, choose, outcome, table_of
+from .scene_choice import Chosen, choose, outcome, table_of
 from .one import SceneRun, require_folder, run_scenes, show, words_of
-from .options import called, parse
+from .options import called, require_fitting
 from .restart import Former, continuation, read_former
-from .two_grounds import run_two_grounds
-from .verdict import verdict_line
+from .scene_summary import verdict_line
+from .two_grounds import Post, run_two_grounds
 
 POST = "furrow-post"  # the first word of a formula's options in a table of errors
 
@@ -34,7 +32,7 @@ POST = "furrow-post"  # the first word of a formula's options in a table of erro
 class Request:
     """What the command line asks for, checked."""
 
-    options: argparse.Namespace
+    options: Any
     folder: Path  # of the results
     script: Path | None = None  # None: the runs without a scene
     preset: Variables = field(default_factory=list)  # of --quick
@@ -44,14 +42,14 @@ class Request:
     former: Former | None = None  # of --continue
 
 
-def main(given: Sequence[str]) -> int:
-    """The exit status: 2 for what is refused before anything runs."""
+def run_scene(options: Any, post: Post) -> int:
+    """The exit status: 2 for what is refused before anything runs. post: runs a command of furrow-post"""
     try:
-        options = parse(given)
+        require_fitting(options)
         if options.point:
             return int(_sweeps().make_point(options.folder, options.point))
         request = checked(options)
-        if options.prepare or options.check:
+        if options.check:
             return 0
         Tools.found().program("furrow")
         if not options.sweep:
@@ -60,7 +58,7 @@ def main(given: Sequence[str]) -> int:
         print(f"{called()}: {error}", file=sys.stderr)
         return 2
     try:
-        return _run(request)
+        return _run(request, post)
     except (Failed, Interrupted) as end:
         if isinstance(end, Interrupted):
             print(f"{called()}: {end}{_how_to_continue(request)}", file=sys.stderr)
@@ -74,7 +72,7 @@ def _how_to_continue(request: Request) -> str:
     return f"; to continue it from {request.folder / CHECKPOINT}, give --continue"
 
 
-def checked(options: argparse.Namespace) -> Request:
+def checked(options: Any) -> Request:
     """@raises ResultsError, OSError"""
     scene: str = options.scene
     request = Request(options, options.folder or _default_folder(options))
@@ -111,22 +109,22 @@ def _sweeps() -> Any:
     return importlib.import_module(".sweeps", __package__)
 
 
-def _default_folder(options: argparse.Namespace) -> Path:
+def _default_folder(options: Any) -> Path:
     name = Path(options.scene).stem if options.scene else "two_grounds"
     ending = ("_sweep" if options.sweep else "") + ("_quick" if options.quick else "")
     return (source_tree() or Path.cwd()) / "results" / (name + ending)
 
 
-def _run(request: Request) -> int:
+def _run(request: Request, post: Post) -> int:
     """@raises ResultsError, Failed, Interrupted"""
     options, folder, script = request.options, request.folder, request.script
     if script is None:
-        run_two_grounds(folder, options.quick)
+        run_two_grounds(folder, options.quick, post)
         return 0
     if request.plan:
         return int(_sweeps().make_sweep(options, script, request.plan, folder))
     if request.chosen and request.chosen.runs[0][0] == POST:
-        return _run_formula(request.chosen)
+        return _run_formula(request.chosen, post)
     print("\n".join(head_lines(script)), flush=True)
     if request.chosen and request.table:
         return _run_chosen(request, request.chosen, request.table)
@@ -165,7 +163,7 @@ def _run_chosen(request: Request, chosen: Chosen, table: Path) -> int:
     return 0
 
 
-def _refuse_with_formula(options: argparse.Namespace) -> None:
+def _refuse_with_formula(options: Any) -> None:
     """@raises ResultsError"""
     of_runs = {
         "-n": options.ranks > 1,
@@ -181,15 +179,15 @@ def _refuse_with_formula(options: argparse.Namespace) -> None:
         )
 
 
-def _run_formula(chosen: Chosen) -> int:
+def _run_formula(chosen: Chosen, post: Post) -> int:
     """A command of furrow-post; its status."""
     print("\n".join(chosen.reasons), file=sys.stderr)
     words = chosen.runs[0]
     print(shlex.join(words), flush=True)
-    return subprocess.run([find_program(POST), *words[1:]], check=False).returncode
+    return post(*words[1:])
 
 
-def _run_and_show(run: SceneRun, options: argparse.Namespace) -> None:
+def _run_and_show(run: SceneRun, options: Any) -> None:
     print(f"Running on {run.ranks} rank(s); results in {run.folder}", flush=True)
     run_scenes(run.folder, [run])
     if (run.folder / "history.h5").is_file():

@@ -1,22 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Runs of scenes: their cases, their results folders and their pictures."""
 
-import json
+import importlib
 import shlex
-import subprocess
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultsError
-from ..json_text import parse_json
-from ..programs import PACKAGE
 from ..run.case import FOLDER, Case
 from ..run.claim import is_busy
 from ..run.executor import Executor, Failed, Run
 from ..run.tools import Tools
-from ..sweep.cases import scene_case
+from ..sweep.continued import scene_case
 from .catalogue import Variables, is_shipped
 from .restart import continuation, write_command
 
@@ -101,31 +97,15 @@ def run_scenes(
             raise Failed(Run(case, executor.folder(case), failure))
 
 
-def post(*commands: Sequence[object], shown: bool = True) -> None:
-    """Runs commands of furrow-post in one process, which imports matplotlib once. @raises ResultsError"""
-    code = (
-        f"import json, sys; sys.path.insert(0, {str(PACKAGE.parent)!r}); from furrow_post.cli.main import main; "
-        "sys.exit(next(filter(None, map(main, json.loads(sys.argv[1]))), 0))"
-    )
-    words = json.dumps([[str(word) for word in command] for command in commands])
-    sys.stdout.flush()
-    done = subprocess.run(
-        [sys.executable, "-c", code, words], stdout=None if shown else subprocess.DEVNULL
-    )
-    if done.returncode:
-        raise ResultsError(f"furrow-post {commands[0][0]} ended with status {done.returncode}")
-
-
 def show(folder: Path, quick: bool, shown: bool = True) -> None:
-    """Pictures of a run with a history; those of a quick run are small."""
+    """Draws a run with a history; shown: prints the names of the pictures."""
     if not (folder / "history.h5").is_file():
         return
-    commands: list[Sequence[object]] = [("plot", folder)]
-    # Neither a rigid plane nor a height field has grains or particles to draw
-    cost = parse_json((folder / "summary.json").read_text()).get("cost", {})
-    if cost.get("grains") or (folder / "terrain.h5").is_file():
-        commands.append(("picture", folder, *(("--pixels", 500) if quick else ())))
-    post(*commands, shown=shown)
+    # Other runs do not wait for matplotlib
+    pictures = importlib.import_module(".pictures", __package__)
+    for file in pictures.draw_run(folder, quick):
+        if shown:
+            print(file)
 
 
 def words_of(scene: str, variables: Sequence[tuple[str, str]]) -> str:

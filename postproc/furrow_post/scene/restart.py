@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..errors import ResultsError, content_of
 from ..json_text import parse_json
-from ..read.script import script_variables
+from ..run.script import script_variables
 from ..run.process import FORCED, PARTICLES
 from .catalogue import Variables
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sweeps of a scene: makes the points that are missing, here or by Slurm, and draws their curves."""
 
-import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from ..errors import ResultsError
 from ..programs import PACKAGE, find_program, inputs_folder
@@ -13,13 +13,13 @@ from ..run.tools import Tools
 from ..run.executor import Executor, State
 from ..run import slurm
 from ..sweep.cases import Request, case_of, plan_of
-from ..sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
-from ..sweep.plan import Plan, read_plan
+from ..sweep.sweep_files import Named, Wanted, evaluate, report_lines, write_sweep
+from ..sweep.sweep_plan import Plan, read_plan
 from .catalogue import Variables
 from .options import called
 
 
-def wanted_of(options: argparse.Namespace, script: Path) -> Wanted:
+def wanted_of(options: Any, script: Path) -> Wanted:
     """What lies beside the curves."""
     inputs = inputs_folder()
     table = inputs / "costs" / f"{script.stem}.csv" if inputs else None
@@ -30,7 +30,7 @@ def wanted_of(options: argparse.Namespace, script: Path) -> Wanted:
     )
 
 
-def planned(options: argparse.Namespace, script: Path, preset: Variables) -> Plan:
+def planned(options: Any, script: Path, preset: Variables) -> Plan:
     """The points that are asked for; prints warnings. @raises ResultsError"""
     request = Request(
         script,
@@ -50,7 +50,7 @@ def planned(options: argparse.Namespace, script: Path, preset: Variables) -> Pla
     return plan
 
 
-def make_sweep(options: argparse.Namespace, script: Path, plan: Plan, folder: Path) -> int:
+def make_sweep(options: Any, script: Path, plan: Plan, folder: Path) -> int:
     """The exit status. @raises ResultsError, Interrupted"""
     folder = folder.resolve()
     former = read_plan(folder)

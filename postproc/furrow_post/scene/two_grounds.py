@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What is run without a scene: a tyre on snow, and one wheel on two grounds, in minutes on two cores."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 from ..errors import ResultsError
 from ..programs import inputs_folder
 from ..run.case import Case
 from .catalogue import Variables, quick_variables, script_of
-from .one import SceneRun, post, run_scenes, show, words_of
+from .one import SceneRun, run_scenes, show, words_of
 
+Post = Callable[..., int]  # a command of furrow-post with its words; the exit status
 # Snow by the oedometer alone predicts; the tyre scene's own was identified on wheels
 OEDOMETER_SNOW = [("material", "../materials/fresh_snow_cam_clay.yaml")]
 # folder -> scene, its variables, and those that stay with --quick; the longest run is the first
@@ -22,8 +24,8 @@ RUNS: dict[str, tuple[str, Variables, Variables]] = {
 LARGEST_PRESSURE = "179e3"
 
 
-def run_two_grounds(folder: Path, quick: bool) -> None:
-    """Grains on one core; on the other the tyre, the wheel on continuum, and their pictures.
+def run_two_grounds(folder: Path, quick: bool, post: Post) -> None:
+    """Grains on one core; on the other the tyre and the wheel on continuum. post: runs a command of furrow-post
 
     @raises ResultsError, Interrupted, Failed
     """
@@ -47,6 +49,7 @@ def run_two_grounds(folder: Path, quick: bool) -> None:
     measured = inputs / "validation" / "snow_wheel" / "reference.csv"
     beside = ["--measured", measured] if measured.is_file() else []
     _compare(
+        post,
         folder / "measured",
         inputs / "costs" / "tyre_on_snow.csv",
         *(f"fitted={folder / 'tyre'}", f"predicted={folder / 'tyre_predicted'}"),
@@ -54,7 +57,7 @@ def run_two_grounds(folder: Path, quick: bool) -> None:
     )
     print("\nThe rigid wheel on both grounds")
     grounds = (f"{name}={folder / name}" for name in ("continuum", "grains"))
-    _compare(folder, inputs / "costs" / "two_grounds.csv", *grounds)
+    _compare(post, folder, inputs / "costs" / "two_grounds.csv", *grounds)
 
 
 def _scene(name: str, folder: Path, quick: bool) -> SceneRun:
@@ -64,7 +67,8 @@ def _scene(name: str, folder: Path, quick: bool) -> SceneRun:
     return SceneRun(script, folder / name, given, words=words_of(scene, given))
 
 
-def _compare(folder: Path, errors: Path, *words: object) -> None:
+def _compare(post: Post, folder: Path, errors: Path, *words: object) -> None:
     """Table, picture and report. errors: table of runs of other sizes."""
     given = [*words, *(("--errors", errors) if errors.is_file() else ())]
-    post(("compare", *given, "-o", folder), ("report", *given, "-o", folder / "report.html"))
+    post("compare", *given, "-o", folder)
+    post("report", *given, "-o", folder / "report.html")

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import ResultsError
 from ..programs import inputs_folder
-from ..read.script import script_variables
+from ..run.script import script_variables
 from ..read.soil_card import NoResult
 from ..run.case import Case
 from ..run.executor import Executor
@@ -76,7 +76,7 @@ def laboratory_folder() -> Path:
     """@raises ResultsError where the inputs are missing"""
     inputs = inputs_folder()
     if inputs is None or not (inputs / "laboratory" / "parts").is_dir():
-        raise ResultsError("a card of grains needs inputs/laboratory; run furrow-soil from the source tree")
+        raise ResultsError("a card of grains needs inputs/laboratory; run furrow-post card from the source tree")
     return inputs / "laboratory"
 
 

@@ -13,7 +13,6 @@ from ..arrays import Floats
 from ..csv_table import read_matrix
 from ..errors import ResultsError
 from ..programs import inputs_folder
-from ..read.script import script_variables
 from ..read.soil_card import STANDARD_CONE
 from ..run.case import Case, Value, script_case
 from ..run.executor import Executor
@@ -46,11 +45,10 @@ def instrument_case(
     """A script of inputs/soils/instruments; surroundings: variables that name files. @raises ResultsError"""
     inputs = inputs_folder()
     if inputs is None:
-        raise ResultsError("furrow-soil needs Furrow's inputs; run it from the tree or installed")
+        raise ResultsError("furrow-post card needs Furrow's inputs; run it from the tree or installed")
     script = inputs / "soils" / "instruments" / f"{instrument}.lig"
     variables: dict[str, Value] = {**surroundings, **values}
-    known = script_variables(script, {key: str(value) for key, value in variables.items()})
-    return script_case(name, script, variables, log=True, reads=tuple(known.files))
+    return script_case(name, script, variables, log=True)
 
 
 @dataclass(frozen=True)

@@ -203,7 +203,7 @@ def compression(oedometer: Confined | None, young: float | None) -> Confined:
     if oedometer:
         return oedometer
     if young is None:
-        raise ResultsError("furrow-soil make needs --oedometer FILE or --E for the compression")
+        raise ResultsError("furrow-post card material needs --oedometer FILE or --E for the compression")
     return confined_of_modulus(young / UNLOADING)
 
 

@@ -5,24 +5,20 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-import yaml
-
-from ..errors import ResultsError, content_of
+from ..errors import ResultsError
 from ..formatting import yaml_text
-from ..programs import inputs_folder
+from ..json_text import parse_json
+from ..programs import find_program, inputs_folder
+from ..run.tools import answer
 
-MOST_BASES = 8
 OF_GRAINS = ".lig"  # ending of a ground of grains
-SECTIONS = ("law", "elasticity", "hardening")
-TYPICAL_PRESSURE = 1e4  # [Pa] where laws whose stiffness grows with pressure have the constants below
-NORSAND_PRESSURE = 1e5  # [Pa] of G, src/material/models/norsand
+TYPICAL_PRESSURE = 1e4  # [Pa] where laws whose stiffness grows with pressure have their elastic constants
 
 
 @dataclass(frozen=True)
 class Material:
-    """density [kg/m3], elastic constants [Pa] at the start, or at 10 kPa if they grow with pressure."""
+    """density [kg/m3], elastic constants [Pa] at 10 kPa."""
 
     title: str
     density: float
@@ -60,52 +56,14 @@ def find_ground(name: str) -> Path:
 
 
 def read_material(path: Path) -> Material:
-    """Follows `base`, as furrow does; whether the file is right, furrow says. @raises ResultsError"""
-    content = _with_base(path, 0)
-    with content_of(path, "furrow-soil needs density, and E and nu or kappa, e0 and nu"):
-        law = content["law"]
-        norsand = law.get("type") == "norsand"  # which has its own elasticity
-        linear = not norsand and content["elasticity"]["type"] == "linear"
-        if norsand:
-            poisson = float(law["nu"])
-            shear = float(law["G"]) * (TYPICAL_PRESSURE / NORSAND_PRESSURE) ** float(law["n"])
-            young = 2 * shear * (1 + poisson)
-        elif linear:
-            young, poisson = float(content["elasticity"]["E"]), float(content["elasticity"]["nu"])
-        else:
-            elasticity = content["elasticity"]
-            poisson = float(elasticity.get("nu", 0.25))
-            bulk = (1 + float(elasticity["e0"])) * TYPICAL_PRESSURE / float(elasticity["kappa"])
-            young = 3 * bulk * (1 - 2 * poisson)
-        title = str(content.get("title", path.stem))
-        return Material(title, float(law["density"]), young, poisson, linear)
-
-
-def content_with_bases(path: Path) -> str:
-    """Equal for equal grounds, whichever of their files changed. @raises ResultsError"""
-    text: str = yaml.safe_dump(_with_base(path, 0))
-    return text
-
-
-def _with_base(path: Path, count: int) -> dict[str, Any]:
-    if count > MOST_BASES:
-        raise ResultsError(f"{path}: is the base of {MOST_BASES} files; is one its own base?")
-    with content_of(path, "a material file is YAML, inputs/guide/soil_files.md"):
-        try:
-            content = yaml.safe_load(path.read_text(encoding="utf-8"))
-        except yaml.YAMLError as error:
-            raise ValueError(" ".join(str(error).split())) from error
-        if not isinstance(content, dict):
-            raise ValueError("has no keys")
-        if "base" not in content:
-            return content
-        whole = _with_base(path.parent / str(content["base"]), count + 1)
-        for name in SECTIONS:
-            section = content.get(name, {})
-            same = section.get("type", whole.get(name, {}).get("type")) == whole.get(name, {}).get("type")
-            whole[name] = {**(whole.get(name, {}) if same else {}), **section}
-        whole["title"] = content.get("title", whole.get("title"))
-        return whole
+    """A material file with its bases, as furrow-point reads it. @raises ResultsError"""
+    content = parse_json(
+        answer([find_program("furrow-point"), "show", path, "--json", "--pressure", TYPICAL_PRESSURE])
+    )
+    elastic = content["elastic"]
+    # NorSand has its own elasticity
+    linear = content["sections"].get("elasticity", {}).get("type") == "linear"
+    return Material(content["title"], elastic["density"], elastic["young"], elastic["poisson"], linear)
 
 
 @dataclass(frozen=True)

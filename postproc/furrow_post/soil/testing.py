@@ -26,8 +26,8 @@ from .instruments import (
     ring_scale,
     ring_tests,
 )
-from .page import Curves, draw_card, write_page
-from .units import PLAUSIBLE
+from .card_page import Curves, draw_card, write_page
+from .units import usual_ranges
 
 Part = TypeVar("Part")
 SINKAGE = 0.3  # of the diameter
@@ -89,7 +89,7 @@ def make_card(
         shear,
         _result_of(lambda: cone_index(cone)),
         (
-            *((SMALL_K,) if isinstance(shear, Shear) and shear.K.value < PLAUSIBLE["K"].low else ()),
+            *((SMALL_K,) if isinstance(shear, Shear) and shear.K.value < usual_ranges()["K"].lower else ()),
             *_growth(rings),
             *((SOFT_CELLS,) if scale < 1 and isinstance(shear, Shear) else ()),
             f"plates {cells} cells across, ring {across}, cone {effort.cone_cells}: errors of "

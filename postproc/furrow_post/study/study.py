@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What is done with a study: its runs are listed, made and evaluated."""
 
-import argparse
 import fnmatch
 import sys
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from ..arguments import at_least, path, words
 from ..errors import ResultsError
 from ..run.case import Case
 from ..run.tools import Tools
-from .output import Output
+from .study_files import Output
 from ..run.executor import Executor, State
 from .runs import Runs
 
@@ -51,44 +50,11 @@ def _fits(case: Case, name: str) -> bool:
     return name == case.stage or fnmatch.fnmatchcase(case.name, name)
 
 
-def add_study_arguments(parser: argparse.ArgumentParser) -> None:
-    """What every command on the runs of a study takes."""
-    parser.add_argument(
-        "names",
-        nargs="*",
-        type=words,
-        metavar="NAME",
-        help="stages or runs to make, also as patterns such as 'row_220*' (default: all)",
-    )
-    parser.add_argument("--list", action="store_true", help="say what is there and what is not")
-    parser.add_argument("--evaluate", action="store_true", help="make no runs, only the tables")
-    parser.add_argument(
-        "--merge",
-        action="store_true",
-        help="put the rows of the runs that are there into the stored tables and leave the others",
-    )
-    parser.add_argument("--again", action="store_true", help="make failed runs again")
-    parser.add_argument("--jobs", type=at_least(1), default=1, help="runs at a time (default: 1)")
-    parser.add_argument(
-        "--check",
-        action="store_true",
-        help="runs by the present program, tables in the results folder; exit status 1 when a "
-        "limit is missed",
-    )
-    parser.add_argument(
-        "--results",
-        type=path,
-        help="where runs are kept (default: results/<study> in the source tree)",
-    )
-    parser.add_argument(
-        "--build",
-        type=path,
-        help="build folder with the programs (default: $FURROW_BUILD, or build in the source tree)",
-    )
+def carry_out(study: Study, parsed: Any) -> int:
+    """Makes the runs that are missing and evaluates them, or lists them; the exit status.
 
-
-def carry_out(study: Study, parsed: argparse.Namespace) -> int:
-    """Makes the runs that are missing and evaluates them, or lists them; the exit status."""
+    parsed: options of furrow-post study
+    """
     tools = Tools.of(study.folder, parsed.build)
     results = parsed.results or tools.root / "results" / study.folder.name
     executor = Executor(results, tools, parsed.jobs, same_program=parsed.check, again=parsed.again)

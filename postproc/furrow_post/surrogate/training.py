@@ -12,7 +12,7 @@ import numpy as np
 from ..arrays import Floats
 from ..csv_table import read_comments, read_rows
 from ..errors import ResultsError
-from ..sweep.output import TABLE
+from ..sweep.sweep_files import TABLE
 from ..sweep.table import SET
 
 PULL, TORQUE, HUB_DROP = "net_traction_coefficient", "torque_coefficient", "hub_drop"

@@ -3,24 +3,22 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from ..errors import ResultsError
-from ..read.script import (
+from ..run.script import (
     RESERVED,
     ScriptVariables,
-    as_word,
     check_variables,
     require_files,
     script_variables,
 )
-from ..run.case import FOLDER, Case, script_case
-from .continued import CONTINUED, RESULTS, continued_script
-from .plan import Plan, Point, points_of
+from ..run.case import Case
+from .continued import RESULTS, scene_case
+from .sweep_plan import Plan, Point, points_of
 from .sampling import sampled
-from .values import further_seeds, parse_variables, product
+from .sweep_values import further_seeds, parse_variables, product
 
 SEED = "seed"  # the variable of a script that chooses the packing of its grains
 MOTION = "motion"  # the variable of a script that has the mode of its rig
@@ -133,38 +131,3 @@ def case_of(plan: Plan, point: Point) -> Case:
         # A run until it is steady ends by itself
         time_limit=math.inf if plan.until_steady or not plan.time_limit else plan.time_limit,
     )
-
-
-def scene_case(
-    name: str,
-    script: Path,
-    variables: Mapping[str, str],
-    until_steady: float,
-    steady_limit: float,
-    **more: Any,
-) -> Case:
-    """A run of a scene; until_steady: relative error, 0: as long as the script lasts; steady_limit: its time
-    limit [s], 0: none; more: further members of the Case"""
-    run: Path | str = script
-    if until_steady:
-        run = f"{FOLDER}/{CONTINUED}"
-        more["files"] = {CONTINUED: continued_script(script, until_steady, steady_limit)}
-    known = script_variables(script, variables)
-    case = script_case(
-        name,
-        run,
-        {name: as_word(script, value) for name, value in variables.items()},
-        log=True,
-        reads=tuple(_files_of(script, variables, known)),
-        **more,
-    )
-    if RESULTS in known.settable:
-        return case
-    return replace(case, variables={name: value for name, value in case.variables.items() if name != RESULTS})
-
-
-def _files_of(script: Path, given: Mapping[str, str], known: ScriptVariables) -> list[Path]:
-    """What a run is made from: the script, what it includes, and files that variables name."""
-    values = {**known.defaults, **given}
-    named = [script.parent / value for value in values.values() if Path(value).suffix]
-    return [*known.files, *(path.resolve() for path in named if path.is_file())]

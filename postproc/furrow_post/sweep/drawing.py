@@ -13,9 +13,9 @@ from matplotlib.axes import Axes
 from ..analyse.verdict import BARS, COVERAGE
 from ..figures.resistance_parts import Panel, draw_parts
 from ..figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
-from .curves import Curve, Figure, Line
-from .formulas import FormulaLine
-from .measured import MeasuredPoints
+from .sweep_curves import Curve, Figure, Line
+from .sweep_formulas import FormulaLine
+from .sweep_measured import MeasuredPoints
 
 LEGEND = f"{BARS} (thick: time average alone; thin: all known parts); open: not steady"
 CAPTION = f"{LEGEND[0].upper()}{LEGEND[1:]}."

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from scipy.stats import qmc
 
 from ..errors import ResultsError
-from .values import MOST_POINTS, number_of, require_once
+from .sweep_values import MOST_POINTS, number_of, require_once
 
 HOW_SAMPLED = "with --samples write NAME=FIRST:LAST"
 

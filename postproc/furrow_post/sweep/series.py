@@ -11,8 +11,8 @@ from ..run.summary import ResistanceParts, Summary
 from ..read.wheel_run import WheelRun, read_wheel_run
 from ..run.process import SCREEN
 from ..run.record import FAILED, FINISHED
-from .plan import Plan, read_plan
-from .quantities import Families, Value, quantities
+from .sweep_plan import Plan, read_plan
+from .sweep_quantities import Families, Value, quantities
 
 WARNED = "WARNING: run_until_steady: "
 

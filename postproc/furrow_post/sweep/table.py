@@ -12,7 +12,7 @@ import numpy as np
 from ..analyse.cost_table import Components
 from ..csv_table import column_names, in_cells, write_rows
 from ..formatting import duration, value_text
-from .curves import CONDITIONS, Figure
+from .sweep_curves import CONDITIONS, Figure
 from .series import Series, SweepPoint
 
 PART = "part_"  # before the name of a part of the resistance

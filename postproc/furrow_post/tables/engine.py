@@ -38,7 +38,7 @@ import pandas
 
 from ..csv_table import read_comments, rows_text
 from ..errors import ResultsError
-from ..study.output import Output
+from ..study.study_files import Output
 from ..study.runs import Run, Runs
 from . import measures, panels
 from .expressions import filled, value_of

@@ -30,12 +30,12 @@ from matplotlib.axes import Axes
 
 from ..errors import ResultsError
 from ..figures.style import annotate_panel, panel_letters, save, use_style
-from ..figures.terrain import draw_density_section, draw_terrain
-from ..figures.terrain_stress import draw_stress
+from ..figures.terrain_figure import draw_density_section, draw_terrain
+from ..figures.terrain_stress_figure import draw_stress
 from ..read.terrain import Terrain
-from ..study.output import Output
+from ..study.study_files import Output
 from ..study.runs import Run, Runs
-from ..sweep.curves import CONDITIONS, HUB_DROP, PULL, SLIP, TORQUE, Curve, Figure, Line
+from ..sweep.sweep_curves import CONDITIONS, HUB_DROP, PULL, SLIP, TORQUE, Curve, Figure, Line
 from ..sweep.drawing import draw_sweep
 from ..sweep.series import read_series
 from .expressions import value_of

@@ -3,6 +3,7 @@
 
 import ast
 import functools
+import re
 import unittest
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -71,6 +72,19 @@ class RoomsTest(unittest.TestCase):
                 if isinstance(node, (ast.Import, ast.ImportFrom))
             ]
             self.assertEqual(inner, [], module)
+
+    def test_a_file_name_occurs_once(self) -> None:
+        names = [path.name for path in modules().values()]
+        self.assertEqual([name for name in names if names.count(name) > 1], [])
+
+    def test_programs_are_started_by_the_room_of_runs(self) -> None:
+        """And ffmpeg by the film."""
+        starting = {
+            module
+            for module, path in modules().items()
+            if re.search(r"^(import subprocess|from subprocess)|os\.(system|spawn|popen)", path.read_text(encoding="utf-8"), re.M)
+        }
+        self.assertEqual({module for module in starting if room(module) != "run"}, {"figures.film"})
 
     def test_every_room_is_installed_by_pip(self) -> None:
         project = (PACKAGE.parent / "pyproject.toml").read_text()

@@ -252,7 +252,7 @@ class ShippedFitsTest(FolderTest):
 
     def test_files_of_a_fit_agree(self) -> None:
         results = self.folder / "fit"
-        done = run_post("fit-law", POINTS / "fit_mccormick.yaml", "-o", results, "--no-plot")
+        done = run_post("fit", "law", POINTS / "fit_mccormick.yaml", "-o", results, "--no-plot")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn((results / "report.txt").read_text(encoding="utf-8"), done.stdout)
         self.assertRegex(
@@ -287,13 +287,13 @@ class ShippedFitsTest(FolderTest):
 
     def test_a_refused_file_leaves_no_results(self) -> None:
         results = self.folder / "fit"
-        done = run_post("fit-law", POINTS / "snow_rut.yaml", "-o", results)
+        done = run_post("fit", "law", POINTS / "snow_rut.yaml", "-o", results)
         self.assertEqual(done.returncode, 1)
         self.assertRegex(
             done.stderr, "^furrow-post: .*it looks like a point file with a path to drive"
         )
         self.assertFalse(results.exists())
-        done = run_post("fit-law", self.folder / "absent.yaml")
+        done = run_post("fit", "law", self.folder / "absent.yaml")
         self.assertIn("absent.yaml does not exist", done.stderr)
 
 

@@ -7,14 +7,16 @@ from pathlib import Path
 from typing import Any
 
 from furrow_post.analyse import cost_table
+from furrow_post.cli import run_command
 from furrow_post.csv_table import rows_text
 from furrow_post.errors import ResultsError
 from furrow_post.scene.catalogue import script_of
-from furrow_post.scene.choice import choose
+from furrow_post.scene.scene_choice import choose
 from furrow_post.scene.command import POST, checked
-from furrow_post.scene.options import parse
+from furrow_post.scene.options import require_fitting
 from furrow_post.study.definition import evaluation_of
 from support.command import SOURCE
+from support.evaluation import options
 
 FOLDER = SOURCE / "inputs" / "costs"
 driver: Any = evaluation_of(FOLDER)
@@ -53,9 +55,13 @@ class CostsTest(unittest.TestCase):
                 self.assertTrue(scene == POST or script_of(scene).is_file())
 
     def test_a_formula_refuses_variables_of_a_scene(self) -> None:
-        self.assertIsNotNone(checked(parse(["wheel_on_scm", "--error", "50%"])).chosen)
+        given = options("run", run_command.run, ["wheel_on_scm", "--error", "50%"])
+        require_fitting(given)
+        self.assertIsNotNone(checked(given).chosen)
+        given = options("run", run_command.run, ["wheel_on_scm", "--error", "50%", "-v", "load", "500"])
+        require_fitting(given)
         with self.assertRaisesRegex(ResultsError, "has no -v load; leave it out"):
-            checked(parse(["wheel_on_scm", "--error", "50%", "-v", "load", "500"]))
+            checked(given)
 
     def test_models_are_compared_with_the_finest_continuum(self) -> None:
         answers, (value, error) = driver.hub_drops()

@@ -6,7 +6,7 @@ import sys
 import tempfile
 import unittest
 
-from furrow_post.cli.study import study_folders
+from furrow_post.cli.study_command import study_folders
 from support.command import SOURCE, run_post
 
 INPUTS = SOURCE / "inputs"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""furrow-post fit-tyre with furrow-tyre: [Shoop2001]'s tyre from Table 6, and the files that come with
+"""furrow-post fit tyre with furrow-tyre: [Shoop2001]'s tyre from Table 6, and the files that come with
 Furrow."""
 
 import math
@@ -99,13 +99,13 @@ class FilesTest(unittest.TestCase):
         for name in ESTIMATES:
             text = (TYRES / f"{name}.yaml").read_text(encoding="utf-8")
             with self.subTest(name=name), tempfile.TemporaryDirectory() as folder:
-                (command,) = re.findall(r"(?m)^# furrow-post fit-tyre (.*)$", text)
-                (source,) = re.findall(r"(?m)^# (.*)\n# furrow-post fit-tyre", text)
+                (command,) = re.findall(r"(?m)^# furrow-post fit tyre (.*)$", text)
+                (source,) = re.findall(r"(?m)^# (.*)\n# furrow-post fit tyre", text)
                 (title,) = re.findall(r"(?m)^title: (.*)$", text)
                 self.assertIn("estimate", title)
                 output = Path(folder) / "tyre.yaml"
                 words = [*shlex.split(command), "--source", source, "--title", title]
-                done = run_post("fit-tyre", *words, "-o", output)
+                done = run_post("fit", "tyre", *words, "-o", output)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 made = output.read_text(encoding="utf-8")
                 self.assertEqual(yaml.safe_load(made), yaml.safe_load(text))
@@ -133,14 +133,14 @@ class FilesTest(unittest.TestCase):
                 (["235/75R15", "--tests", there, "-o", output], "has no test"),
             ):
                 with self.subTest(words=words):
-                    done = run_post("fit-tyre", *words, "--pressure", "241")
+                    done = run_post("fit", "tyre", *words, "--pressure", "241")
                     self.assertEqual(done.returncode, 1, done.stdout)
                     self.assertIn(message, done.stderr)
                     self.assertEqual(done.stderr.count("\n"), 1)
                     self.assertFalse(output.exists())
             self.assertEqual(there.read_text(encoding="utf-8"), "mine")
             words = ["235/75R15", "--pressure", "241", "--point", "241", "6227", "3.1", "--check"]
-            done = run_post("fit-tyre", *words, "-o", output)
+            done = run_post("fit", "tyre", *words, "-o", output)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("235/75R15, 1 tests; nothing is fitted", done.stdout)
             self.assertFalse(output.exists())

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from furrow_post.cli.study import study_folders
+from furrow_post.cli.study_command import study_folders
 from furrow_post.run.process import ERRORS, SCREEN
 from furrow_post.run.tools import Tools
 from furrow_post.run.record import Record
@@ -23,12 +23,12 @@ FILES = ("history.h5", "terrain.h5", "curve.txt", "facts.txt", "summary.json", "
 # (words, what is said)
 WORDS = (
     ("no_such_run", "nothing is called 'no_such_run'; --list shows all runs"),
-    ("", "argument NAME: is empty"),
-    ("--jobs=0", "argument --jobs: 0 is below 1"),
-    ("--jobs=all", "argument --jobs: 'all' is not a whole number"),
+    ("", "run: is empty"),
+    ("--jobs=0", "--jobs: 0 is below 1"),
+    ("--jobs=all", "--jobs: 'all' is not a whole number"),
     ("--build=none", "there is no program"),
-    ("--build=", "argument --build: is empty"),
-    ("--results=", "argument --results: is empty"),
+    ("--build=", "--build: is empty"),
+    ("--results=", "--results: is empty"),
     ("--results=/proc/x", "/proc/x: no such file or directory; check path and rights"),
 )
 NEEDS_NO_RUNS = {"tyre_table6"}  # its results are on the screen of a run: a run without is missed

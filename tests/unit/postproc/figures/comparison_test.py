@@ -10,8 +10,8 @@ import numpy as np
 
 from furrow_post.analyse import cost
 from furrow_post.analyse.comparison import compare
-from furrow_post.figures.comparison import draw_comparison
-from furrow_post.figures.cost import Answer, draw_cost, draw_models
+from furrow_post.figures.comparison_figure import draw_comparison
+from furrow_post.figures.cost_figure import Answer, draw_cost, draw_models
 from furrow_post.figures.style import panel_letters
 from furrow_post.read.wheel_run import read_wheel_run
 from support.folder import FolderTest

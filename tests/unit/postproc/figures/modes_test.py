@@ -10,7 +10,7 @@ import matplotlib.image
 import numpy as np
 
 from furrow_post.csv_table import read_columns
-from furrow_post.figures.modes import read_modes
+from furrow_post.figures.modes_figure import read_modes
 from support.command import SOURCE, run_post
 from support.folder import FolderTest
 

@@ -7,7 +7,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 
-from furrow_post.figures.point import _draw_fitted_curve
+from furrow_post.figures.point_figure import _draw_fitted_curve
 
 MEASURED = np.array([10e3, 20e3, 40e3])  # [Pa]
 

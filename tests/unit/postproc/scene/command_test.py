@@ -13,11 +13,13 @@ from pathlib import Path
 from unittest import mock
 
 from support.command import FURROW_POST, SOURCE, run_post
+from support.fake import ANSWER
 from support.folder import FolderTest
 
 # Says how it was started; waits for a file "go", and ends with a checkpoint when it gets a signal
 PROGRAM = """#!{python}
-import os, pathlib, signal, sys, time
+{answer}
+import pathlib, signal, time
 words = sys.argv[1:]
 v = dict(zip(*[iter(w for i, w in enumerate(words) if "-var" in words[max(i - 2, 0):i])] * 2))
 def stop(number, frame):
@@ -52,7 +54,7 @@ class CommandTest(FolderTest):
         super().setUp()
         program = self.folder / "build" / "bin" / "furrow"
         program.parent.mkdir(parents=True)
-        program.write_text(PROGRAM.format(python=sys.executable))
+        program.write_text(PROGRAM.format(python=sys.executable, answer=ANSWER))
         program.chmod(0o755)
         self.environment = {**os.environ, "FURROW_BUILD": str(self.folder / "build")}
         self.script("mine.lig", SCRIPT)

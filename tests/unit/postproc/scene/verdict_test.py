@@ -4,7 +4,7 @@
 import json
 import unittest
 
-from furrow_post.scene.verdict import verdict_line
+from furrow_post.scene.scene_summary import verdict_line
 from support.folder import FolderTest
 from support.runs import write_run
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""furrow-soil card with a stand-in for furrow whose ground has known parameters."""
+"""furrow-post card make with a stand-in for furrow whose ground has known parameters."""
 
 import math
 import os
@@ -10,15 +10,18 @@ from unittest import mock
 from furrow_post.read.soil_card import Cone, read_card
 from furrow_post.run.record import read_record
 from furrow_post.soil.material import read_material
-from support.command import SOURCE, run_soil
+from support.command import SOURCE, run_card
+from support.fake import ANSWER, REAL
 from support.folder import FolderTest
 
 TRUTH = {"k_c": -4e3, "k_phi": 5e5, "n": 0.6, "c": 400.0, "phi": 30.0, "K": 0.006}
 CONE = (2e4, 8e5)  # [Pa] at the surface, [Pa/m]
 GRAIN_CONE = 30.0  # index over weight density and size, of grains without size
 SPEED_STRESS = 500.0  # [Pa] at 1 m/s, by the root of the speed
-STAND_IN = """#!/usr/bin/python3 -S
-import math, sys
+STAND_IN = f"""#!/usr/bin/python3 -S
+{ANSWER}
+""" + """
+import math
 words = sys.argv
 values = {words[k + 1]: words[k + 2] for k, word in enumerate(words) if word == "-var"}
 name = words[words.index("-in") + 1].rpartition("/")[2].removesuffix(".lig")
@@ -75,6 +78,7 @@ class CardCommandTest(FolderTest):
     def setUp(self) -> None:
         super().setUp()
         (self.folder / "bin").mkdir()
+        (self.folder / "bin" / "furrow-point").symlink_to(REAL / "furrow-point")
         self.furrow(0)
 
     def furrow(self, status: int, packing: float = 1.0) -> None:
@@ -87,20 +91,20 @@ class CardCommandTest(FolderTest):
 
     def soil(self, *words: object) -> subprocess.CompletedProcess[str]:
         with mock.patch.dict(os.environ, FURROW_BUILD=str(self.folder)):
-            return run_soil(*words, folder=self.folder)
+            return run_card(*words, folder=self.folder)
 
     def runs(self) -> list[str]:
         return (self.folder / "log.txt").read_text().split()
 
     def test_a_quick_card_has_the_cone_index_of_formulas(self) -> None:
-        done = self.soil("card", "dry_sand_smooth", "--quick", "-o", "card")
+        done = self.soil("make", "dry_sand_smooth", "--quick", "-o", "card")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("cone index: mean over 0 to 150 mm, spread", done.stdout)
         index = read_card(self.folder / "card" / "card.yaml").parameters()["index"]
         self.assertAlmostEqual(index.value / (CONE[0] + 0.075 * CONE[1]), 1, delta=0.01)
 
     def test_the_card_has_the_parameters_of_the_ground(self) -> None:
-        done = self.soil("card", "dry_sand_smooth", "-o", "card")
+        done = self.soil("make", "dry_sand_smooth", "-o", "card")
         self.assertEqual(done.returncode, 0, done.stderr)
         card = read_card(self.folder / "card" / "card.yaml")
         for name, truth in TRUTH.items():
@@ -122,7 +126,7 @@ class CardCommandTest(FolderTest):
     def test_runs_are_kept_and_repeated_when_the_ground_changes(self) -> None:
         ground = self.folder / "ground.yaml"
         ground.write_text((SOURCE / "inputs/materials/dry_sand_smooth.yaml").read_text(), encoding="utf-8")
-        words = ("card", ground, "--quick", "--sizes", 0.1, 0.2, "-o", "card")
+        words = ("make", ground, "--quick", "--sizes", 0.1, 0.2, "-o", "card")
         self.soil(*words)
         first = self.runs()
         self.assertEqual(first, 2 * ["plate"] + 3 * ["shear"] + ["cone"])
@@ -136,7 +140,7 @@ class CardCommandTest(FolderTest):
         base, ground = self.folder / "base.yaml", self.folder / "ground.yaml"
         base.write_text((SOURCE / "inputs/materials/dry_sand_smooth.yaml").read_text(), encoding="utf-8")
         ground.write_text("base: base.yaml\n", encoding="utf-8")
-        words = ("card", ground, "--quick", "--sizes", 0.1, 0.2, "-o", "card")
+        words = ("make", ground, "--quick", "--sizes", 0.1, 0.2, "-o", "card")
         self.soil(*words)
         first = self.runs()
         base.write_text(base.read_text().replace("beta: 47.1", "beta: 47.2"), encoding="utf-8")
@@ -145,9 +149,9 @@ class CardCommandTest(FolderTest):
 
     def test_a_run_that_fails_leaves_no_card(self) -> None:
         self.furrow(1)
-        done = self.soil("card", "dry_sand_smooth", "-o", "card")
+        done = self.soil("make", "dry_sand_smooth", "-o", "card")
         self.assertNotEqual(done.returncode, 0)
-        self.assertRegex(done.stderr, "furrow-soil: .*card/plate_100mm failed: stopped with status 1; its output is in")
+        self.assertRegex(done.stderr, "furrow-post: .*card/plate_100mm failed: stopped with status 1; its output is in")
         self.assertEqual(len(self.runs()), 1)
         self.assertFalse((self.folder / "card" / "card.yaml").exists())
 
@@ -158,7 +162,7 @@ class CardCommandTest(FolderTest):
         self.assertEqual(found, {"fresh_snow": True, "fresh_snow_foam": False, "norsand_dry": False})
 
     def test_a_card_of_grains_has_the_parameters(self) -> None:
-        done = self.soil("card", "sand_cmu", "-o", "card")
+        done = self.soil("make", "sand_cmu", "-o", "card")
         self.assertEqual(done.returncode, 0, done.stderr)
         card = read_card(self.folder / "card" / "card.yaml")
         for name, truth in TRUTH.items():
@@ -180,8 +184,8 @@ class CardCommandTest(FolderTest):
 
     def test_a_card_of_grains_on_the_moon_has_the_inertial_number_of_the_earth(self) -> None:
         """Speeds grow with the root of gravity; the cone index of sand is in proportion to gravity."""
-        self.soil("card", "sand_cmu", "--quick", "-o", "earth")
-        self.soil("card", "sand_cmu", "--quick", "--gravity", 1.62, "-o", "moon")
+        self.soil("make", "sand_cmu", "--quick", "-o", "earth")
+        self.soil("make", "sand_cmu", "--quick", "--gravity", 1.62, "-o", "moon")
         earth, moon = (read_card(self.folder / name / "card.yaml") for name in ("earth", "moon"))
         self.assertEqual((earth.gravity, moon.gravity), (9.80665, 1.62))
         assert isinstance(earth.cone, Cone) and isinstance(moon.cone, Cone)
@@ -202,15 +206,15 @@ class CardCommandTest(FolderTest):
                 self.assertAlmostEqual(ratio, pace**power, places=9, msg=f"{run} {name}")
 
     def test_a_card_of_bonded_grains_has_no_cone(self) -> None:
-        self.soil("card", "snow_bonded", "--quick", "-o", "card")
+        self.soil("make", "snow_bonded", "--quick", "-o", "card")
         self.assertEqual(self.runs(), 2 * ["grain_plate"] + 2 * ["grain_ring"])
         card = read_card(self.folder / "card" / "card.yaml")
         self.assertIn("only where grains do not stick", card.failures()["cone"])
 
     def test_the_scatter_of_packings_is_in_the_errors(self) -> None:
-        self.soil("card", "sand_cmu", "-o", "equal")
+        self.soil("make", "sand_cmu", "-o", "equal")
         self.furrow(0, packing=1.1)
-        self.soil("card", "sand_cmu", "-o", "apart")
+        self.soil("make", "sand_cmu", "-o", "apart")
         equal, apart = (read_card(self.folder / name / "card.yaml").parameters() for name in ("equal", "apart"))
         middle = math.degrees(math.atan(1.05 * math.tan(math.radians(TRUTH["phi"]))))
         self.assertLess(abs(apart["phi"].value - middle), 2 * apart["phi"].error)
@@ -226,22 +230,22 @@ class CardCommandTest(FolderTest):
             (good.replace("diameter index 0.010", "diameter index 10"), "variable diameter is '10'; allowed: 0.0001 to 0.5 m"),
         ):
             ground.write_text(text, encoding="utf-8")
-            self.assertRegex(self.soil("card", ground).stderr, message)
-        done = self.soil("card", "sand_cmu", "--sizes", 0.08, 0.1)
+            self.assertRegex(self.soil("make", ground).stderr, message)
+        done = self.soil("make", "sand_cmu", "--sizes", 0.08, 0.1)
         self.assertIn("a plate of 0.08 m is 8.0 grains wide; allowed: 10 grains or more, 0.1 m on sand_cmu.lig", done.stderr)
-        self.assertIn("NAME one of sand, snow_bonded", self.soil("card", "snow_rough").stderr)
+        self.assertIn("NAME one of sand, snow_bonded", self.soil("make", "snow_rough").stderr)
         self.assertFalse((self.folder / "log.txt").exists())
 
     def test_wrong_grounds_and_sizes_are_refused(self) -> None:
-        done = self.soil("card", "moon")
-        self.assertRegex(done.stderr, "^furrow-soil: there is no ground 'moon'; name a file, or one of .*dry_sand")
-        done = self.soil("card", "dry_sand", "--sizes", 0.1)
+        done = self.soil("make", "moon")
+        self.assertRegex(done.stderr, "^furrow-post: there is no ground 'moon'; name a file, or one of .*dry_sand")
+        done = self.soil("make", "dry_sand", "--sizes", 0.1)
         self.assertIn("k_c and k_phi need plates of two diameters or more", done.stderr)
         (self.folder / "ground.yaml").write_text("law: {density: 1500}\n", encoding="utf-8")
-        done = self.soil("card", "ground.yaml")
-        self.assertIn("ground.yaml: has no 'elasticity'; furrow-soil needs density, and E and nu", done.stderr)
+        done = self.soil("make", "ground.yaml")
+        self.assertRegex(done.stderr, "furrow-post: furrow-point: .*ground.yaml, line 1: keyword 'type' is missing; allowed: one of")
         done = self.soil("export", "ground.yaml", "chrono")
-        self.assertIn("ground.yaml: has no 'pressure_sinkage'; write it with furrow-soil card", done.stderr)
+        self.assertIn("ground.yaml: has no 'pressure_sinkage'; write it with furrow-post card make", done.stderr)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import math
 import unittest
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import yaml
@@ -15,9 +16,12 @@ from furrow_post.analyse import empirical
 from furrow_post.analyse.grid_convergence import grid_convergence, noise_of, pooled_scatter
 from furrow_post.analyse.terrain_values import terrain
 from furrow_post.csv_table import read_rows
+from furrow_post.json_text import parse_json
+from furrow_post.programs import find_program
 from furrow_post.read.soil_card import Cone, NoResult, Shear, markdown, read_card
+from furrow_post.run.tools import answer
 from furrow_post.soil.grains import read_ground
-from furrow_post.soil.material import OF_GRAINS, content_with_bases, read_material
+from furrow_post.soil.material import OF_GRAINS, read_material
 from support.command import SOURCE
 
 SOILS = SOURCE / "inputs" / "soils"
@@ -25,10 +29,17 @@ MATERIALS = SOURCE / "inputs" / "materials"
 TUTORIAL = SOURCE / "inputs" / "guide" / "tutorials" / "8_soil_card.md"
 
 
+def sections_of(name: str) -> dict[str, dict[str, Any]]:
+    """Values of a material file with its bases."""
+    file = MATERIALS / f"{name}.yaml"
+    sections: dict[str, dict[str, Any]] = parse_json(answer([find_program("furrow-point"), "show", file, "--json"]))["sections"]
+    return sections
+
+
 def strengths(name: str, normal: float) -> tuple[float, float]:
     """Shear strength [Pa] of a law of snow under a normal stress [Pa]: at its density and constant volume,
     and in the steady state (cohesive_cam_clay.h; theory: snow, eqs. 1 and 2)."""
-    content = yaml.safe_load(content_with_bases(MATERIALS / f"{name}.yaml"))
+    content = sections_of(name)
     law, hardening = content["law"], content["hardening"]
     log_rho, log_p = (np.log([float(x) for x in hardening[key]]) for key in ("rho", "p"))
     rho = float(law["density"])
@@ -125,7 +136,7 @@ class LibraryTest(unittest.TestCase):
         """The cohesion of the fit is that of the law within its error. With the angle of the law, two speeds give
         the width that shears."""
         page = (SOILS / "README.md").read_text(encoding="utf-8")
-        law = yaml.safe_load(content_with_bases(MATERIALS / "dry_sand_smooth.yaml"))["law"]
+        law = sections_of("dry_sand_smooth")["law"]
         tangent = math.tan(math.radians(float(law["beta"])))
         sine, cohesion = 3 * tangent / (6 + tangent), 5000.0
         outer, inner = 0.1, 0.06

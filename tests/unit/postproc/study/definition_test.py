@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 
 from furrow_post.errors import ResultsError
-from furrow_post.cli.study import study_folders
+from furrow_post.cli.study_command import study_folders
 from furrow_post.run.case import Case
 from furrow_post.study.definition import cases_of
 from furrow_post.tables.loading import load_study

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from furrow_post.cli.study import study_folders
+from furrow_post.cli.study_command import study_folders
 from furrow_post.errors import ResultsError
 from furrow_post.study.repeat import difference, known_cost
 from furrow_post.study.values import Registry, Stored, Value, values_of

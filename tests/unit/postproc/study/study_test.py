@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
-from furrow_post.study.output import Output, merged
+from furrow_post.study.study_files import Output, merged
 from furrow_post.study.runs import Runs
 from furrow_post.study.study import Study
 from support.evaluation import run_study

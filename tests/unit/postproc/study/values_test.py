@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 
 from furrow_post.analyse.measured import read_measured
-from furrow_post.cli.study import write_pages
+from furrow_post.cli.study_command import write_pages
 from furrow_post.errors import ResultsError
 from furrow_post.study.pages import shown, stale_pages, with_values
 from furrow_post.study.provenance import read_origins

@@ -1,17 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The evaluations of the studies under inputs."""
 
-import argparse
 from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
+import click
+
+from furrow_post.cli import study_command
+from furrow_post.cli.main import message_of
+from furrow_post.cli.parameters import Given
+from furrow_post.errors import ResultsError
 from furrow_post.program import run_program
 from furrow_post.run.case import Case
 from furrow_post.run.executor import Run
 from furrow_post.run.record import Record
 from furrow_post.study.definition import cases_of, evaluation_of
-from furrow_post.study.study import Study, add_study_arguments, carry_out
+from furrow_post.study.study import Study, carry_out
 
 from .command import SOURCE
 
@@ -35,6 +40,12 @@ def cases(study: str) -> dict[str, Case]:
 
 def run_study(study: Study, words: Sequence[str]) -> int:
     """The exit status of the command on a study that is already read."""
-    parser = argparse.ArgumentParser()
-    add_study_arguments(parser)
-    return run_program("study", lambda: carry_out(study, parser.parse_args(words)))
+    return run_program("study", lambda: carry_out(study, options("study", study_command.study, ["made", *words])))
+
+
+def options(name: str, command: click.Command, words: Sequence[str]) -> Given:
+    """What a command gets. @raises ResultsError for words that it refuses"""
+    try:
+        return Given(**command.make_context(name, list(words)).params)
+    except click.UsageError as error:
+        raise ResultsError(message_of(error)) from error

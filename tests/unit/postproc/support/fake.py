@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A source tree with a program that stands for furrow: it does what its variables say."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -8,10 +9,17 @@ from furrow_post.run.case import Case, Value
 from furrow_post.run.case import script_case
 from furrow_post.run.tools import Tools
 
+REAL = Path(os.environ["FURROW_BUILD"]) / "bin"
+# First lines of a program that stands for furrow: the real one lists the variables of scripts
+ANSWER = f"""import os, sys
+if "--variables" in sys.argv:
+    os.execv({str(REAL / "furrow")!r}, ["furrow", *sys.argv[1:]])
+"""
 # Variables: sleep [s], fail (message), status, signal (number), value, checkpoint. Every start adds
 # a line to starts.txt in the build folder.
 PROGRAM = """#!{python} -S
-import os, pathlib, sys, time
+{answer}
+import pathlib, time
 words = sys.argv[1:]
 v = dict(zip(*[iter(w for i, w in enumerate(words) if "-var" in words[max(i - 2, 0):i])] * 2))
 with open(pathlib.Path(__file__).parents[1] / "starts.txt", "a") as file:
@@ -50,7 +58,7 @@ class FakeTree:
 
     def install(self, remark: str = "") -> None:
         """The program; another remark makes another program."""
-        self.program.write_text(PROGRAM.format(python=sys.executable) + f"# {remark}\n")
+        self.program.write_text(PROGRAM.format(python=sys.executable, answer=ANSWER) + f"# {remark}\n")
         self.program.chmod(0o755)
 
     @property

@@ -8,7 +8,7 @@ from pathlib import Path
 from furrow_post.errors import ResultsError
 from furrow_post.run.executor import Executor, State
 from furrow_post.sweep.cases import Request, case_of, plan_of
-from furrow_post.sweep.plan import Plan, read_plan
+from furrow_post.sweep.sweep_plan import Plan, read_plan
 from support.fake import FakeTree
 from support.folder import FolderTest
 

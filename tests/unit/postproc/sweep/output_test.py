@@ -18,10 +18,10 @@ from furrow_post.errors import ResultsError
 from furrow_post.figures.resistance_parts import COLOURS
 from furrow_post.formatting import with_error
 from furrow_post.run.record import Record
-from furrow_post.sweep.curves import EFFICIENCY, PULL, HUB_DROP, TORQUE
+from furrow_post.sweep.sweep_curves import EFFICIENCY, PULL, HUB_DROP, TORQUE
 from furrow_post.sweep.drawing import draw_sweep
-from furrow_post.sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
-from furrow_post.sweep.plan import Plan, Point
+from furrow_post.sweep.sweep_files import Named, Wanted, evaluate, report_lines, write_sweep
+from furrow_post.sweep.sweep_plan import Plan, Point
 from furrow_post.sweep.series import read_series
 from support.command import SOURCE
 from support.folder import FolderTest

@@ -5,7 +5,7 @@ import unittest
 
 from furrow_post.errors import ResultsError
 from furrow_post.sweep.sampling import sampled
-from furrow_post.sweep.values import (
+from furrow_post.sweep.sweep_values import (
     Variable,
     folder_name,
     further_seeds,
