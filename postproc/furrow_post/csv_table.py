@@ -106,7 +106,7 @@ def write_rows(path: Path, rows: Sequence[Mapping[str, Any]], comments: Sequence
 
 
 def rows_text(rows: Sequence[Mapping[str, Any]], comments: Sequence[str] = ()) -> str:
-    """Of rows that may lack columns of others; comments go above, each with its "#"."""
+    """Text of rows that may lack columns of others; comments go above, each with its "#"."""
     file = io.StringIO()
     file.writelines(line.rstrip() + "\n" for line in comments)
     writer = csv.DictWriter(file, column_names(rows), lineterminator="\n")

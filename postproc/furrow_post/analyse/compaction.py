@@ -72,7 +72,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class Compaction:
-    """Of one run, an entry for each layer of particles from above [m, Pa, kg/m3]."""
+    """Compaction of one run, an entry for each layer of particles from above [m, Pa, kg/m3]."""
 
     label: str
     inflation: float  # pressure [Pa]; NaN for a rigid wheel
@@ -173,7 +173,7 @@ def _read_ground(results: Results, terrain: Terrain, body: Outline) -> _Ground:
 
 
 def _density_before(level: Floats, aside: Floats, density: Floats) -> Floats:
-    """Of each particle (n): the median of those of its layer that stand farthest from the track."""
+    """Density around each particle (n) before: median of those of its layer that stand farthest from the track."""
     levels, layer = np.unique(level, return_inverse=True)
     found = np.empty(len(levels))
     for k in range(len(levels)):

@@ -224,7 +224,7 @@ class VehicleConeIndex:
 
 
 def weight_factor(kips: float) -> float:
-    """Of the weight of an axle [1000 lb]."""
+    """Factor of the weight of an axle [1000 lb]."""
     slope, intercept = next(row[1:] for row in WEIGHT_FACTORS if 1000 * kips <= row[0])
     return slope * kips + intercept
 

@@ -192,7 +192,7 @@ class Family:
 
     @property
     def rows_of_series(self) -> list[Row]:
-        """Of all sizes and packings in the common domain."""
+        """Rows of all sizes and packings in the common domain."""
         return [row for row in self.rows if row.domain == self.domain]
 
     def convergence(self, key: str) -> Convergence | None:
@@ -264,7 +264,7 @@ class Family:
         return [base for base in self.bases if same_size(base.size, size)]
 
     def _values_of(self, key: str, size: float) -> list[float]:
-        """Of all packings of this size in the common domain."""
+        """Values of all packings of this size in the common domain."""
         return [row.value(key)[0] for row in self.rows_of_series if same_size(row.size, size)]
 
     def best_estimate(

@@ -66,7 +66,7 @@ class Curve:
 
     @property
     def size(self) -> float:
-        """Of cells or grains [m], NaN where it is not known."""
+        """Size of cells or grains [m], NaN where it is not known."""
         return self.facts.get("cell", self.facts.get("diameter", math.nan))
 
     @property

@@ -158,7 +158,7 @@ def sections(run: WheelRun, cell: float = 0.01) -> tuple[Section, Section]:
 
 
 def height_left(run: WheelRun) -> float:
-    """Of ground under the wheel [m].
+    """Height of the ground left under the wheel [m].
 
     A tyre's hub drop counts to its unloaded tread: there the lowest point of the tread at the end is
     taken.

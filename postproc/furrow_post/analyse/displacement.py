@@ -15,7 +15,7 @@ FAR = 0.10  # [m] from the wheel's side: the second place beside the track
 
 @dataclass(frozen=True)
 class Displacements:
-    """Of particles that stood where the finished rut is now [m], means; NaN where there is none.
+    """Mean displacements of particles that stood where the finished rut is [m]; NaN where there is none.
 
     surface, middle: the upper layer of particles and the one at half of the depth, in the middle
     half of the wheel's width; aside, raised: greatest over the layers, of the particles that stood
@@ -59,7 +59,7 @@ def displacements(terrain: Terrain, body: Outline) -> Displacements:
     outward, up = moved[:, 1] * np.sign(y), moved[:, 2]
 
     def greatest(field: Floats, distance: float) -> float:
-        """Of the layers, of a column one particle wide at a distance from the wheel's side [m]."""
+        """Greatest displacement of the layers in a column one particle wide, at a distance from the wheel's side [m]."""
         off = np.abs(y) - body.half_width - distance
         column = section & (off > 0) & (off < terrain.spacing)
         means = [_mean(field, column & terrain.at_level(level)) for level in levels]

@@ -82,7 +82,7 @@ def entries_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[
 
 
 def best_estimates(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[Entry]:
-    """Of each quantity, as far as a table's families have more than one size."""
+    """Best estimates of each quantity, as far as a table's families have more than one size."""
     entries = []
     family = families.get(FamilyKey(run.ground, run.model, run.wheel))
     for quantity in QUANTITIES:

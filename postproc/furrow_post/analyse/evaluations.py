@@ -18,7 +18,7 @@ AGAIN = "make the run again: remove its folder"
 
 
 def path_states(folder: Path, steps: int, count: int = 1) -> list[dict[str, float]]:
-    """Of a path of furrow-point the states at the ends of its parts, of so many steps each.
+    """States of a path of furrow-point at the ends of its parts, of so many steps each.
 
     @raises ResultsError where it did not come to its end
     """
@@ -30,14 +30,14 @@ def path_states(folder: Path, steps: int, count: int = 1) -> list[dict[str, floa
 
 
 def last_piece(columns: Mapping[str, Floats]) -> dict[str, Floats]:
-    """Of a path of furrow-point the last piece of the columns, with the state in which it begins."""
+    """Last piece of the columns of a path of furrow-point, with the state in which it begins."""
     segment = columns["segment"]
     begins = max(int(np.searchsorted(segment, segment[-1])) - 1, 0)
     return {name: column[begins:] for name, column in columns.items()}
 
 
 def last_piece_of(folder: Path) -> dict[str, Floats]:
-    """Of the path in a folder. @raises ResultsError where there is no path"""
+    """Last piece of the path in a folder. @raises ResultsError where there is no path"""
     file = folder / "point.csv"
     columns = read_columns(file)
     if "segment" not in columns:

@@ -61,7 +61,7 @@ class Pair(HasErrors):
 
 
 def pairs(assessed: Sequence[Assessed]) -> Iterator[Pair]:
-    """Of runs of one family that is the wanted wheel's, with different sizes and known orders."""
+    """Pairs of runs of one family that is the wanted wheel's, with different sizes and known orders."""
     for one, other in itertools.combinations(assessed, 2):
         fine, coarse = sorted((one, other), key=lambda a: a.row.size)
         stands_in = any(model > 0 for model in fine.models.values())

@@ -62,7 +62,7 @@ class Parameter:
 
     @property
     def scale(self) -> float:
-        """Of z = value/scale."""
+        """Scale s of z = value/s."""
         interval = self.upper - self.lower
         return interval if math.isfinite(interval) else abs(self.start) or 1.0
 
@@ -168,7 +168,7 @@ class Fit:
 
     @property
     def rms_held(self) -> float:
-        """Of the rows held out: what the fit predicts; NaN of none."""
+        """Rms of the rows held out: what the fit predicts; NaN of none."""
         return rms(self.held)
 
     @property
@@ -192,7 +192,7 @@ class Fit:
         return [(float(value), direction) for value, direction in pairs if value < share]
 
     def next_step(self, share: float) -> Floats:
-        """Of Gauss and Newton in z, inside the bounds; none along directions below a share of the largest."""
+        """Gauss-Newton step in z, inside the bounds; none along directions below a share of the largest."""
         step = -np.linalg.pinv(self.slope, rcond=share) @ self.residuals
         low, high = (np.array([getattr(f.parameter, end) for f in self.parameters]) for end in ("low", "high"))
         inside: Floats = np.clip(self.z + step, low, high) - self.z
@@ -236,7 +236,7 @@ class _Problem:
         return np.vstack((self.slope(z), np.diag(self.weight)[self.weight > 0]))
 
     def slope(self, z: Floats) -> Floats:
-        """Of the rows that are fitted. @raises ResultsError where a parameter can go neither way"""
+        """Slopes of the rows that are fitted. @raises ResultsError where a parameter can go neither way"""
         here = self.at(z)[self.fitted]
         if self.search.update and self.last is not None:
             before, residuals, slope = self.last

@@ -185,7 +185,7 @@ def _mean_difference(a: Floats, b: Floats) -> float:
 
 
 def compare_flows(runs: Sequence[WheelRun], width: float | None = None) -> FlowComparison:
-    """Of two runs. width [m] of the kernel; without it the size of the coarser ground.
+    """Comparison of two runs. width [m] of the kernel; without it the size of the coarser ground.
 
     @raises ResultsError for other than two runs, a run without ground, a kernel finer than it
     """

@@ -64,14 +64,14 @@ class Convergence:
         return float(np.interp(size, self.sizes, self.values))
 
     def size_error(self, size: float) -> float:
-        """Of a run of this size: its distance from value, and the error of that."""
+        """Error of a run of this size: its distance from value, and the error of that."""
         return math.hypot(self.at(size) - self.value, self.error)
 
 
 def grid_convergence(
     sizes: Sequence[float], values: Sequence[float], errors: Sequence[float] | None = None
 ) -> Convergence:
-    """Of values at these sizes; errors: standard errors of the values, of time and packing."""
+    """Grid convergence of values at these sizes; errors: standard errors of the values, of time and packing."""
     given = errors if errors is not None else [0.0] * len(sizes)
     h, f, u = _grouped(sizes, values, given)
     count = len(h)
@@ -141,7 +141,7 @@ def _residuals(h: Floats, f: Floats, weights: Floats, orders: Floats) -> Floats:
 def zero_variance(
     sizes: npt.ArrayLike, errors: npt.ArrayLike, order: float, slope: float | None
 ) -> float:
-    """Of f0, from values with these errors, each above 0. slope: a, where the order is fitted too."""
+    """Variance of f0, from values with these errors, each above 0. slope: a, where the order is fitted too."""
     h, weights = np.asarray(sizes, float), 1.0 / np.asarray(errors, float)
     columns = [np.ones_like(h), h**order]
     if slope is not None:
@@ -205,7 +205,7 @@ def _fit(
 
 
 def noise_of(value: float, error: float, packing: float) -> float:
-    """Of one value: error of the time average, and scatter of packings (NaN: not known)."""
+    """Noise of one value: error of the time average, and scatter of packings (NaN: not known)."""
     least = max(error, LEAST_RELATIVE_ERROR * abs(value))
     return math.hypot(least, packing if math.isfinite(packing) else 0.0)
 

@@ -20,7 +20,7 @@ ANGLES = 256  # of the midpoint rule over a quarter of the ellipse: exact to rou
 def below_point_loads(
     depth: float, x: Floats, y: Floats, load: Floats, concentration: float
 ) -> float:
-    """Of loads (n) [N] at horizontal distances x, y (n) [m], at a depth [m]; in Pa."""
+    """Stresses below loads (n) [N] at horizontal distances x, y (n) [m], at a depth [m]; in Pa."""
     power = 0.5 * concentration + 1.0
     squares = x * x + y * y + depth * depth
     terms = load * depth**concentration / squares**power

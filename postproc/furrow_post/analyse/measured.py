@@ -34,7 +34,7 @@ def read_measured(
     depth_range: tuple[float, float] = (0.9, 1.1),
     density_range: tuple[float, float] = (0.85, 1.15),
 ) -> Measured:
-    """Of the rows of a reference.csv near this depth [m] and density [kg/m3].
+    """Measurements of the rows of a reference.csv near this depth [m] and density [kg/m3].
 
     Columns depth_m, sinkage_m, resistance, density_kgm3; ranges are relative. @raises ResultsError
     where a column is missing or fewer than three rows are near

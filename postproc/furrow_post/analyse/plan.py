@@ -56,7 +56,7 @@ class Step(NamedTuple):
 
 @dataclass(frozen=True)
 class Plan:
-    """Of one family: errors now, steps in their order, what must be learnt before all of them."""
+    """Plan of one family: errors now, steps in their order, what must be learnt before all of them."""
 
     family: Family
     values: ByQuantity  # at zero size

@@ -57,7 +57,7 @@ class PlateFamily:
         return mean_shift((log, self.of_size(curve.size)) for curve, log in wider)
 
     def entries(self, quantity: Quantity) -> list[Entry]:
-        """Of the base, and the best estimate where there are runs of two sizes: its error has that
+        """Entries of the base, and the best estimate where there are runs of two sizes: its error has that
         of noise and packings in it. Empty where the base has no value.
         """
         log = next((log for curve, log in self.logs if curve is self.base), math.nan)

@@ -88,7 +88,7 @@ def with_stress_place(ground: TerrainValues) -> TerrainValues:
 
 
 def terrain_of_card(path: Path) -> TerrainValues:
-    """Of a soil card. @raises OSError, ResultsError"""
+    """Terrain values of a soil card. @raises OSError, ResultsError"""
     card = read_card(path)
     plate, shear = card.bekker_and_shear()
     return TerrainValues(

@@ -51,7 +51,7 @@ class Catalogue:
 
     @property
     def height(self) -> float:
-        """Of the section."""
+        """Height of the section."""
         return 0.5 * (_diameter(self) - self.size.rim_diameter)
 
 

@@ -39,7 +39,7 @@ class TyreSize:
 
     @property
     def height(self) -> float:
-        """Of the section [m]."""
+        """Height of the section [m]."""
         return 0.5 * (self.diameter - self.rim_diameter)
 
 

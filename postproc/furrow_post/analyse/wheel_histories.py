@@ -12,7 +12,7 @@ from .statistics import moving_mean
 
 
 class Stage(enum.IntEnum):
-    """Of the rig: values of the channel stage."""
+    """Stages of the rig: values of the channel stage."""
 
     SETTLE = 0
     ACCELERATE = 1

@@ -23,7 +23,7 @@ class Labelled(NamedTuple):
 
 
 def labelled(text: str) -> Labelled:
-    """Of FOLDER or LABEL=FOLDER; a folder that is there may have "=" in its name."""
+    """Label and folder of FOLDER or LABEL=FOLDER; a folder that is there may have "=" in its name."""
     if "=" in text and Path(text).exists():
         return Labelled(text, None)
     head, equals, tail = text.partition("=")

@@ -89,7 +89,7 @@ def _nrmm(g: Given) -> Report:
 
 
 def _ground(g: Given) -> TerrainValues:
-    """Of --terrain, of the options, or of both. @raises ResultsError"""
+    """Ground of --terrain, of the options, or of both. @raises ResultsError"""
     given = {name: getattr(g, name) for name in GROUND if getattr(g, name) is not None}
     for name, value in given.items():
         if name not in ("c1", "c2"):

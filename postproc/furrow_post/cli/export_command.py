@@ -44,7 +44,7 @@ def export(given: Given) -> None:
 
 
 def _names(runs: Sequence[Results], asked: str | None) -> list[str]:
-    """Of the channels to write. @raises ResultsError for one that no run has"""
+    """Names of the channels to write. @raises ResultsError for one that no run has"""
     if asked is None:
         found = [name for one in runs for name in one.columns]
     else:

@@ -64,12 +64,12 @@ def study(given: Given) -> int:
 
 
 def study_folders(root: Path) -> list[Path]:
-    """Of all studies that have a title, and runs."""
+    """Folders of all studies that have a title, and runs."""
     return [folder for folder in all_folders(root) if "title" in load_yaml(folder / DEFINITION)]
 
 
 def folder_of(root: Path, name: str) -> Path:
-    """Of a name, or a folder anywhere that has a study.yaml. @raises ResultsError where there is no such study"""
+    """Folder of a name, or a folder anywhere that has a study.yaml. @raises ResultsError where there is no such study"""
     given = Path(name).resolve()
     if (given / DEFINITION).is_file():
         return given

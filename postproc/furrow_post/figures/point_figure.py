@@ -63,7 +63,7 @@ def draw_point(folder: Path) -> Path:
 
 
 def _attributes(item: Any) -> dict[str, Any]:
-    """Of an HDF5 object, texts decoded."""
+    """Attributes of an HDF5 object, texts decoded."""
     return {
         name: decoded(value) if isinstance(value, bytes) else value
         for name, value in item.attrs.items()

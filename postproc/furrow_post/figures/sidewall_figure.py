@@ -88,7 +88,7 @@ def _draw_section(axes: Axes, profiles: Sequence[Profile]) -> None:
 
 
 def _draw_forces(axes: Axes, curve: Curve) -> None:
-    """Of the sidewall on the tread over the motion of the tread's edge."""
+    """Forces of the sidewall on the tread over the motion of the tread's edge."""
     moved = MILLIMETRE * curve["moved"]
     step = max(1, len(moved) // 20)
     for name, colour, kind in (("F_r", SOLVED, "radial"), ("F_a", AXIAL, "axial")):

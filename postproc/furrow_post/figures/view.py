@@ -225,14 +225,14 @@ def _range(x: Floats) -> tuple[Floats, Floats]:
 
 
 def _differences(levels: Any) -> Any:
-    """Of each frame to the one before, modulo the type."""
+    """Differences of each frame to the one before, modulo the type."""
     differences = levels.copy()
     differences[1:] -= levels[:-1]
     return differences
 
 
 def _packed_levels(levels: Any) -> str:
-    """Of 16 bits: zigzag (0, -1, 1, -2 ... become 0, 1, 2, 3 ...), low bytes before high bytes."""
+    """Levels of 16 bits as text: zigzag (0, -1, 1, -2 ... become 0, 1, 2, 3 ...), low bytes before high bytes."""
     signed = _differences(levels).reshape(-1).view(np.int16)
     zigzag = ((signed << 1) ^ (signed >> 15)).view(np.uint16)
     return _packed(np.concatenate([zigzag & 255, zigzag >> 8]).astype(np.uint8))

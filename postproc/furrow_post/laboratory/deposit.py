@@ -57,7 +57,7 @@ def repose(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     x, y = deposit[:, 0], deposit[:, 1]
 
     def angle(part: Booleans) -> float:
-        """Of some grains [degrees]."""
+        """Slope angle of some grains [degrees]."""
         where, top = [], []
         for low, high in zip(bins[:-1], bins[1:]):
             inside = part & (x >= low) & (x < high)

@@ -86,7 +86,7 @@ def _bekker_of_plates(tests: Sequence[LaboratoryTest]) -> list[LaboratoryQuantit
     b, z, p = b[use], z[use], p[use]
 
     def log_ratio(q: Floats) -> Floats:
-        """Of the model to the pressure; q: k_c, k_phi, n."""
+        """Logarithm of the ratio of the model to the pressure; q: k_c, k_phi, n."""
         model = (q[0] / b + q[1]) * z ** q[2]
         ratio: Floats = np.log(np.maximum(model, 1e-9) / p)
         return ratio

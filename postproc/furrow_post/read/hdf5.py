@@ -89,7 +89,7 @@ class _Reader:
 
 @lru_cache(maxsize=1)
 def _reader_of(process: int) -> _Reader:
-    """Of this process: a copy of it needs another."""
+    """Reader of this process; a copy of the process needs another."""
     return _Reader()
 
 

@@ -91,7 +91,7 @@ class LaboratoryTest:
 
 
 def cell_curve(rows: Floats) -> tuple[Floats, Floats, Floats]:
-    """Of the rows of fix cell/servo: strains (n, 3), stresses (n, 3) [Pa], density (n) [kg/m3].
+    """Curves of the rows of fix cell/servo: strains (n, 3), stresses (n, 3) [Pa], density (n) [kg/m3].
 
     Strain is logarithmic; compression is positive. @raises ValueError for a cell without volume
     """

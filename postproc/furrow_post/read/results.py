@@ -113,7 +113,7 @@ class Grains:
         return nearest
 
     def image_of(self, surface: Surface) -> Surface:
-        """Of a body that goes round and round in a periodic box: its image among these grains."""
+        """Image among these grains of a body that goes round and round in a periodic box."""
         middle = np.mean(self.corners, axis=0)
         body = 0.5 * (surface.x.min(axis=0) + surface.x.max(axis=0))
         place = middle + self.nearest_image(body - middle)
@@ -240,7 +240,7 @@ class Results:
 
 
 def read_effective_input(file: Path) -> str:
-    """Of a history.h5; empty where it has none. @raises ResultsError where the file is damaged"""
+    """Effective input of a history.h5; empty where it has none. @raises ResultsError where the file is damaged"""
     with opened(file) as content:
         text = content.get("run/effective_input")
         return "" if text is None else decoded(text[()])

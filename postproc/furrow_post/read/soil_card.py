@@ -141,7 +141,7 @@ SECTIONS: dict[str, tuple[type, str]] = {
 
 @dataclass(frozen=True)
 class NoResult:
-    """Of an instrument that failed on this ground."""
+    """Reason why an instrument failed on this ground."""
 
     reason: str
 

@@ -49,7 +49,7 @@ class Style:
         return str(self.values(keyword)[0])
 
     def flag(self, keyword: str) -> bool:
-        """Of a yes/no keyword; no where it is not there."""
+        """Value of a yes/no keyword; no where it is not there."""
         return self.options.get(keyword, [False])[0] is True
 
 

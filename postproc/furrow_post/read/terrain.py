@@ -103,7 +103,7 @@ class Terrain:
 
     @property
     def spacing(self) -> float:
-        """Of the particles before the wheel passed, in the fine part [m]."""
+        """Spacing of the particles before the wheel passed, in the fine part [m]."""
         undeformed = self.volume * self.density / self.undisturbed
         return float(np.percentile(undeformed, 5) ** (1 / 3))
 
@@ -169,7 +169,7 @@ class TerrainStress:
 
 
 def _lattice_spacing(coordinates: Floats) -> float:
-    """Of the lattice on which the particles stood, in its fine part [m]."""
+    """Spacing of the lattice on which the particles stood, in its fine part [m]."""
     places = np.unique(np.round(coordinates, 9))
     if len(places) < 2:
         raise ResultsError(f"{FILE}: terrain of a single layer of particles has no sections")

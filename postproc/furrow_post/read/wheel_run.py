@@ -81,7 +81,7 @@ class WheelRun:
     cpu_time: float = float("nan")  # measured by the runner, else wall time x ranks [s]
 
     def number(self, condition: str) -> float:
-        """Of a condition; NaN where it is not known."""
+        """Number of a condition; NaN where it is not known."""
         found = self.conditions.get(condition)
         return float("nan") if found is None else found.number
 
@@ -101,7 +101,7 @@ class WheelRun:
 
     @property
     def radius(self) -> float:
-        """Of the undeformed wheel [m]."""
+        """Radius of the undeformed wheel [m]."""
         return 0.5 * self.number("wheel_diameter")
 
     @property

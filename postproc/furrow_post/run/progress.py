@@ -102,7 +102,7 @@ def _show_end(folder: Path) -> None:
 
 
 def share_done(folder: Path) -> float:
-    """Of the run that writes to a folder, from the last line of its fix progress; 0: not known."""
+    """Share that a run has done, from the last line of fix progress in its folder; 0: not known."""
     try:
         with open(folder / SCREEN, "rb") as file:
             file.seek(max(file.seek(0, 2) - TAIL, 0))

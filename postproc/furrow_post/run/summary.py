@@ -90,7 +90,7 @@ class Summary:
 
     @property
     def parts_of_passes(self) -> list[ResistanceParts | None]:
-        """Of each pass of several in one rut; empty for a single one."""
+        """Parts of each pass of several in one rut; empty for a single one."""
         with content_of(self._path, self._remedy):
             return [self._parts_in(dict(one)) for one in list(self.content.get("passes", []))]
 

@@ -27,7 +27,7 @@ class Former:
 
 
 def write_command(folder: Path, script: Path, variables: Variables, ranks: int) -> None:
-    """Of a run that begins; removes checkpoints of another run, unless it continues from one."""
+    """Record of a run that begins; removes checkpoints of another run, unless it continues from one."""
     if not any(str(folder) in value for name, value in variables if name in (FROM, BEGIN)):
         for file in _checkpoints(folder):
             file.unlink()

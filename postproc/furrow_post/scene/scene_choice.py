@@ -65,7 +65,7 @@ def choose(table: Path, error: float) -> Chosen:
 
 
 def _assessed(table: Path) -> Sequence[cost.Assessed]:
-    """Of the runs that the table offers."""
+    """Assessment of the runs that the table offers."""
     rows, comments = cost_table.read_table(table)
     runnable = {row.run for row in rows if row.options}
     found = [a for a in cost.assess(rows, cost_table.wanted_wheel(comments)) if a.row.run in runnable]

@@ -59,12 +59,12 @@ class ShearCurve:
         return late
 
     def growth(self) -> float:
-        """Of the shear stress over the second half of the displacement, over its mean there."""
+        """Growth of the shear stress in the second half of the displacement, over its mean there."""
         x, y = self.displacement[self.late()], self.shear[self.late()]
         return float(line_fit(x - x.mean(), y)[0] * (x.max() - x.min()) / y.mean())
 
     def share(self, sine: float) -> float:
-        """Of the strength, what a ring measures that sinks. A ground of friction angle phi' that flows down by
+        """Share of the strength that a sinking ring measures. A ground of friction angle phi' that flows down by
         tan(psi) of its shear carries sigma sin(phi') cos(psi)/(1 + sin(phi') sin(psi)) in plane strain, E. H.
         Davis (1968), and sigma sin(phi') where psi is 0. The law of friction holds for cohesion too.
 

@@ -34,7 +34,7 @@ def widest(cones: Sequence[GrainCone]) -> list[GrainCone]:
 
 
 def convergence(cones: Sequence[GrainCone]) -> Convergence:
-    """Of the scaled index over the size of a grain in diameters of the base."""
+    """Convergence of the scaled index over the size of a grain in diameters of the base."""
     found = [cone.scaled() for cone in cones]
     groups: dict[float, list[float]] = {}
     for cone, each in zip(cones, found):

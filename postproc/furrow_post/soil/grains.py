@@ -244,12 +244,12 @@ class GrainBench:
         return cones
 
     def bulk_density(self, seeds: Sequence[int]) -> float:
-        """Of the beds of the plates, mean [kg/m3]."""
+        """Bulk density of the beds of the plates, mean [kg/m3]."""
         return float(np.mean([bulk_density(self.executor.results / f"{plate_name(self.largest)}_{seed}") for seed in seeds]))
 
 
 def bulk_density(folder: Path) -> float:
-    """Of the bed of a run [kg/m3]."""
+    """Bulk density of the bed of a run [kg/m3]."""
     words = (folder / "facts.txt").read_text(encoding="utf-8").split()
     return float(words[words.index("bulk") + 1])
 

@@ -139,7 +139,7 @@ def ring_tests(
 
 
 def mean_radius(outer: float, inner: float) -> float:
-    """Of a ring, over its area [m]."""
+    """Mean radius of a ring, over its area [m]."""
     return 2 / 3 * (outer**3 - inner**3) / (outer**2 - inner**2)
 
 
@@ -167,7 +167,7 @@ def cone_test(bench: Bench, depth: float, cells: int) -> ConeCurve:
 
 
 def cone_curve(rows: Floats, size: float) -> ConeCurve:
-    """Of a base with a diameter [m], from the sinkage of the tip."""
+    """Curve of a cone whose base has a diameter [m], from the sinkage of the tip."""
     height = 0.5 * size / math.tan(math.radians(0.5 * CONE_ANGLE))
     return ConeCurve(rows[:, 1] - height, rows[:, 3], size, CONE_ANGLE)
 

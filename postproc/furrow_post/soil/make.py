@@ -57,7 +57,7 @@ class Strength:
         return (3 - self.sine) / (3 + self.sine)
 
     def mean_stress(self, axial: Floats) -> Floats:
-        """Of confined compression at the corner of shear line and cap: q = d + p tan(beta)."""
+        """Mean stress of confined compression at the corner of shear line and cap: q = d + p tan(beta)."""
         p: Floats = (np.asarray(axial) - 2 / 3 * self.d) / (1 + 2 / 3 * self.tangent)
         return p
 
@@ -105,7 +105,7 @@ def read_oedometer(path: Path) -> Confined:
 
 
 def confined_of_modulus(modulus: float, reference: float = REFERENCE) -> Confined:
-    """Of an oedometric modulus [Pa] at a reference stress [Pa]; it grows with the root of stress."""
+    """Confined curve of an oedometric modulus [Pa] at a reference stress [Pa]; it grows with the root of stress."""
     stress = np.array(STRESSES)
     strain = reference / modulus / (1 - EXPONENT) * (stress / reference) ** (1 - EXPONENT)
     return Confined(
@@ -117,7 +117,7 @@ def confined_of_modulus(modulus: float, reference: float = REFERENCE) -> Confine
 
 
 def confined_of_plate(k_c: float, k_phi: float, n: float, radius: float) -> Confined:
-    """Of Bekker's curve of a plate. A rigid plate on an elastic half-space sinks as if a layer as
+    """Confined curve that gives Bekker's curve of a plate. A rigid plate on an elastic half-space sinks as if a layer as
     thick as 0.96 diameters were confined below it (Timoshenko and Goodier, eq 217, nu 0.3)."""
     modulus = k_c / radius + k_phi
     if modulus <= 0:

@@ -28,7 +28,7 @@ class Material:
 
     @property
     def wave_speed(self) -> float:
-        """Of pressure waves [m/s]."""
+        """Speed of pressure waves [m/s]."""
         nu = self.poisson
         modulus = self.young * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
         return math.sqrt(modulus / self.density)

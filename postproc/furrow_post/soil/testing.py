@@ -140,7 +140,7 @@ def _write(card: SoilCard, curves: Curves, folder: Path, formats: Sequence[str])
 
 
 def _result_of(fit: Callable[[], Part]) -> Part | NoResult:
-    """Of an instrument. One that failed has the reason instead."""
+    """Result of an instrument. One that failed has the reason instead."""
     try:
         return fit()
     except ResultsError as error:

@@ -25,7 +25,7 @@ def path_of(root: Path) -> Path:
 
 
 def commits(value: Value) -> str:
-    """Of the source trees that made the table of a value, "+" with changes; empty where not known."""
+    """Commits of the source trees that made the table of a value, "+" with changes; empty where not known."""
     if value.stored is None:
         return ""
     table = value.stored.table

@@ -21,7 +21,7 @@ HEAD = (
 
 @dataclass(frozen=True)
 class Origin:
-    """Of one file."""
+    """Origin of one file."""
 
     file: str
     program: str = ""
@@ -32,7 +32,7 @@ class Origin:
     note: str = ""
 
     def joined(self, former: "Origin | None") -> "Origin":
-        """Of a file that keeps rows of former runs."""
+        """Origin of a file that keeps rows of former runs."""
         if former is None:
             return self
         programs = sorted({*former.program.split("; "), *self.program.split("; ")} - {""})
@@ -48,7 +48,7 @@ class Origin:
 
 
 def origin(file: str, records: Iterable[Record], root: Path) -> Origin:
-    """Of a file that the present command writes from these runs; root: of the project."""
+    """Origin of a file that the present command writes from these runs; root: of the project."""
     known = list(records)
     days = sorted({record.started[:10] for record in known})
     programs = {f"{record.name_of_program} {record.program}" for record in known}

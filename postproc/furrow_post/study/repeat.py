@@ -23,7 +23,7 @@ def missed(values: Iterable[Value], made: Path, whole: bool) -> Iterator[str]:
 
 
 def difference(value: Value, made: Path) -> str:
-    """Of a limit the verdict counts, of others the number; beyond TOLERANCE the error of its time
+    """Difference that counts: of a limit the verdict, of others the number; beyond TOLERANCE the error of its time
     average, not how far the next size is. @raises ResultsError"""
     stored, again = value.computed(), value.computed(made)
     assert stored is not None and again is not None

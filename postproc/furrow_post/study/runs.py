@@ -12,7 +12,7 @@ from ..run.tools import answer
 __all__ = ["Run", "Runs"]  # what evaluations import
 
 class Runs:
-    """Of all cases of a study."""
+    """Runs of all cases of a study."""
 
     def __init__(self, cases: Sequence[Case], executor: Executor) -> None:
         self.cases, self.executor = cases, executor

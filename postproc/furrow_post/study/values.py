@@ -38,7 +38,7 @@ NEED_REASON = (CLOSE, DIFFERS, MISSED, NOT_DONE, OUTSIDE)
 
 
 def verdict_of(value: float, error: float, reference: float, reference_error: float = 0.0) -> str:
-    """Of a value that should be equal to its reference; errors are standard errors, 0: not known.
+    """Verdict on a value that should be equal to its reference; errors are standard errors, 0: not known.
 
     Values agree within 10 % of the reference, or within the scatter of the measurement. A value
     that only its own error brings within reach of the reference is inconclusive, and so is every
@@ -53,7 +53,7 @@ def verdict_of(value: float, error: float, reference: float, reference_error: fl
 
 
 def limit_verdict(value: float, error: float, reference: float, upper: bool) -> str:
-    """Of a value that should not be above (upper) or below its reference.
+    """Verdict on a value that should not be above (upper) or below its reference.
 
     A limit that is met says nothing where the error allows more than 25 % of the larger of both.
     """
@@ -207,7 +207,7 @@ class Value:
         return verdict_of(value, error, expected, self.expected_error())
 
     def row(self) -> dict[str, str]:
-        """Of experiments.csv."""
+        """Row of experiments.csv."""
         cost = self.cost.read() if self.cost else None
         verdict = self.verdict()
         return {
@@ -347,7 +347,7 @@ class _Reader:
 
 
 def values_of(folder: Path) -> list[Value]:
-    """Of the study in this folder. @raises ResultsError"""
+    """Values of the study in this folder. @raises ResultsError"""
     reader = _Reader(folder, folder.name)
     return [reader.value(entry) for entry in load_yaml(folder / DEFINITION).get("values") or []]
 

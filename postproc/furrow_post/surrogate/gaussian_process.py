@@ -28,7 +28,7 @@ LEAST_NOISE, MOST_SIGNAL = 1e-6, 1e3  # v, s: keep the matrix well conditioned
 
 @dataclass
 class Process:
-    """Of one quantity. Inputs in [0, 1]; factor: of the standard deviation, by calibration."""
+    """Gaussian process of one quantity. Inputs in [0, 1]; factor: of the standard deviation, by calibration."""
 
     x: Floats  # (n, inputs)
     y: Floats  # (n)

@@ -39,7 +39,7 @@ class Vehicle:
 
 @dataclass(frozen=True)
 class Mobility:
-    """Of each cell. SI units."""
+    """Mobility of each cell. SI units."""
 
     probability: Floats  # that the wheel climbs
     pull: Floats  # [N], that remains at the wanted speed, 0 where it does not climb

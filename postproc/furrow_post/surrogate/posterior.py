@@ -166,7 +166,7 @@ def identify(surrogate: Surrogate, tests: Tests, seed: int = 0, steps: int = STE
 
 
 def _rhat(chain: Floats) -> float:
-    """Of Gelman and Rubin over the quarters of the chain of all walkers; the largest of the parameters."""
+    """R-hat of Gelman and Rubin over the quarters of the chain of all walkers; the largest of the parameters."""
     parts = chain[: len(chain) // 4 * 4].reshape(4, -1, chain.shape[-1])
     within = np.mean(np.var(parts, axis=1, ddof=1), axis=0)
     between = np.var(np.mean(parts, axis=1), axis=0, ddof=1)

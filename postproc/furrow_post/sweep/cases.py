@@ -98,7 +98,7 @@ def _seeds(
     known: ScriptVariables,
     fixed: Mapping[str, str],
 ) -> list[int]:
-    """Of the packings after the first. @raises ResultsError"""
+    """Seeds of the packings after the first. @raises ResultsError"""
     if request.packings == 1:
         return []
     if SEED not in known.settable:

@@ -33,7 +33,7 @@ class SweepPoint:
 
     @property
     def parts(self) -> ResistanceParts | None:
-        """Of the resistance, mean of the packings; None where a run has none."""
+        """Parts of the resistance, mean of the packings; None where a run has none."""
         found = [Summary(run.folder).parts for run in self.runs]
         known = [one for one in found if one is not None]
         if len(known) < len(found):
@@ -48,11 +48,11 @@ class SweepPoint:
 
     @property
     def cpu_time(self) -> float:
-        """Of all packings [s]."""
+        """CPU time of all packings [s]."""
         return sum(run.cpu_time for run in self.runs)
 
     def number(self, condition: str) -> float:
-        """Of a condition, the same in all packings but for rounding; NaN where it is not known."""
+        """Mean of a condition, the same in all packings but for rounding; NaN where it is not known."""
         return sum(run.number(condition) for run in self.runs) / len(self.runs)
 
 
@@ -78,7 +78,7 @@ class Series:
 
     @property
     def title(self) -> str:
-        """Of the scene."""
+        """Title of the scene."""
         return self.points[0].runs[0].results.title if self.points else self.label
 
 

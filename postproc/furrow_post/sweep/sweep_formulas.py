@@ -68,7 +68,7 @@ def _value(prediction: Prediction, y: Axis, radius: float) -> float:
 def formula_lines(
     lines: Sequence[Line], names: Sequence[str], extrapolate: bool
 ) -> list[FormulaLine]:
-    """Of each formula along each line, but once where lines have the same conditions."""
+    """Lines of each formula along each line, but once where lines have the same conditions."""
     found: list[FormulaLine] = []
     for name in names:
         own = [_line(line, name, extrapolate) for line in lines]

@@ -24,7 +24,7 @@ class Variable:
 
 
 def parse_variable(text: str) -> Variable:
-    """Of NAME=FIRST:LAST:COUNT, both ends included, or NAME=VALUE,VALUE,... @raises ResultsError"""
+    """Values of NAME=FIRST:LAST:COUNT, both ends included, or NAME=VALUE,VALUE,... @raises ResultsError"""
     name, equals, values = (part.strip() for part in text.partition("="))
     if not equals or not name:
         raise ResultsError(f"--sweep '{text}' has no {'name' if equals else '='}; {HOW}")

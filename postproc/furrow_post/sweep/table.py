@@ -52,7 +52,7 @@ def _row(series: Series, point: SweepPoint) -> dict[str, Cell]:
 
 
 def _parts(point: SweepPoint) -> dict[str, float]:
-    """Of the resistance [N], by column."""
+    """Parts of the resistance [N], by column."""
     parts = point.parts
     if parts is None:
         return {}

@@ -116,7 +116,7 @@ class Engine:
         return f"{self.folder / 'study.yaml'}: {name}"
 
     def function(self, name: str, known: Mapping[str, Callable[..., Any]], what: str) -> Callable[..., Any]:
-        """Of evaluate.py, or of the package. @raises ResultsError"""
+        """Function of evaluate.py, or of the package. @raises ResultsError"""
         found = getattr(self.module, name, None) or known.get(name)
         if found is None:
             raise ResultsError(f"{self.where(what)}: there is no {name}; known are {', '.join(sorted(known))}")
@@ -126,7 +126,7 @@ class Engine:
     # ---- rows of runs
 
     def rows(self, runs: Runs, name: str, tables: Mapping[str, pandas.DataFrame]) -> list[Row]:
-        """Of a table of runs."""
+        """Rows of a table of runs."""
         spec = self.tables[name]
         common = {key: value for key, value in spec.items() if key in BLOCK_KEYS}
         blocks = [

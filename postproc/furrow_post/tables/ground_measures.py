@@ -209,7 +209,7 @@ class TyreGround:
         return np.abs(self.depth - nearest) < 1e-5, nearest
 
     def distribution(self, depth: float, field: Floats, near: float) -> Row:
-        """Of a field in a layer near the axle: centroid [m], share of the front half, peak and its place [m]."""
+        """Distribution of a field in a layer near the axle: centroid [m], share of the front half, peak and its place [m]."""
         inside, _ = self.layer(depth)
         # all particles of a layer have its height
         weight = np.maximum(field[inside], 0.0) * self.volume[inside]
@@ -249,7 +249,7 @@ class TyreGround:
         return float(self.stress[close].mean() / sum(both))
 
     def settled(self, low: float, high: float) -> float:
-        """Of the surface in the track between two places from the axle [m]; NaN where there is none [mm]."""
+        """Settlement of the surface in the track between two places from the axle [m]; NaN where there is none [mm]."""
         top, _ = self.layer(0.0)
         inside = top & (np.abs(self.y) < 0.03) & (np.abs(self.x) < 0.3) & (self.x > low) & (self.x < high)
         return float(self.sunk[inside].mean()) if inside.any() else np.nan
@@ -277,7 +277,7 @@ def tyre_ground(run: Run, metres: float, rest: float) -> Row:
 
 
 def layer_stress(run: Run, depths: Sequence[float], near: float, half_space: Sequence[float]) -> Row:
-    """Of vertical stress (sz) and Mises stress (q) in layers: sz_DEPTH_centroid_mm, _front, _peak_kPa, _place_mm; at
+    """Vertical stress (sz) and Mises stress (q) in layers: sz_DEPTH_centroid_mm, _front, _peak_kPa, _place_mm; at
     depths half_space sz_DEPTH_over_boussinesq."""
     ground, row = TyreGround(run.folder), dict[str, float]()
     for depth in depths:
