@@ -17,8 +17,9 @@ the study, {inputs}, {materials}, {scenes}, {tyres} are those folders, {folder} 
 {run} its name, {what} its words, and every key of `with` stands for its value. A file's text that
 begins with "=" is an expression of the functions in evaluate.py. An entry with `for: {key: [value,
 ...]}` is a run for each combination of the values; {key} stands for the value, in the run's name
-too. A value may give further keys: `for: {key: {value: {other: ...}}}`. A study whose runs are
-rows of a table has a function cases() in its evaluate.py in the place of `runs`.
+too. A value may give further keys: `for: {key: {value: {other: ...}}}`. `for: = function()` takes
+the keys of each run from evaluate.py. A study whose runs are rows of a table has a function
+cases() in its evaluate.py in the place of `runs`.
 """
 
 import importlib.util
@@ -69,23 +70,32 @@ def cases_of(folder: Path, content: Mapping[str, Any] | None = None) -> tuple[Ca
         own = _merged(common, runs.get("defaults") or {})
         for name, run in runs.items():
             if name != "defaults":
-                each = _each(str(name), _merged(own, run or {}))
+                each = _each(folder, str(name), _merged(own, run or {}))
                 found += [_case(folder, str(stage), *one, texts) for one in each]
     return tuple(found)
 
 
-def _each(name: str, run: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+def _each(folder: Path, name: str, run: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
     """The runs of an entry with `for`, one for each combination of its values; of another entry itself."""
-    values = run.pop("for", None) or {}
-    several = [one if isinstance(one, Mapping) else dict.fromkeys(one, {}) for one in values.values()]
-    for combination in product(*(one.items() for one in several)):
-        given = dict(run.get("with") or {})
-        for key, (value, more) in zip(values, combination):
-            given |= {key: value, **more}
+    for keys in _keys(folder, run.pop("for", None) or {}):
+        given = {**(run.get("with") or {}), **keys}
         own = name
         for key, value in given.items():
             own = own.replace(f"{{{key}}}", str(value))
         yield own, {**run, "with": given}
+
+
+def _keys(folder: Path, values: Any) -> Iterator[dict[str, Any]]:
+    """What the keys of `for` stand for in each run."""
+    if isinstance(values, str):
+        yield from eval(values.removeprefix("="), dict(vars(evaluation_of(folder))))
+        return
+    several = [one if isinstance(one, Mapping) else dict.fromkeys(one, {}) for one in values.values()]
+    for combination in product(*(one.items() for one in several)):
+        given: dict[str, Any] = {}
+        for key, (value, more) in zip(values, combination):
+            given |= {key: value, **more}
+        yield given
 
 
 def _merged(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:

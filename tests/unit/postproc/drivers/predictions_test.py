@@ -3,7 +3,6 @@
 
 import csv
 import hashlib
-import importlib.util
 import math
 import unittest
 
@@ -11,12 +10,10 @@ import yaml
 
 from furrow_post.csv_table import read_rows
 from support.command import SOURCE
+from support.evaluation import evaluation
 
 FOLDER = SOURCE / "inputs/validation/predictions"
-specification = importlib.util.spec_from_file_location("predict", FOLDER / "predict.py")
-assert specification and specification.loader
-study = importlib.util.module_from_spec(specification)
-specification.loader.exec_module(study)
+study = evaluation("predictions")
 QUANTITIES = {
     "T11": {"hub_drop", "rut_depth", "resistance_coefficient"},
     "CMU": {"fx_over_fz", "fy_over_fz", "sinkage"},

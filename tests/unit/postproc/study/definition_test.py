@@ -85,6 +85,12 @@ class DefinitionTest(unittest.TestCase):
         self.assertEqual(made["plate_0.2/cap"].variables["size"], "0.2")
         self.assertEqual(made["plate_0.2/cap"].files, {"material.yaml": "e: 1", "column.txt": "2.0"})
 
+    def test_a_function_may_give_the_keys_of_each_run(self) -> None:
+        text = "def rows() -> list:\n    return [{'load': load, 'cell': load / 100} for load in (10, 20)]\n"
+        (self.folder / "evaluate.py").write_text(text)
+        made = self.cases("runs: {all: {'load_{load}': {for: = rows(), script: a.lig, variables: {cell: '{cell}'}}}}")
+        self.assertEqual({name: case.variables["cell"] for name, case in made.items()}, {"load_10": "0.1", "load_20": "0.2"})
+
     def test_mistakes_are_refused(self) -> None:
         for text, message in (
             ("runs: {all: {a: {skript: x}}}", "run 'a' has unknown keys \\['skript'\\]; allowed are"),
