@@ -32,6 +32,7 @@ class Entry:
     kind: str  # RUN, BEST, FORMULA, MEASURED
     note: str = ""
     cpu_time: float = math.nan
+    steady: bool = True  # else the time average has no error that is known
 
     @property
     def label(self) -> str:
@@ -51,7 +52,10 @@ class Entry:
     @property
     def unknown(self) -> list[str]:
         """Parts of its uncertainty that are not known."""
-        return self.parts.unknown if self.of_run else []
+        if not self.of_run:
+            return []
+        moving = [] if self.steady or "time" in self.parts.unknown else ["time"]
+        return [*moving, *self.parts.unknown]
 
     def text(self) -> str:
         """The value with its uncertainty in the unit of the quantity."""
@@ -77,7 +81,7 @@ def entries_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[
         else:
             parts = parts_without_table(run, value.standard_error)
         note = "" if value.steady else "not called steady"
-        entries.append(Entry(quantity, run.label, value.mean, parts, RUN, note, run.cpu_time))
+        entries.append(Entry(quantity, run.label, value.mean, parts, RUN, note, run.cpu_time, value.steady))
     return entries
 
 
@@ -92,7 +96,7 @@ def best_estimates(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[
         )
         if best:
             value, parts = best
-            entries.append(Entry(quantity, run.label, value, parts, BEST))
+            entries.append(Entry(quantity, run.label, value, parts, BEST, steady=steady.steady))
     return entries
 
 

@@ -67,7 +67,8 @@ def remedies(unknown: Sequence[str]) -> list[str]:
         of_part = [u.partition(" of ")[2] for u in unknown if u.startswith(f"{part} of ")]
         if of_part:
             lines.append(f"{name} ({', '.join(dict.fromkeys(of_part))}): {runs}")
-    return [*lines, TABLE_OF_RUNS] if lines else []
+    of_other_runs = any(not part.startswith("time of ") for part in unknown)
+    return [*lines, TABLE_OF_RUNS] if lines and of_other_runs else lines
 
 
 def summed_up(among: Sequence[Verdict], who: str) -> str:

@@ -59,6 +59,11 @@ class JudgeTest(unittest.TestCase):
             self.assertIn("inconclusive, unknown: domain of b, packing of b, size of b", verdict.sentence)
             self.assertIn("2.8 allowed by the known parts", verdict.sentence)
 
+    def test_a_value_that_is_not_steady_has_no_known_error_over_time(self) -> None:
+        verdict = judge(entry("a", 0.1, 0.001), replace(entry("b", 0.1, 0.001), steady=False))
+        self.assertEqual((verdict.agreement, verdict.unknown), (Agreement.INCONCLUSIVE, ("time of b",)))
+        self.assertEqual(remedies(verdict.unknown), ["time average (b): a longer run"])
+
     def test_each_unknown_part_has_the_run_that_finds_it(self) -> None:
         other = Entry(HUB_DROP, "b", 0.1, Components(time=0.001), RUN)
         sizes, ground, packings, command = remedies(judge(entry("a", 0.1, 0.001), other).unknown)
