@@ -119,7 +119,7 @@ def write_comparison(result: Comparison, folder: Path) -> None:
     report = comparison_report(result)
     (folder / "compare.txt").write_text(report + "\n", encoding="utf-8")
     lines = table_rows(result)
-    head = "# SI units; uncertainties are standard deviations; empty: not known"
+    head = "# SI units; uncertainties are one standard error; empty: not known"
     write_rows(folder / "compare.csv", [in_cells(line, 9) for line in lines], [head])
     with h5py.File(folder / "compare.h5", "w") as content:
         _write_hdf5(content, result, lines)
@@ -132,7 +132,7 @@ def _write_hdf5(content: Any, result: Comparison, lines: list[Line]) -> None:
         kind = h5py.string_dtype() if isinstance(sample, str) else np.float64
         table[name] = np.array(values, dtype=kind)
     content.attrs["verdict"] = overall(result)
-    content.attrs["unit"] = "SI; uncertainties are standard deviations, NaN: not known"
+    content.attrs["unit"] = "SI; uncertainties are one standard error, NaN: not known"
     for run in result.runs:
         group = content.create_group(f"runs/{run.label.replace('/', '_')}")
         for name, values in cruise_history(run)._asdict().items():

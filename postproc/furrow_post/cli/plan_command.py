@@ -29,7 +29,7 @@ def plan_(given: Given) -> None:
         raise ResultsError("\n".join(refused))
     print("\n\n".join([*reports, *refused]))
     print(
-        "\nUncertainties are numerical, one standard deviation. A packing's scatter and the order "
+        "\nUncertainties are numerical, one standard error. A packing's scatter and the order "
         "of the size are taken from the table:\nmake the first runs, write them into the table "
         "(furrow-post cost --write) and plan again."
     )
