@@ -3,7 +3,7 @@
 "use strict";
 
 document.addEventListener("DOMContentLoaded", () => {
-  const FEWEST = 5; // columns
+  const FEWEST = 4; // columns
   for (const table of document.querySelectorAll("article table")) {
     const head = [...table.querySelectorAll("thead th")].map((cell) => cell.textContent.trim());
     if (head.length < FEWEST) continue;
