@@ -31,7 +31,10 @@ def identify(
     its rms; place: column of the places. A quantity that the frame has no column of is a constant. Columns: choice,
     reading, count, value, low, high, used (value of the nearest model), QUANTITY_rms and others_QUANTITY_rms.
     """
-    known = pandas.concat([tables[name] for name in runs]).drop_duplicates("run").set_index("run")
+    known = pandas.concat([tables[name] for name in runs])
+    if not len(known):
+        return frame.iloc[:0]
+    known = known.drop_duplicates("run").set_index("run")
     made: list[Row] = []
     for reading, one in readings.items():
         columns = {**{what: what for what in goals}, **one.get("columns", {})}

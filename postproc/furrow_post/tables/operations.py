@@ -249,7 +249,7 @@ def join(
     pairs = dict(keys) if isinstance(keys, Mapping) else {name: name for name in _listed(keys)}
     other = tables[table].assign(**{name: np.nan for name in expect if name not in tables[table]})
     if not len(other):
-        return frame.iloc[:0] if how == "inner" else frame.assign(**dict.fromkeys(expect, np.nan))
+        return frame.iloc[:0] if how == "inner" else frame.assign(**{f"{prefix}{name}": np.nan for name in expect})
     if prefix:
         kept = {own for own, their in pairs.items() if own == their}
         other = other.rename(columns={name: f"{prefix}{name}" for name in other if name not in kept})

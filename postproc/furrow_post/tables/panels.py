@@ -197,7 +197,10 @@ def sweep_of(runs: Runs, stages: Mapping[str, str]) -> Figure:
     """
     lines = []
     for stage, words in stages.items():
-        series = read_series(runs.done(stage)[0].folder.parent, words, {})
+        done = runs.done(stage)
+        if not done:
+            continue
+        series = read_series(done[0].folder.parent, words, {})
         if series.unread:
             raise ResultsError(series.unread[0].text)
         points = sorted(series.points, key=lambda point: point.quantities[SLIP].mean)
@@ -207,7 +210,9 @@ def sweep_of(runs: Runs, stages: Mapping[str, str]) -> Figure:
 
 
 def sweep(runs: Runs, tables: Mapping[str, pandas.DataFrame], target: Path, stages: Mapping[str, str]) -> None:
-    draw_sweep(sweep_of(runs, stages), [], [], target)
+    figure = sweep_of(runs, stages)
+    if figure.lines:
+        draw_sweep(figure, [], [], target)
 
 
 DRAWINGS: Mapping[str, Callable[..., None]] = {
