@@ -14,6 +14,7 @@ sys.path.insert(0, str(HERE.parents[2] / "postproc"))
 import furrow_post  # first: says which of the next ones are missing
 
 import numpy as np
+import pandas
 
 from furrow_post.analyse.statistics import rms
 from furrow_post.arguments import path, positive
@@ -24,6 +25,7 @@ from furrow_post.program import run_program
 RADIUS = 0.1016  # [m] of the plate
 EDGE = 0.8  # of it: beyond is the edge, as in plate_variants
 LAYERS = 10  # from the plate to the base
+DENSITIES = [f"density_{n}" for n in range(1, LAYERS + 1)]
 
 
 def clusters(file: Path) -> Floats:
@@ -50,7 +52,7 @@ def layers(grains: Floats, plate: float, density: float) -> Floats:
     return mass / (np.pi * RADIUS**2 * plate / LAYERS)
 
 
-def numbers(folder: Path, density: float) -> Floats:
+def numbers(folder: Path, density: float) -> dict[str, float]:
     """Peak [N]; ten layers [kg/m3]; outwards [mm]: clusters under the edge, and the mean of the
     tenth of the height that went farthest, under the whole plate; mass left, a share."""
     before, after = clusters(folder / "before.txt"), clusters(folder / "after.txt")
@@ -64,42 +66,23 @@ def numbers(folder: Path, density: float) -> Floats:
     tenth = np.minimum(LAYERS - 1, (LAYERS * before[:, 2] / bed).astype(int))
     means = [out[under & (tenth == n)].mean() for n in range(LAYERS)]
     mass = after[:, 3] ** 3
-    return np.array(
-        [
-            curve[:, 2].max(),
-            *layers(after, plate, density),
-            out[under & (r > EDGE * RADIUS)].mean(),
-            max(means, key=abs),
-            mass[snow & (now < RADIUS)].sum() / mass[under].sum(),
-        ]
-    )
-
-
-def in_row(all_numbers: Floats) -> str:
-    return " ".join(f"{value:.0f}" for value in all_numbers[1 : LAYERS + 1])
+    return {
+        "peak_load_N": curve[:, 2].max(),
+        **dict(zip(DENSITIES, layers(after, plate, density))),
+        "edge_outwards_mm": out[under & (r > EDGE * RADIUS)].mean(),
+        "farthest_tenth_outwards_mm": max(means, key=abs),
+        "mass_left": mass[snow & (now < RADIUS)].sum() / mass[under].sum(),
+    }
 
 
 def report(folders: list[Path], density: float) -> str:
-    each = np.array([numbers(folder, density) for folder in folders])
-    mean = each.mean(axis=0)
+    each = pandas.DataFrame([numbers(folder, density) for folder in folders])
     measured = read_numbers(HERE.parent / "plate_variants" / "reference.csv")[0]
-    real = np.array([measured[f"density_{n}"] for n in range(1, LAYERS + 1)])
-    off = rms(np.log(mean[1 : LAYERS + 1] / real))
-    peak, (edge, farthest, left) = mean[0], mean[-3:]
-    lines = [
-        f"peak {peak:.0f} N, {peak / measured['peak_load_N']:.2f} of the measured one",
-        f"kg/m3 from the plate to the base: {in_row(mean)}",
-        f"measured: {' '.join(f'{value:.0f}' for value in real)}; rms of ln(density) {off:.2f}",
-        f"outwards, mm: under the edge {edge:.1f}, the tenth that went farthest {farthest:.1f}",
-        f"mass left below the plate: {left:.2f}",
-    ]
-    if len(each) > 1:
-        scatter = each.std(axis=0, ddof=1)
-        lines.append(
-            f"scatter of {len(each)} packings: {scatter[0]:.0f} N; {in_row(scatter)} kg/m3; "
-            f"{scatter[-3]:.1f}, {scatter[-2]:.1f} mm; {scatter[-1]:.2f}"
-        )
-    return "\n".join(lines)
+    mean, real = each.mean(), pandas.Series({name: measured[name] for name in ("peak_load_N", *DENSITIES)})
+    table = pandas.DataFrame({"mean": mean, "scatter": each.std(), "measured": real}).loc[mean.index]
+    off = rms(np.log(mean[DENSITIES] / real[DENSITIES]))
+    text: str = table.to_string(float_format="{:.4g}".format, na_rep="")
+    return f"{text}\nrms of ln(density) {off:.2f}; {len(each)} packings"
 
 
 def main() -> None:

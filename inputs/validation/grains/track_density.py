@@ -1,9 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Snow of clusters behind a wheel and ahead of it: density under the track and next to it, how much
-is left there, and the surface ahead. Density is mass over volume between floor and surface. The
-surface is the mean of the highest tops in squares of two diameters, less what that is above the
-level of the undisturbed bed."""
+"""Snow of clusters: density under the track of a wheel and next to it, how much is left there, and the surface ahead.
+Density is mass over volume between floor and surface. The surface is the mean of the highest tops in squares of two
+diameters, less what that is above the level of the undisturbed bed."""
 
 import argparse
 import sys
@@ -25,10 +24,7 @@ from furrow_post.read.wheel_run import WheelRun, read_wheel_run
 BEHIND = (-1.3, -0.6)  # [radii] from the axle: rolled over, as in furrow-post compare
 SHOULDER = 0.05  # [m] outwards of the wheel's side
 AHEAD = (0.4, 0.8)  # [m] from the axle: where a bow wave would be
-EVERYWHERE = (-np.inf, np.inf)
-
-_AXIS = np.linspace(-0.8, 0.8, 5)
-_LATTICE = np.stack(np.meshgrid(_AXIS, _AXIS, _AXIS), axis=-1).reshape(-1, 3)
+_LATTICE = np.stack(np.meshgrid(*[np.linspace(-0.8, 0.8, 5)] * 3), axis=-1).reshape(-1, 3)
 IN_SPHERE = _LATTICE[np.linalg.norm(_LATTICE, axis=1) < 1]  # stand for a cluster's volume
 
 
@@ -39,11 +35,10 @@ class Ground:
         points = ground_points(run)
         self.x, self.size = points.x, points.size
         self.floor = run.floor - run.ground_level
-        reach = 0.5 * self.size[:, None, None] * IN_SPHERE
-        self.parts: Floats = (self.x[:, None, :] + reach).reshape(-1, 3)
+        self.parts: Floats = (self.x[:, None, :] + 0.5 * self.size[:, None, None] * IN_SPHERE).reshape(-1, 3)
         self.part_mass = np.repeat(points.mass / len(IN_SPHERE), len(IN_SPHERE))
         before = run.results.grains("reference")
-        tops = _tops(before.x, 2 * before.radius, run.floor, EVERYWHERE, (0.0, np.inf))
+        tops = _tops(before.x, 2 * before.radius, run.floor, (-np.inf, np.inf), (0.0, np.inf))
         self.rough = tops - run.number("depth")  # [m] of tops over the level
 
     def mass(self, along: Interval, beside: Interval) -> float:
@@ -71,10 +66,8 @@ def _tops(x: Floats, size: Floats, floor: float, along: Interval, beside: Interv
 
 def _inside(x: Floats, along: Interval, beside: Interval) -> Booleans:
     across = np.abs(x[:, 1])
-    inside: Booleans = (
-        (x[:, 0] > along[0]) & (x[:, 0] < along[1]) & (across >= beside[0]) & (across < beside[1])
-    )
-    return inside
+    inside: Booleans = (across >= beside[0]) & (across < beside[1])
+    return inside & (x[:, 0] > along[0]) & (x[:, 0] < along[1])
 
 
 def report(folder: Path) -> str:
@@ -84,19 +77,14 @@ def report(folder: Path) -> str:
         raise ResultsError(f"{folder}: its ground is no grains ({run.ground})")
     if not np.isfinite(run.number("density")):
         raise ResultsError(f"{folder}: its bed did not measure its density")
-    ground, side = Ground(run), 0.5 * run.number("wheel_width")
+    ground, side, before = Ground(run), 0.5 * run.number("wheel_width"), run.number("density") * run.number("depth")
     behind = (BEHIND[0] * run.radius, BEHIND[1] * run.radius)
-    before = run.number("density") * run.number("depth")
+    places = {"middle half of the track": (0.0, 0.5 * side), f"{100 * SHOULDER:.0f} cm beside it": (side, side + SHOULDER)}
     lines = []
-    for name, beside in (
-        ("middle half of the track", (0.0, 0.5 * side)),
-        (f"{100 * SHOULDER:.0f} cm beside it", (side, side + SHOULDER)),
-    ):
+    for name, beside in places.items():
         mass, height = ground.mass(behind, beside), ground.surface(behind, beside)
-        lines.append(
-            f"{name:25} {mass / height:4.0f} kg/m3, {1e3 * height:3.0f} mm high, "
-            f"{mass / before:.2f} of the mass before"
-        )
+        text = f"{mass / height:4.0f} kg/m3, {1e3 * height:3.0f} mm high, {mass / before:.2f} of the mass before"
+        lines.append(f"{name:25} {text}")
     risen = ground.surface(AHEAD, (0.0, side)) - run.number("depth")
     lines.append(f"surface {AHEAD[0]:g} to {AHEAD[1]:g} m ahead   {1e3 * risen:+.0f} mm risen")
     return "\n".join(lines)
@@ -105,8 +93,7 @@ def report(folder: Path) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("results", type=path, help="results folder of the run")
-    parsed = parser.parse_args()
-    print(report(parsed.results))
+    print(report(parser.parse_args().results))
 
 
 if __name__ == "__main__":

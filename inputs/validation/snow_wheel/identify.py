@@ -22,7 +22,7 @@ import furrow_post  # first: reports which of the next ones are missing
 
 import numpy as np
 
-from furrow_post.analyse.compressed_snow import cam_clay_confined
+from furrow_post.analyse.compressed_snow import cam_clay_material
 from furrow_post.analyse.fitter import Parameter, Search, fit
 from furrow_post.analyse.statistics import rms
 from furrow_post.arguments import at_least, path, positive
@@ -38,6 +38,7 @@ from furrow_post.tables.ground_measures import rut
 from furrow_post.tables.wheel_measures import steady
 
 SNOW: Any = evaluation_of(HERE)
+Make = Callable[[Case], Mapping[str, float]]
 DEPTHS = (0.18, 0.20, 0.22)  # [m]
 GOAL, DENSITY, DENSITY_SCALE = {"sinkage_m": 0.012, "resistance": 0.031}, 510.0, 50.0  # rms over rows; [kg/m3] under the wheel
 # Physical range: above what half a metre of snow weighs, below the stress at 525 kg/m3 [CRREL95-7]
@@ -48,13 +49,9 @@ SEARCH = Search(step=0.2, central=False, ftol=1e-8, xtol=1e-8, scale=1.0)  # mov
 
 def field_snow(density: float, beginning: tuple[float, ...] = SNOW.STRESSES[1:4], title: str = "Field snow", slope: float = 3.3) -> str:
     """A material file. beginning: axial stresses [Pa] from 380 kg/m3 on; slope: M of Cam clay (3.3: K0 0.12)."""
-    share = cam_clay_confined(slope, 0.1)[1]
-    curve = [*zip(map(float, SNOW.DENSITIES[1:]), beginning)] + [pair for pair in zip(SNOW.DENSITIES, SNOW.STRESSES) if pair[0] >= 525]
-    rows = [(SNOW.DENSITIES[0], SNOW.STRESSES[0]), *((rho, share * stress) for rho, stress in curve)]
-    law = f"law: {{type: cohesive_cam_clay, density: {density:g}, M: {slope:g}, tension_ratio: 0.1}}"
-    table = [f"  {key}: [{', '.join(f'{row[k]:{form}}' for row in rows)}]" for k, (key, form) in enumerate((("rho", "g"), ("p", ".6g")))]
-    lines = [f"title: {title}", law, "elasticity: {type: linear, E: 13.79e6, nu: 0.3}", "hardening:", "  type: by_density", *table]
-    return "\n".join([*lines, "  interpolation: log", "  beyond: extrapolate", ""])
+    pairs = [*zip(SNOW.DENSITIES, SNOW.STRESSES)]
+    curve = [pairs[0], *zip(map(float, SNOW.DENSITIES[1:]), beginning), *(pair for pair in pairs if pair[0] >= 525)]
+    return cam_clay_material(title, density, slope, 0.1, curve, "{type: linear, E: 13.79e6, nu: 0.3}")
 
 
 def case_of(stresses: tuple[float, ...], depth: float) -> Case:
@@ -66,7 +63,7 @@ def case_of(stresses: tuple[float, ...], depth: float) -> Case:
     return replace(base, name=name, stage="identify", files={"material.yaml": text}, variables=variables)
 
 
-def identify(start: tuple[float, ...], make: Callable[[Case], Mapping[str, float]], iterations: int) -> list[dict[str, Any]]:
+def identify(start: tuple[float, ...], make: Make, iterations: int) -> list[dict[str, Any]]:
     """Trials, rows of identified.csv. make: quantities of a run, which is made unless it is there."""
     rows = [row for row in read_numbers(HERE / "reference.csv") if row["density_kgm3"] == 220 and 0.18 <= row["depth_m"] <= 0.22]
     depths, trials = [row["depth_m"] for row in rows], list[dict[str, Any]]()
@@ -92,7 +89,7 @@ def identify(start: tuple[float, ...], make: Callable[[Case], Mapping[str, float
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--start", nargs=3, type=positive, metavar="PA", default=SNOW.STRESSES[1:4], help="stresses at the start")
     parser.add_argument("--iterations", type=at_least(1), default=4)
     parser.add_argument("--results", type=path, help="default: results/snow_wheel in the source tree")

@@ -8,7 +8,7 @@ contact: a rolling one over the front half, since the snow stays compressed behi
 work in a metre of track is b times the integral of sigma dw from 0 to z.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,3 +62,17 @@ def cam_clay_confined(slope: float, tension_ratio: float) -> tuple[float, float]
     p, q = centre + 3 * half / root, 2 * ratio**2 * half / root
     axial = p + 2 * q / 3
     return float((p - q / 3) / axial), round(float(1 / axial), 3)
+
+
+def cam_clay_material(
+    title: str, density: float, slope: float, tension_ratio: float, curve: Sequence[tuple[float, float]], elasticity: str
+) -> str:
+    """A material file of cohesive Cam clay that follows a curve: densities [kg/m3] and axial stresses [Pa] in confined
+    compression. The first pair is taken as it is: its stress is p."""
+    share = cam_clay_confined(slope, tension_ratio)[1]
+    rows = [curve[0], *((rho, share * stress) for rho, stress in curve[1:])]
+    columns = {"rho": [f"{rho:g}" for rho, _ in rows], "p": [f"{p:.6g}" for _, p in rows]}
+    law = f"law: {{type: cohesive_cam_clay, density: {density:g}, M: {slope:g}, tension_ratio: {tension_ratio:g}}}"
+    lines = [f"title: {title}", law, f"elasticity: {elasticity}", "hardening:", "  type: by_density"]
+    lines += [f"  {name}: [{', '.join(cells)}]" for name, cells in columns.items()]
+    return "\n".join([*lines, "  interpolation: log", "  beyond: extrapolate", ""])
