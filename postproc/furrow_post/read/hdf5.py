@@ -9,6 +9,7 @@ import contextlib
 import multiprocessing
 import os
 import resource
+import signal
 import threading
 from collections.abc import Iterator
 from functools import lru_cache
@@ -96,6 +97,8 @@ def _reader_of(process: int) -> _Reader:
 def _read_all(pipe: Connection, other: Connection) -> None:
     """In the child: of each file asked for, sends what is wrong, or an empty text."""
     other.close()
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # which a program that makes runs takes
+        signal.signal(number, signal.SIG_DFL)
     with open(os.devnull, "w", encoding="utf-8") as nowhere:
         os.dup2(nowhere.fileno(), 2)  # what the C library says when it stops the process
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

@@ -3,12 +3,16 @@
 
 import errno
 import os
+import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
 from furrow_post.run.process import CHECKPOINT, keep_checkpoint
+from support.folder import FolderTest
+from support.runs import write_run
 
 
 class KeepCheckpointTest(unittest.TestCase):
@@ -26,6 +30,19 @@ class KeepCheckpointTest(unittest.TestCase):
             self.assertEqual(notes.read_text(), "of the user")
             self.assertEqual((results / CHECKPOINT).read_text(), "checkpoint")
             self.assertFalse((results / CHECKPOINT).is_symlink())
+
+
+class ProcessesTest(FolderTest):
+    def test_a_program_that_draws_while_runs_are_made_ends(self) -> None:
+        """Files are read by a copy of the program, which must not take the signals of runs."""
+        write_run(self.folder)
+        code = (
+            "import furrow_post\n"
+            "from furrow_post.run.process import Processes\n"
+            f"with Processes():\n    print(furrow_post.load({str(self.folder)!r}).title)\n"
+        )
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
 if __name__ == "__main__":
