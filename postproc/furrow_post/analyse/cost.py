@@ -141,7 +141,8 @@ class Extrapolation(NamedTuple):
 
 
 def needed(assessed: Sequence[Assessed], error: float) -> list[Extrapolation]:
-    """Size and time at which the fits come down to this error, cheapest first; extrapolated."""
+    """Size and time at which the fits come down to this error, cheapest first; extrapolated by the observed
+    order, or by the first where there is none."""
     found = []
     for key, family in cost_table.families([a.row for a in assessed]).items():
         finest = min((a for a in assessed if a.row.family == key), key=lambda a: a.row.size)
@@ -154,7 +155,9 @@ def needed(assessed: Sequence[Assessed], error: float) -> list[Extrapolation]:
             rest = math.sqrt(max(total - parts.size**2, 0.0))
             room = (error * reference) ** 2 - rest**2
             reachable = room > 0 and parts.size > 0
-            sizes.append(finest.row.size * math.sqrt(room) / parts.size if reachable else 0.0)
+            order = finest.orders[quantity]
+            power = 1 / order if math.isfinite(order) else 1.0
+            sizes.append(finest.row.size * (math.sqrt(room) / parts.size) ** power if reachable else 0.0)
         if min(sizes) > 0:
             size, time = np.log([[row.size, row.cpu_time] for row in family.bases]).T
             slope, level = np.polyfit(size, time, 1)

@@ -3,6 +3,7 @@
 
 import csv
 from collections.abc import Sequence
+from difflib import get_close_matches
 from pathlib import Path
 
 from ..errors import ResultsError
@@ -51,5 +52,8 @@ def _names(runs: Sequence[Results], asked: str | None) -> list[str]:
         found = [name.strip() for name in asked.split(",")]
         for name in found:
             if not any(name in one.columns for one in runs):
-                runs[0].columns[name]  # raises, with the names that are there
+                known = list(dict.fromkeys(key for one in runs for key in one.columns))
+                near = get_close_matches(name, known, 1)
+                hint = f"did you mean '{near[0]}'?" if near else "leave out --channels to write all of them"
+                raise ResultsError(f"--channels: no run has the channel '{name}'; allowed: {', '.join(known)}; {hint}")
     return list(dict.fromkeys([TIME, *found]))

@@ -95,8 +95,7 @@ def _vehicle(surrogate: Surrogate, given: Given) -> Vehicle:
     load, speed = given.load or constants.get("load"), given.speed or constants.get("speed")
     if load is None or speed is None:
         raise ResultsError("the surrogate has no single load and speed; give --load and --speed")
-    if "load" not in surrogate.names and load != constants["load"]:
-        raise ResultsError(
-            f"--load {load:g}: the surrogate knows a load of {constants['load']:g} N only; sweep load too"
-        )
+    if "load" not in surrogate.names and load != constants.get("load"):
+        known = f"a load of {constants['load']:g} N only" if "load" in constants else "loads that follow another input"
+        raise ResultsError(f"--load {load:g}: the surrogate knows {known}; sweep load too")
     return Vehicle(load, speed, given.power)

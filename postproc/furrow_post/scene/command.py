@@ -11,15 +11,15 @@ from typing import Any
 
 from ..errors import Interrupted, ResultsError
 from ..programs import source_tree
-from ..run.script import RESERVED, check_variables
+from ..run.script import RESERVED, check_variables, script_variables
 from ..run.executor import Failed
 from ..run.process import CHECKPOINT
 from ..run.tools import Tools
-from ..sweep.continued import continued_script
+from ..sweep.continued import RESULTS, continued_script
 from ..sweep.sweep_plan import Plan
 from .catalogue import Variables, head_lines, quick_variables, script_of
 from .scene_choice import Chosen, choose, outcome, table_of
-from .one import SceneRun, require_folder, run_scenes, show, words_of
+from .one import SceneRun, ranks_remark, require_folder, run_scenes, show, words_of
 from .options import called, require_fitting
 from .restart import Former, continuation, read_former
 from .scene_summary import verdict_line
@@ -96,12 +96,23 @@ def checked(options: Any) -> Request:
             continued_script(request.script.resolve(), options.until_steady, options.time_limit or 0.0)
         if options.continues:
             request.former = read_former(request.folder, request.script)
-            continuation(request.script, CHECKPOINT)
+            if request.former.checkpoint:
+                continuation(request.script, CHECKPOINT)
         for warning in check_variables(request.script, options.given, RESERVED):
             print(f"WARNING: {warning}", file=sys.stderr)
+        _require_results_variable(options, request.script)
     if options.folder:
         require_folder(options.folder)
     return request
+
+
+def _require_results_variable(options: Any, script: Path) -> None:
+    """@raises ResultsError for a script whose results -o cannot send to a folder"""
+    if options.folder and RESULTS not in script_variables(script, {}).settable:
+        raise ResultsError(
+            f"{script}: has no variable '{RESULTS}', so -o cannot choose the folder of its results; write 'variable "
+            f"{RESULTS} index results/{script.stem}' and 'folder ${{{RESULTS}}}', or leave out -o"
+        )
 
 
 def _sweeps() -> Any:
@@ -125,6 +136,11 @@ def _run(request: Request, post: Post) -> int:
         return int(_sweeps().make_sweep(options, script, request.plan, folder))
     if request.chosen and request.chosen.runs[0][0] == POST:
         return _run_formula(request.chosen, post)
+    if request.former and request.former.finished:
+        print(f"{folder}: the run came to its end before; nothing is left to continue")
+        return 0
+    if request.former and not request.former.checkpoint:
+        print(f"{folder}: the run was stopped before its first checkpoint; it starts again", flush=True)
     print("\n".join(head_lines(script)), flush=True)
     if request.chosen and request.table:
         return _run_chosen(request, request.chosen, request.table)
@@ -188,7 +204,12 @@ def _run_formula(chosen: Chosen, post: Post) -> int:
 
 
 def _run_and_show(run: SceneRun, options: Any) -> None:
-    print(f"Running on {run.ranks} rank(s); results in {run.folder}", flush=True)
+    where = run.folder
+    if RESULTS not in script_variables(run.script, {}).settable:
+        where = Path("the folder that the script names")
+    print(f"Running on {run.ranks} rank(s); results in {where}", flush=True)
+    if run.ranks > 1:
+        print(ranks_remark(run.ranks), flush=True)
     run_scenes(run.folder, [run])
     if (run.folder / "history.h5").is_file():
         if not options.no_pictures:

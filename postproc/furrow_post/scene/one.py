@@ -2,6 +2,7 @@
 """Runs of scenes: their cases, their results folders and their pictures."""
 
 import importlib
+import os
 import shlex
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -15,6 +16,11 @@ from ..run.tools import Tools
 from ..sweep.continued import scene_case
 from .catalogue import Variables, is_shipped
 from .restart import continuation, write_command
+
+
+# As inputs/guide/howto/cluster.md has them
+GAIN_FROM_PARTICLES, GAIN_FROM_GRAINS = 30_000, 20_000
+SHARE_OF_A_CORE = 0.3  # of the last rank, that may be busy
 
 
 @dataclass(frozen=True)
@@ -56,6 +62,19 @@ class SceneRun:
     def begins_inside(self) -> bool:
         """Whether a variable names a file of the results folder."""
         return any(str(self.folder.resolve()) in value for _, value in self.variables)
+
+
+def ranks_remark(ranks: int) -> str:
+    """Whether several ranks can gain anything on this machine now."""
+    cores, load = len(os.sched_getaffinity(0)), os.getloadavg()[0]
+    free = max(0.0, cores - load)
+    machine = f"{ranks} ranks on {cores} core{'s' if cores > 1 else ''}, of which {min(load, cores):.1f} are busy"
+    if ranks > cores or free < ranks - SHARE_OF_A_CORE:
+        return f"{machine}: ranks wait for each other, so expect no gain over one rank; results differ by rounding"
+    return (
+        f"{machine}: continua of more than {GAIN_FROM_PARTICLES:,} particles and beds of more than "
+        f"{GAIN_FROM_GRAINS:,} grains gain; smaller scenes, tyres and height fields do not"
+    )
 
 
 def require_folder(folder: Path) -> None:

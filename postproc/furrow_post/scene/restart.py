@@ -10,6 +10,7 @@ from ..errors import ResultsError, content_of
 from ..json_text import parse_json
 from ..run.script import script_variables
 from ..run.process import FORCED, PARTICLES
+from ..run.record import FINISHED
 from .catalogue import Variables
 
 COMMAND = "command.json"  # what the run was asked to do
@@ -23,7 +24,8 @@ class Former:
 
     variables: Variables
     ranks: int
-    checkpoint: Path
+    checkpoint: Path | None  # None: it was killed before the first one
+    finished: bool = False  # it came to its end
 
 
 def write_command(folder: Path, script: Path, variables: Variables, ranks: int) -> None:
@@ -48,11 +50,8 @@ def read_former(folder: Path, script: Path) -> Former:
     if Path(of) != script.resolve():
         raise ResultsError(f"{folder}: has the results of {of}, not of {script}; name its folder with -o")
     found = _checkpoints(folder)
-    if not found:
-        raise ResultsError(
-            f"{folder}: has no checkpoint; {REMEDY}, and with --checkpoint TIME, which writes some"
-        )
-    return Former(variables, ranks, max(found, key=lambda file: file.stat().st_mtime_ns))
+    last = max(found, key=lambda file: file.stat().st_mtime_ns) if found else None
+    return Former(variables, ranks, last, (folder / FINISHED).is_file())
 
 
 def _checkpoints(folder: Path) -> list[Path]:

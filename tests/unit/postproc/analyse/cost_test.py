@@ -190,6 +190,19 @@ class TableTest(unittest.TestCase):
         self.assertAlmostEqual(needed.size, size, delta=2e-5)
         self.assertAlmostEqual(needed.cpu_time / (1e-4 / size**4), 1, delta=0.05)
 
+    def test_size_for_an_error_follows_the_observed_order(self) -> None:
+        # errors in proportion to the root of the size: a quarter of the size for half the error
+        rows = [
+            row(f"h{h}", "continuum", h, 0.1, 0.2 * (1 - math.sqrt(h)), 1e-4 / h**4, seed="", error=1e-9)
+            for h in (0.04, 0.02, 0.01)
+        ]
+        assessed = cost.assess(rows)
+        finest = min(assessed, key=lambda a: a.row.size)
+        self.assertAlmostEqual(finest.orders["coefficient"], 0.5, places=2)
+        whole, half = (cost.needed(assessed, part * finest.error)[0].size for part in (1.0, 0.5))
+        self.assertAlmostEqual(whole, 0.01, places=5)
+        self.assertAlmostEqual(half / whole, 0.25, places=2)
+
     def test_written_table_comes_back(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "t.csv"

@@ -54,6 +54,13 @@ class ExportTest(FolderTest):
             found = [float(row["hub_drop [m]"]) for row in rows if row["run"] == name]
             self.assertEqual(found, self.history(name)["hub_drop"])
 
+    def test_mistyped_channel_names_the_near_one(self) -> None:
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            self.assertEqual(main(["export", str(self.folder / "a"), "--channels", "hub_dorp"]), 1)
+        self.assertIn("no run has the channel 'hub_dorp'", errors.getvalue())
+        self.assertIn("did you mean 'hub_drop'?", errors.getvalue())
+
     def test_channel_of_one_run_only_leaves_cells_empty(self) -> None:
         with h5py.File(self.folder / "b" / "history.h5", "r+") as content:
             del content["history/slip"]

@@ -12,6 +12,7 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
+from furrow_post.scene.one import ranks_remark
 from support.command import FURROW_POST, SOURCE, run_post
 from support.fake import ANSWER
 from support.folder import FolderTest
@@ -172,8 +173,36 @@ class CommandTest(FolderTest):
             done = self.run_it(name, "-o", "out", "--continue")
             self.assertEqual(done.returncode, 2)
             self.assertIn(message, done.stderr)
+
+    def test_run_that_was_killed_before_its_first_checkpoint_starts_again(self) -> None:
+        begun, _ = self.begin()
+        begun.terminate()
+        begun.communicate(timeout=20)
         (self.folder / "out" / "checkpoint.data").unlink()
-        self.assertIn("has no checkpoint", self.run_it("mine.lig", "-o", "out", "--continue").stderr)
+        done = self.run_it("mine.lig", "-o", "out", "--continue", "-v", "wait", "")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("stopped before its first checkpoint; it starts again", done.stdout)
+        self.assertIn("'speed', '4'", self.started())
+        starts = self.started()
+        done = self.run_it("mine.lig", "-o", "out", "--continue")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("nothing is left to continue", done.stdout)
+        self.assertEqual(self.started(), starts)
+
+    def test_results_folder_of_a_script_without_the_variable_is_refused(self) -> None:
+        self.script("fixed.lig", "# fixed: a script\nvariable speed index 1\n")
+        done = self.run_it("fixed.lig", "-o", "out")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("has no variable 'results', so -o cannot choose the folder", done.stderr)
+        self.assertFalse((self.folder / "out").exists())
+        self.assertIn("results in the folder that the script names", self.run_it("fixed.lig").stdout)
+
+    def test_remark_on_ranks(self) -> None:
+        with mock.patch("os.sched_getaffinity", return_value={0, 1}):
+            for load, words in ((0.1, "continua of more than 30,000 particles"), (1.5, "expect no gain")):
+                with mock.patch("os.getloadavg", return_value=(load, 0, 0)):
+                    self.assertIn(words, ranks_remark(2))
+        self.assertIn("expect no gain", ranks_remark(10_000))
 
     def test_killed_command_leaves_no_program_behind(self) -> None:
         begun, furrow = self.begin()

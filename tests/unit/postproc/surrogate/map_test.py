@@ -2,6 +2,7 @@
 """A mobility map of a wheel with a closed form, on slopes that are known."""
 
 import unittest
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -94,6 +95,12 @@ class MapTest(FolderTest):
                     self.assertAlmostEqual(result.hub_drop[k], drop, delta=2e-4)
                 elif margin < -0.01:
                     self.assertTrue(np.isnan(result.energy[k]))
+
+    def test_load_that_follows_another_input_is_refused(self) -> None:
+        whole = made_surrogate()
+        inputs = tuple(replace(one, name="gravity" if one.name == "load" else one.name) for one in whole.inputs)
+        replace(whole, inputs=inputs).write(self.folder / "wheel.json")
+        self.assertIn("the surrogate knows loads that follow another input; sweep load too", self.map())
 
     def test_power_limits_speed_and_pull(self) -> None:
         ground = {"slope": np.array([10.0]), "phi": np.array([36.0])}
