@@ -12,8 +12,7 @@ const std::vector<UsualRange>& usual_ranges() {
   static const std::vector<UsualRange> table = {
       {"c", "Pa", Range::closed(20.0, 5e6), true, "kPa times 1000, psi times 6895"},
       {"phi", "degrees", Range::closed(2.0, 48.0), false, "radians times 57.3"},
-      {"density", "kg/m3", Range::closed(40.0, 3000.0), false,
-       "g/cm3 times 1000, kN/m3 times 102"},
+      {"density", "kg/m3", Range::closed(40.0, 3000.0), false, "g/cm3 times 1000, kN/m3 times 102"},
       {"E", "Pa", Range::closed(2e4, 1e11), false, "kPa times 1000, MPa times 1e6"},
       {"stress", "Pa", Range::closed(100.0, 1e9), false, "kPa times 1000"},
       {"strain", "", Range::closed(1e-6, 0.9), true, "percent over 100"},
