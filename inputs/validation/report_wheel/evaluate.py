@@ -2,8 +2,6 @@
 """Closed forms: confined compression, with Prandtl's footing for shear ([Shoop2001] eq 19, 20), and NRMM."""
 
 import math
-from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -18,10 +16,10 @@ PHI = math.asin(TAN_BETA / math.sqrt(3))
 NC = (math.exp(math.pi * math.tan(PHI)) * math.tan(math.pi / 4 + PHI / 2) ** 2 - 1) / math.tan(PHI)
 
 
-def closed_form(*_: Any) -> Iterator[dict[str, Any]]:
-    for d in (5e3, 10e3, 20e3, 30e3, 72e3):  # [Pa]; axial stress at the corner of shear line and cap (R near 0)
-        snow = CompressedSnow(RADIUS, WIDTH, 0.20, lambda eps: (p := np.interp(eps, STRAIN, STRENGTH)) + 2 / 3 * (d + p * TAN_BETA))
-        yield {"d": d, "load": LOAD, "snow": snow, "footing": NC * d / (math.sqrt(3) * math.cos(PHI))}
+def closed_form(d: float) -> dict[str, object]:
+    """Axial stress at the corner of shear line and cap (R near 0). d: [Pa]"""
+    snow = CompressedSnow(RADIUS, WIDTH, 0.20, lambda eps: (p := np.interp(eps, STRAIN, STRENGTH)) + 2 / 3 * (d + p * TAN_BETA))
+    return {"d": d, "load": LOAD, "snow": snow, "footing": NC * d / (math.sqrt(3) * math.cos(PHI))}
 
 
 def nrmm(depth: float, density: float) -> tuple[float, float, float]:

@@ -3,6 +3,7 @@
 
 import unittest
 from pathlib import Path
+from typing import Any
 
 from furrow_post.csv_table import read_rows
 from furrow_post.study.definition import evaluation_of
@@ -36,6 +37,15 @@ class StoredTablesTest(unittest.TestCase):
                         self.assertEqual(list(read_rows(folder / name)[0]), listed)
                         seen += 1
         self.assertGreater(seen, 20)
+
+    def test_closed_forms_are_those_that_are_stored(self) -> None:
+        folder = SOURCE / "inputs" / "validation" / "report_wheel"
+        engine = Engine(folder, load_yaml(folder / DEFINITION), evaluation_of(folder))
+        nothing: Any = None  # they need no runs
+        for name in ("closed_form.csv", "nrmm.csv"):
+            rows = engine.rows(nothing, name, Tables(engine))
+            made = [{column: str(value) for column, value in row.items()} for row in rows]
+            self.assertEqual(made, read_rows(folder / name), name)
 
     def test_stored_tables_are_within_the_limits_of_their_study(self) -> None:
         for folder in study_folders(SOURCE):
