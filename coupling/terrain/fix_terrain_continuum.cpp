@@ -31,7 +31,8 @@ constexpr double seconds_of_particle = 5e-8;  // of one core for a step, measure
 constexpr long check_every = 100;             // steps between looks at the energy
 // [J/kg] of the terrain, its weight lifted by 0.1 mm: below it an imbalance does not matter
 constexpr double energy_floor = 1e-3;
-constexpr double same_length = 1e-6;  // of a cell: ground and period of the box
+constexpr double edge_refinement = 3.0;  // of the cells along the sides of a body
+constexpr double same_length = 1e-6;     // of a cell: ground and period of the box
 const std::vector<std::string> followable = {"wheel", "body"};
 
 /// Of ground that follows one wheel: by what the wheel's line says, not by where the wheel is, so
@@ -56,8 +57,36 @@ Schema schema_of_line(LAMMPS_NS::LAMMPS& lammps, int narg, char** arg) {
   return FixTerrainContinuum::schema(size_by_wheel(lammps, options));
 }
 
+/// Short cells where the body of the keyword 'edges' ends: at both sides of a wheel, which travels
+/// along x; all around and below another body.
+void refine_edges(LAMMPS_NS::LAMMPS& lammps, const Options& options,
+                  TerrainParameters& parameters) {
+  if (!options.given("edges")) {
+    if (!options.given("edge_cell")) return;
+    throw InputError(options.where("edge_cell"), "is given without 'edges'",
+                     "the length of cells along the sides of a body", "name the body by 'edges'");
+  }
+  const double cell = options.number("cell");
+  const double shortest =
+      options.given("edge_cell") ? options.number("edge_cell") : cell / edge_refinement;
+  if (shortest > cell)
+    throw InputError(options.where("edge_cell"), fmt::format("is {} m", shortest),
+                     fmt::format("a length up to 'cell', {} m", cell));
+  const Body& body = find_fix<FixBody>(lammps, options, "edges", followable).body();
+  const auto [lower, upper] = body.surface().bounds();
+  const auto refine = [&](AxisLayout& axis, std::vector<double> edges) {
+    axis.edges = std::move(edges);
+    axis.edge_cell = shortest;
+  };
+  refine(parameters.y, {lower.y(), upper.y()});
+  if (dynamic_cast<const WheelHub*>(&body)) return;
+  refine(parameters.x, {lower.x(), upper.x()});
+  refine(parameters.z, {parameters.surface});
+}
+
 std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   TerrainParameters parameters = read_terrain(options, script_folder(lammps));
+  refine_edges(lammps, options, parameters);
   for (const TerrainLayer& layer : parameters.layers)
     for (const std::string& warning : layer.warnings) warn(lammps, warning);
   if (const double particles = size_of(parameters).particles; particles > many_particles)
@@ -83,6 +112,11 @@ Schema FixTerrainContinuum::schema(const std::optional<GroundSize>& size) {
   schema
       .text("follow_last",
             "last body of a convoy; the terrain follows the midpoint between it and `follow`")
+      .optional();
+  schema.text("edges", "id of the fix of a body; cells are short along its sides").optional();
+  schema
+      .number("edge_cell", "m", Range::positive(),
+              "length of these cells across the side; by default a third of `cell`")
       .optional();
   schema
       .integer("slabs", Range::at_least(4),

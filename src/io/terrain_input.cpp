@@ -195,6 +195,14 @@ std::size_t read_surface_mesh_every(const Options& options, const TerrainParamet
   return static_cast<std::size_t>(every);
 }
 
+double residual_share(const Options& options, const std::vector<TerrainLayer>& layers) {
+  if (options.given("residual_share")) return options.number("residual_share");
+  const bool jumps = std::any_of(layers.begin(), layers.end(), [](const TerrainLayer& layer) {
+    return layer.material->stress_has_jumps();
+  });
+  return jumps ? 0.0 : TransferScheme().residual_share;
+}
+
 AxisLayout layout(const Options& options, double lower, double upper, double middle,
                   const std::string& fine_key) {
   AxisLayout axis{lower, upper, options.number("cell"), lower, upper, options.number("growth")};
@@ -306,6 +314,16 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
                "largest number of steps between two transfers of the motion from grid to particles")
       .by_default("16");
   schema
+      .flag("cell_average",
+            "the particles of a cell share their volume change and their pressure: no "
+            "volumetric locking")
+      .by_default("yes");
+  schema
+      .number("residual_share", "", Range::closed(0.0, 1.0),
+              "share of the velocity that the grid cannot show and particles keep at a transfer; "
+              "by default 0.95, or 0 for a law whose stress jumps")
+      .optional();
+  schema
       .number("modulus_scale", "", Range::closed(0.01, 1.0),
               "factor on Young's modulus, for longer steps")
       .by_default(1.0);
@@ -378,6 +396,8 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
                      "ground without grains takes its own step anyway");
   ground.cfl = options.number("cfl");
   ground.remap_interval = static_cast<int>(options.integer("transfer_interval"));
+  ground.scheme.cell_average = options.flag("cell_average");
+  ground.scheme.residual_share = residual_share(options, ground.layers);
   if (options.given("sleep_tolerance")) ground.sleep_tolerance = options.number("sleep_tolerance");
   ground.blocks = read_blocks(options);
   return ground;

@@ -349,6 +349,7 @@ void ActiveGround::bring_to_rest() {
         lost_energy_ += 0.5 * group.mass(p) * square;
         std::fill_n(velocity, 4, 0.0);
         std::fill_n(affine, 12, 0.0);
+        std::fill_n(particles.data(column::residual) + 8 * p, 8, 0.0);
       }
     });
   }

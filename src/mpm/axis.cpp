@@ -37,6 +37,59 @@ std::vector<double> growing_cells(double start, double distance, double cell, do
   return ends;
 }
 
+constexpr double edge_growth = 1.4;
+constexpr double edge_cells = 3.0;  // of equal length, on each side of an edge
+
+/// Length of the cells at a place [m], if they need not fit between the ends. Cells that grow by a
+/// factor g have lengths whose slope is ln g.
+double wanted_length(const AxisLayout& layout, double x) {
+  const double outside = std::max({layout.fine_lower - x, x - layout.fine_upper, 0.0});
+  double length = layout.cell + std::log(layout.growth) * outside;
+  for (const double edge : layout.edges) {
+    const double distance = std::abs(x - edge) - edge_cells * layout.edge_cell;
+    length = std::min(length, layout.edge_cell + std::log(edge_growth) * std::max(0.0, distance));
+  }
+  return length;
+}
+
+/// Ends of the cells between two knots, whose lengths follow wanted_length(); with the upper knot.
+std::vector<double> cells_between(const AxisLayout& layout, double lower, double upper) {
+  // cells per length, summed by the trapezoidal rule in parts that are much shorter than a cell
+  const int parts = static_cast<int>(std::ceil(64.0 * (upper - lower) / layout.edge_cell));
+  const double part = (upper - lower) / parts;
+  std::vector<double> sum = {0.0};
+  double last = 1.0 / wanted_length(layout, lower);
+  for (int i = 1; i <= parts; ++i) {
+    const double next = 1.0 / wanted_length(layout, lower + i * part);
+    sum.push_back(sum.back() + 0.5 * part * (last + next));
+    last = next;
+  }
+  const int cells = std::max(1, static_cast<int>(std::lround(sum.back())));
+  std::vector<double> ends;
+  for (int c = 1, i = 1; c < cells; ++c) {
+    const double wanted = sum.back() * c / cells;
+    while (sum[static_cast<std::size_t>(i)] < wanted) ++i;
+    const double above = sum[static_cast<std::size_t>(i)],
+                 below = sum[static_cast<std::size_t>(i - 1)];
+    ends.push_back(lower + part * (i - (above - wanted) / (above - below)));
+  }
+  ends.push_back(upper);
+  return ends;
+}
+
+/// With a knot at each edge.
+std::vector<double> knots_with_edges(const AxisLayout& layout) {
+  std::vector<double> knots = {layout.lower};
+  std::vector<double> ends = layout.edges;
+  std::sort(ends.begin(), ends.end());
+  ends.push_back(layout.upper);
+  for (const double end : ends) {
+    if (end <= knots.back() || end > layout.upper) continue;
+    for (const double knot : cells_between(layout, knots.back(), end)) knots.push_back(knot);
+  }
+  return knots;
+}
+
 }  // namespace
 
 Axis::Axis(const AxisLayout& layout, const std::string& where) {
@@ -60,12 +113,14 @@ Axis::Axis(const AxisLayout& layout, const std::string& where) {
     knot_.push_back(end);
   knot_.front() = layout.lower;
   knot_.back() = layout.upper;
+  if (!layout.edges.empty()) knot_ = knots_with_edges(layout);
   initial_knot_ = knot_;
   tabulate();
   shortest_at_start_ = shortest_;
 }
 
 double Axis::cell_count(const AxisLayout& layout) {
+  if (!layout.edges.empty()) return static_cast<double>(knots_with_edges(layout).size() - 1);
   const double lower = std::max(layout.lower, layout.fine_lower),
                upper = std::min(layout.upper, layout.fine_upper);
   const double fine = std::max(1.0, std::round((upper - lower) / layout.cell));

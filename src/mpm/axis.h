@@ -25,6 +25,10 @@ struct AxisLayout {
   double fine_upper = 1.0;  ///< its end [m]
   /// ratio of the lengths of neighbouring cells outside the fine stretch, >= 1
   double growth = 1.0;
+  /// where a body ends across the axis: a knot lies there, between short cells [m]
+  std::vector<double> edges = {};
+  /// of the shortest cells there [m]; they grow by a factor of at most 1.4
+  double edge_cell = 0.0;
 };
 
 /// What a kernel needs of an axis (transfer/weights.h): arrays over cells and nodes, owned by the

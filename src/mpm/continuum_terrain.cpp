@@ -81,11 +81,11 @@ ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Co
                 fill_.wave_speeds(discretisation_.grid)),
       distribution_(discretisation_, boundary_),
       remap_(discretisation_, parameters.remap_interval),
-      loads_(discretisation_, remap_),
+      loads_(discretisation_, remap_, parameters.scheme.residual_share),
       slide_(parameters.slide),
       active_(make_active(parameters, discretisation_, boundary_, energy_, where)),
       step_(discretisation_, boundary_, distribution_, remap_, loads_, energy_, parameters.gravity,
-            slide_ ? &*slide_ : nullptr, active_ ? &*active_ : nullptr),
+            parameters.scheme, slide_ ? &*slide_ : nullptr, active_ ? &*active_ : nullptr),
       window_(parameters, discretisation_, distribution_, boundary_, fill_, energy_, where) {
   fill(where);
   step_.capture_initial_tractions();

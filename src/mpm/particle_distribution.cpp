@@ -45,6 +45,7 @@ void ParticleDistribution::sort_by_cell(ParticleGroup& group) {
   const std::size_t n = group.particles.size();
   cell_.resize(n);
   start_.assign(nx * ny * nz + 1, 0);
+  double* cell_of_particle = group.particles.data(column::cell);
   for (std::size_t p = 0; p < n; ++p) {
     const Vector3 x = group.particles.position(p);
     const int c[3] = {grid.axis(0).cell_of(x[0]), grid.axis(1).cell_of(x[1]),
@@ -55,6 +56,7 @@ void ParticleDistribution::sort_by_cell(ParticleGroup& group) {
                    nz +
                static_cast<std::size_t>(c[2]);
     ++start_[cell_[p] + 1];
+    cell_of_particle[p] = static_cast<double>(cell_[p]);
   }
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   order_.resize(n);

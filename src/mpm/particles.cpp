@@ -11,6 +11,23 @@
 
 namespace furrow {
 
+namespace {
+
+int components_of(std::size_t column) {
+  switch (column) {
+    case column::velocity:
+      return 4;
+    case column::affine:
+      return 12;
+    case column::residual:
+      return 8;
+    default:
+      return 1;
+  }
+}
+
+}  // namespace
+
 Particles::AddedValues::AddedValues(std::shared_ptr<AddedColumn> column)
     : column_(std::move(column)) {
   column_->owner = AddedColumn::Owner::present;
@@ -22,7 +39,7 @@ Particles::AddedValues::~AddedValues() {
 
 Particles::Particles(const Material& material) : state_fields_(material.state_fields().size()) {
   for (std::size_t c = 0; c < column::state + state_fields_; ++c) {
-    const int components = c == column::velocity ? 4 : c == column::affine ? 12 : 1;
+    const int components = components_of(c);
     columns_.push_back({components, zeros(components)});
   }
 }
@@ -189,6 +206,8 @@ ParticleView Particles::view(std::size_t first, std::size_t count) {
   }
   view.velocity = data(column::velocity) + 4 * first;
   view.affine = data(column::affine) + 12 * first;
+  view.residual = data(column::residual) + 8 * first;
+  view.cell = data(column::cell) + first;
   view.volume = data(column::volume) + first;
   view.volume_ratio = data(column::state + field::volume_ratio) + first;
   for (std::size_t s = 0; s < 6; ++s)

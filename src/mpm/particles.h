@@ -25,7 +25,10 @@ enum : std::size_t {
   z,         ///< position [m]
   velocity,  ///< four numbers, the last is unused [m/s]
   affine,    ///< C, three columns of four numbers [1/s]
-  volume,    ///< in the reference configuration [m^3]
+  /// what the grid did not take when the interval began (terrain_step.h), of the velocity [m/s] and
+  /// of the spin [1/s]: four numbers each, the last unused
+  residual,
+  volume,  ///< in the reference configuration [m^3]
   quadrature_x,
   quadrature_y,
   quadrature_z,  ///< where the weights are taken (terrain_step.h) [m]
@@ -36,6 +39,7 @@ enum : std::size_t {
   half_y,
   half_z,  ///< half the spacing of the particles at the start [m]
   id,      ///< whole numbers, unique in a terrain
+  cell,    ///< where the particle was at the last sorting, a whole number for each cell
   state    ///< first field of the material's state
 };
 }
@@ -95,6 +99,12 @@ class Particles {
     return Eigen::Map<const Vector3>(data(column::velocity) + 4 * i);
   }
   Matrix3 affine(std::size_t i) const;
+  Vector3 residual_velocity(std::size_t i) const {
+    return Eigen::Map<const Vector3>(data(column::residual) + 8 * i);
+  }
+  Vector3 residual_spin(std::size_t i) const {
+    return Eigen::Map<const Vector3>(data(column::residual) + 8 * i + 4);
+  }
   /// J = V/V0
   double volume_ratio(std::size_t i) const { return data(column::state + field::volume_ratio)[i]; }
 

@@ -3,9 +3,10 @@
 
 namespace furrow {
 
-PointLoads::PointLoads(Discretisation& discretisation, RemapControl& remap)
+PointLoads::PointLoads(Discretisation& discretisation, RemapControl& remap, double residual_share)
     : discretisation_(discretisation),
       remap_(remap),
+      residual_share_(residual_share),
       kernels_(transfer_kernels()),
       forces_(static_cast<std::size_t>(discretisation.grid.fields())),
       grid_motions_(forces_.size()) {}
@@ -58,8 +59,12 @@ void PointLoads::interpolate_motion(const std::vector<ParticleIndex>& particles,
       const Particles& group = particles_of(particles[n]);
       const std::size_t p = particles[n].particle;
       const Vector3 x = group.position(p);
+      const Vector3 w = residual_share_ * group.residual_spin(p);
+      Matrix3 turn;
+      turn << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
       motions[n] = {x, remap_.interval_running() ? group.quadrature_position(p) : x,
-                    group.velocity(p), group.affine(p)};
+                    group.velocity(p) - residual_share_ * group.residual_velocity(p),
+                    group.affine(p) - turn};
     }
     return;
   }

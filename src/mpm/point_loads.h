@@ -26,7 +26,8 @@ struct ParticleMotion {
 /// Each rank adds and asks for its own particles; no call is collective.
 class PointLoads {
  public:
-  PointLoads(Discretisation& discretisation, RemapControl& remap);
+  /// @param residual_share  of TransferScheme
+  PointLoads(Discretisation& discretisation, RemapControl& remap, double residual_share);
 
   /// A force on the ground during the next step [N], through the weights of a particle near the
   /// point where it acts [m]. @param work  of whoever presses: gets the work of the force [J] when
@@ -42,7 +43,8 @@ class PointLoads {
   /// removed.
   void count_work(double dt, TerrainEnergy& energy);
 
-  /// Positions and motions of particles now: of the grid while particles lag behind it.
+  /// Positions and motions of the ground at particles now, as the grid has it: without the residual
+  /// motion, on which forces do no work.
   void interpolate_motion(const std::vector<ParticleIndex>& particles,
                           std::vector<ParticleMotion>& motions);
 
@@ -62,6 +64,7 @@ class PointLoads {
 
   Discretisation& discretisation_;
   RemapControl& remap_;
+  double residual_share_;
   const TransferKernels& kernels_;
   std::vector<PointLoad> loads_;
   // Buffers of a step; forces and motions by velocity field.

@@ -34,6 +34,13 @@ struct Trough {
   double depth = 0.0;  ///< [m]
 };
 
+/// What particles and grid exchange (terrain_step.h, cell_average.h).
+struct TransferScheme {
+  bool cell_average = true;  ///< of volume change and pressure
+  /// share of the residual motion that particles keep at a grid reset, 0 to 1
+  double residual_share = 0.95;
+};
+
 struct TerrainParameters {
   AxisLayout x;  ///< of the grid
   AxisLayout y;
@@ -56,6 +63,7 @@ struct TerrainParameters {
   double cfl = 0.4;  ///< step over (shortest cell)/(wave speed + speed of the ground)
   /// most steps between two remaps of particles and grid (terrain_step.h)
   int remap_interval = 16;
+  TransferScheme scheme = {};
   std::optional<SlideSurface> slide = {};  ///< along which the ground slides on itself
   bool surface_mesh = false;               ///< carries triangles on its free surface, for grains
   std::size_t surface_mesh_every = 1;      ///< particles from node to node of these triangles

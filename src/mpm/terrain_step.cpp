@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "mpm/cell_average.h"
 
 namespace furrow {
 
@@ -18,7 +19,8 @@ constexpr std::size_t chunk = 256;
 
 TerrainStep::TerrainStep(Discretisation& discretisation, Boundary& boundary,
                          ParticleDistribution& distribution, RemapControl& remap, PointLoads& loads,
-                         TerrainEnergy& energy, const Vector3& gravity, const SlideContact* slide,
+                         TerrainEnergy& energy, const Vector3& gravity,
+                         const TransferScheme& scheme, const SlideContact* slide,
                          ActiveGround* active)
     : discretisation_(discretisation),
       boundary_(boundary),
@@ -27,12 +29,36 @@ TerrainStep::TerrainStep(Discretisation& discretisation, Boundary& boundary,
       loads_(loads),
       energy_(energy),
       gravity_(gravity),
+      scheme_(scheme),
       slide_(slide),
       active_(active),
-      kernels_(transfer_kernels()),
-      gradient_storage_(9 * chunk),
-      weights_(batches(chunk)) {
-  for (std::size_t g = 0; g < 9; ++g) gradient_[g] = gradient_storage_.data() + g * chunk;
+      kernels_(transfer_kernels()) {
+  allocate(chunk);
+}
+
+/// Buffers of a chunk.
+void TerrainStep::allocate(std::size_t particles) {
+  if (particles <= normal_stress_storage_.size() / 3) return;
+  gradient_storage_.resize(9 * particles);
+  normal_stress_storage_.resize(3 * particles);
+  weights_.resize(batches(particles));
+  for (std::size_t g = 0; g < 9; ++g) gradient_[g] = gradient_storage_.data() + g * particles;
+  for (std::size_t a = 0; a < 3; ++a)
+    normal_stress_[a] = normal_stress_storage_.data() + a * particles;
+}
+
+/// Calls visit(first, count) for the computed particles, some at a time; those of a cell together.
+template <class Visit>
+void TerrainStep::for_chunks(ParticleGroup& group, Visit&& visit) {
+  const double* cell = group.particles.data(column::cell);
+  group.for_awake([&](std::size_t from, std::size_t to) {
+    for (std::size_t first = from, end; first < to; first = end) {
+      end = std::min(first + chunk, to);
+      while (end < to && cell[end] == cell[end - 1]) ++end;
+      allocate(end - first);
+      visit(first, end - first);
+    }
+  });
 }
 
 void TerrainStep::advance(double dt) {
@@ -82,9 +108,8 @@ void TerrainStep::move_nodes(double dt) {
 void TerrainStep::update_particles(double dt) {
   for (ParticleGroup& group : discretisation_.groups) {
     const GridView view = discretisation_.local_view(group.field);
-    group.for_awake([&](std::size_t from, std::size_t to) {
-      for (std::size_t first = from; first < to; first += chunk)
-        update_particles(group, first, std::min(chunk, to - first), view, dt);
+    for_chunks(group, [&](std::size_t first, std::size_t count) {
+      update_particles(group, first, count, view, dt);
     });
   }
 }
@@ -138,6 +163,12 @@ void TerrainStep::particles_to_grid() {
   discretisation_.for_awake_nodes(
       [&](const NodeBlock& local, const NodeBlock&) { grid.compute_velocities(local); });
   if (active_) active_->stop_border();
+  if (scheme_.residual_share > 0.0)
+    for (ParticleGroup& group : discretisation_.groups)
+      group.for_awake([&](std::size_t from, std::size_t to) {
+        kernels_.gather_residual(discretisation_.local_view(group.field),
+                                 group.particles.view(from, to - from));
+      });
   scatter_stress_forces();
 }
 
@@ -145,12 +176,10 @@ void TerrainStep::particles_to_grid() {
 void TerrainStep::scatter_stress_forces() {
   for (ParticleGroup& group : discretisation_.groups) {
     const GridView view = discretisation_.local_view(group.field);
-    group.for_awake([&](std::size_t from, std::size_t to) {
-      for (std::size_t first = from; first < to; first += chunk) {
-        const ParticleView particles = group.particles.view(first, std::min(chunk, to - first));
-        kernels_.find_weights(view, particles, weights_.data());
-        kernels_.scatter_force(view, particles, weights_.data());
-      }
+    for_chunks(group, [&](std::size_t first, std::size_t count) {
+      const ParticleView particles = group.particles.view(first, count);
+      kernels_.find_weights(view, particles, weights_.data());
+      scatter_force(view, particles);
     });
   }
 }
@@ -162,12 +191,19 @@ void TerrainStep::update_particles(ParticleGroup& group, std::size_t first, std:
   const ParticleView particles = group.particles.view(first, count);
   kernels_.find_weights(grid, particles, weights_.data());
   kernels_.gather_strain(grid, particles, weights_.data(), dt, gradient_.data());
+  if (scheme_.cell_average) average_volume_change(particles, gradient_.data());
   // The work of the mean of the stresses before and after the step: with either alone, the audit of
   // a vibrating body drifts by O(dt).
   energy_.add_half_stress_work(kernels_.stress_work(particles, gradient_.data()));
   update_stress(group, first, count, dt);
   energy_.add_half_stress_work(kernels_.stress_work(particles, gradient_.data()));
-  if (!remap_.last_step()) kernels_.scatter_force(grid, particles, weights_.data());
+  if (!remap_.last_step()) scatter_force(grid, particles);
+}
+
+/// Of the stress with the mean pressure of each cell; the weights are known.
+void TerrainStep::scatter_force(const GridView& grid, ParticleView particles) {
+  if (scheme_.cell_average) average_pressure(particles, normal_stress_.data());
+  kernels_.scatter_force(grid, particles, weights_.data());
 }
 
 void TerrainStep::update_stress(ParticleGroup& group, std::size_t first, std::size_t count,
@@ -194,7 +230,7 @@ void TerrainStep::grid_to_particles() {
   for (ParticleGroup& group : discretisation_.groups)
     group.for_awake([&](std::size_t from, std::size_t to) {
       kernels_.gather_motion(discretisation_.local_view(group.field),
-                             group.particles.view(from, to - from));
+                             group.particles.view(from, to - from), scheme_.residual_share);
     });
   clear_displacement();
 }

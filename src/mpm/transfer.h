@@ -7,15 +7,17 @@
 /// With N_i the quadratic B-splines of a particle's 27 nodes, d_i = x_i - x_p and
 /// D = sum N_i d_i d_i^T (diagonal for a product grid):
 ///   scatter_momentum   m_i = sum_p N_i m,   m_i v_i = sum_p N_i m (v + C d_i)
-///   gather_motion      v = sum N_i v_i,     C = (sum N_i v_i d_i^T) D^-1
+///   gather_residual    r = v - sum N_i v_i, w = the spin of C - (sum N_i v_i d_i^T) D^-1
+///   gather_motion      v = sum N_i v_i + a r,   C = (sum N_i v_i d_i^T) D^-1 + a [w]x
 ///   scatter_force      f_i = -sum_p V sigma G_i
 ///   gather_strain      H = dt sum v_i G_i^T
 /// Linear momentum is conserved because sum N_i = 1, angular momentum because C carries it
-/// [Jiang2017]. Force and strain have the same G_i, so the work of the stress is what the grid
-/// loses. G_i = N_i D^-1 d_i [Hu2018] sums to the integral of grad N_i over a cell if all cells
-/// have one length, so a uniform stress leaves the inner nodes at rest. In cells at the end of an
-/// axis or next to cells of another length the error would reach 40 % of the stress; there, in
-/// those directions, G_i = grad N_i.
+/// [Jiang2017]. The residual motion r, w has neither: what r has of angular momentum, w takes back.
+/// Therefore any share a of it may be kept [Fei2021]. Force and strain have the same G_i, so the
+/// work of the stress is what the grid loses. G_i = N_i D^-1 d_i [Hu2018] sums to the integral of
+/// grad N_i over a cell if all cells have one length, so a uniform stress leaves the inner nodes at
+/// rest. In cells at the end of an axis or next to cells of another length the error would reach 40
+/// % of the stress; there, in those directions, G_i = grad N_i.
 ///
 /// All weights are those at a particle's quadrature position, which stays while the grid moves with
 /// the ground (terrain_step.h).
@@ -60,7 +62,9 @@ struct ParticleView {
   double* velocity = nullptr;  ///< four numbers for each particle, the last is unused [m/s]
   /// C column by column: 3 x 4 numbers for each particle, the fourth of a column is zero [1/s]
   double* affine = nullptr;
-  const double* volume = nullptr;        ///< in the reference configuration [m^3]
+  double* residual = nullptr;      ///< r and w of gather_residual(), four numbers each [m/s, 1/s]
+  const double* cell = nullptr;    ///< equal for the particles of a cell, which follow one another
+  const double* volume = nullptr;  ///< in the reference configuration [m^3]
   const double* volume_ratio = nullptr;  ///< J
   const double* stress[6] = {};          ///< xx, yy, zz, xy, yz, xz [Pa]
 };
@@ -107,8 +111,11 @@ struct TransferKernels : KernelTable {
                         double* const* gradient) = nullptr;
   /// Of the particles with their present stress.
   StressWork (*stress_work)(const ParticleView&, const double* const* gradient) = nullptr;
-  /// Moves the particles by the nodes' displacement and takes the nodes' velocity.
-  void (*gather_motion)(const GridView&, const ParticleView&) = nullptr;
+  /// What a fresh grid does not take of the motion of the particles.
+  void (*gather_residual)(const GridView&, const ParticleView&) = nullptr;
+  /// Moves the particles by the nodes' displacement and takes the nodes' velocity, with a share of
+  /// the residual motion.
+  void (*gather_motion)(const GridView&, const ParticleView&, double share) = nullptr;
   void (*interpolate_motion)(const GridView&, PointMotion*, std::size_t count) = nullptr;
 
   static const TransferKernels& baseline();

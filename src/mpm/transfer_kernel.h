@@ -15,6 +15,7 @@ constexpr void fill(TransferKernels& kernels) {
   kernels.scatter_point_forces = scatter_point_forces;
   kernels.gather_strain = gather_strain;
   kernels.stress_work = stress_work;
+  kernels.gather_residual = gather_residual;
   kernels.gather_motion = gather_motion;
   kernels.interpolate_motion = interpolate_motion;
 }

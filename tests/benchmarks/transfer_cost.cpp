@@ -61,7 +61,7 @@ class Scene {
       kernels_.scatter_force(grid_.view(), particles, weights_.data());
     }
   }
-  void motion() { kernels_.gather_motion(grid_.view(), view()); }
+  void motion() { kernels_.gather_motion(grid_.view(), view(), 0.95); }
   std::size_t size() const { return particles_.size(); }
 
  private:

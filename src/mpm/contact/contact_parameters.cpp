@@ -27,8 +27,9 @@ Schema ContactParameters::schema(const std::string& subject) {
       .by_default(0.0);
   schema
       .number("stiffness", "", Range::closed(0.01, 100.0),
-              "spring stiffness of a particle over wave modulus times cube root of its volume")
-      .by_default(0.4);
+              "spring stiffness of a particle over wave modulus times cube root of its volume; by "
+              "default 1.6, or less where the step of the ground needs it")
+      .optional();
   schema
       .number("damping", "", Range::closed(0.0, 1.0),
               "damping ratio of the contact spring with the particle's mass; 1: critical")
@@ -55,7 +56,7 @@ ContactParameters ContactParameters::from(const Options& options) {
                : surface == "smooth" ? 0.0
                                      : options.number("friction");
   p.slip_length = options.number("slip_length");
-  p.stiffness = options.number("stiffness");
+  if (options.given("stiffness")) p.stiffness = options.number("stiffness");
   p.damping = options.number("damping");
   return p;
 }

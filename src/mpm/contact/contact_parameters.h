@@ -2,6 +2,7 @@
 #pragma once
 /// The parameters of a contact between a surface and a terrain, and the keys that set them.
 
+#include <optional>
 #include <string>
 
 #include "core/options.h"
@@ -13,8 +14,9 @@ struct ContactParameters {
   double friction = 0.3;                ///< mu of Coulomb's law; 0: smooth, infinity: rough
   /// k of [Shoop2001] eq. 26 [m]: tau = mu sigma (1 - exp(-j/k)), j the slip; 0: Coulomb's law
   double slip_length = 0.0;
-  /// spring of a particle over (wave modulus) x (cube root of its volume)
-  double stiffness = 0.4;
+  /// spring of a particle over (wave modulus) x (cube root of its volume); without: chosen for the
+  /// ground's step (PenaltyLaw::fit)
+  std::optional<double> stiffness = {};
   double damping = 0.1;  ///< of the spring with the particle's mass, of critical
 
   /// The keys of a contact. @param subject  names the owner in errors

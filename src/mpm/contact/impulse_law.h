@@ -22,7 +22,7 @@ class ImpulseLaw {
   explicit ImpulseLaw(const ContactParameters& parameters)
       : friction_{parameters.friction, parameters.slip_length} {}
 
-  void check(const TerrainParameters&, const std::string&) const {}
+  void fit(const TerrainParameters&, const std::string&) const {}
   void update_stiffness(const ParticleGroup&, std::size_t, ContactHistory&, ContactLosses&) const {}
   Vector3 force(const ContactMotion& contact, double dt, ContactHistory& history,
                 ContactLosses& losses) const;

@@ -13,6 +13,9 @@ namespace furrow {
 
 namespace {
 
+constexpr double margin = 0.8;          // of a stiffness that is chosen
+constexpr double most_stiffness = 1e3;  // above what a contact may have
+
 /// An explicit step of dt needs 4 m - 2 dt c - dt^2 k > 0 in every mode, with dampers that act on
 /// the velocity of the step before. A particle with the weights N_i adds to the masses m N_i, so
 /// that its modes are the value u of a velocity field at the particle and the gradient times
@@ -28,35 +31,48 @@ bool is_stable(double a, double b, double n) {
 
 }  // namespace
 
-void PenaltyLaw::check(const TerrainParameters& terrain, const std::string& where) const {
+/// With which the law is stable on all layers.
+double PenaltyLaw::largest_stiffness(const TerrainParameters& terrain,
+                                     const std::string& where) const {
   const auto& per_cell = terrain.particles_per_cell;
   const double most = *std::max_element(per_cell.begin(), per_cell.end());
   const double least = *std::min_element(per_cell.begin(), per_cell.end());
-  const auto stable = [&](const Material& material, double stiffness) {
-    const ElasticModuli moduli = material.moduli(material.initial_state());
-    const double eigenvalue = std::max(3.0 * moduli.bulk, 2.0 * moduli.shear) / moduli.wave();
-    const double spring = most * terrain.cfl * std::sqrt(stiffness);
-    return is_stable(4.0 * terrain.cfl * terrain.cfl * eigenvalue,
-                     spring * (spring + 4.0 * damping_), least);
+  const auto stable = [&](double stiffness) {
+    return std::all_of(
+        terrain.layers.begin(), terrain.layers.end(), [&](const TerrainLayer& layer) {
+          const ElasticModuli moduli = layer.material->moduli(layer.material->initial_state());
+          const double eigenvalue = std::max(3.0 * moduli.bulk, 2.0 * moduli.shear) / moduli.wave();
+          const double spring = most * terrain.cfl * std::sqrt(stiffness);
+          return is_stable(4.0 * terrain.cfl * terrain.cfl * eigenvalue,
+                           spring * (spring + 4.0 * damping_), least);
+        });
   };
-  for (const TerrainLayer& layer : terrain.layers) {
-    if (stable(*layer.material, stiffness_)) continue;
-    if (!stable(*layer.material, 0.0))
-      throw InputError(where, fmt::format("presses on ground with steps of cfl {}", terrain.cfl),
-                       "cfl below sqrt(M/3K), with the wave modulus M and the bulk modulus K",
-                       "lower the ground's cfl");
-    double allowed = 0.0, refused = stiffness_;
-    while (refused - allowed > 1e-4 * refused) {
-      const double middle = 0.5 * (allowed + refused);
-      (stable(*layer.material, middle) ? allowed : refused) = middle;
-    }
-    throw InputError(where,
-                     fmt::format("has a stiffness of {}, too stiff for steps of cfl {} with {} "
-                                 "particles along a cell and damping {}",
-                                 stiffness_, terrain.cfl, most, damping_),
-                     fmt::format("stiffness below {:.3g}", allowed),
-                     "lower the stiffness, the damping, or the ground's cfl");
+  if (!stable(0.0))
+    throw InputError(where, fmt::format("presses on ground with steps of cfl {}", terrain.cfl),
+                     "cfl below sqrt(M/3K), with the wave modulus M and the bulk modulus K",
+                     "lower the ground's cfl");
+  double allowed = 0.0, refused = most_stiffness;
+  if (stable(refused)) return refused;
+  while (refused - allowed > 1e-4 * refused) {
+    const double middle = 0.5 * (allowed + refused);
+    (stable(middle) ? allowed : refused) = middle;
   }
+  return allowed;
+}
+
+void PenaltyLaw::fit(const TerrainParameters& terrain, const std::string& where) {
+  const double largest = largest_stiffness(terrain, where);
+  if (!stiffness_) stiffness_ = std::min(usual_stiffness, margin * largest);
+  if (*stiffness_ < largest) return;
+  throw InputError(where,
+                   fmt::format("has a stiffness of {}, too stiff for steps of cfl {} with {} "
+                               "particles along a cell and damping {}",
+                               *stiffness_, terrain.cfl,
+                               *std::max_element(terrain.particles_per_cell.begin(),
+                                                 terrain.particles_per_cell.end()),
+                               damping_),
+                   fmt::format("stiffness below {:.3g}", largest),
+                   "lower the stiffness, the damping, or the ground's cfl");
 }
 
 }  // namespace furrow

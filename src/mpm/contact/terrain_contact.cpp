@@ -19,7 +19,7 @@ TerrainContact::TerrainContact(Body& body, ContinuumTerrain& terrain,
       law_(make_contact_law(parameters, where)),
       search_(body, terrain),
       narrow_phase_(body) {
-  std::visit([&](const auto& law) { law.check(terrain.parameters(), where); }, law_);
+  std::visit([&](auto& law) { law.fit(terrain.parameters(), where); }, law_);
   if (half_model) mirror_.emplace(body.surface(), terrain.grid().axis(1).lower(), where);
   for (ParticleGroup& group : terrain_.unsynchronised_groups())
     history_columns_.push_back(group.particles.add_column(where, contact_history_numbers));

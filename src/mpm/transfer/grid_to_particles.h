@@ -109,7 +109,22 @@ inline StressWork stress_work(const ParticleView& particles, const double* const
   }
 }
 
-inline void gather_motion(const GridView& grid, const ParticleView& all) {
+/// The spin w about each axis for which the affine velocity [w]x of a particle has a moment of
+/// momentum over mass: w_a = M_a/(D_b + D_c).
+[[gnu::always_inline]] inline Vector4 moment_to_spin(const Vector4& moment,
+                                                     const Vector4& per_spread) {
+  const auto along = [&](int a, int b, int c) __attribute__((always_inline)) {
+    return moment[a] * per_spread[b] * per_spread[c] / (per_spread[b] + per_spread[c]);
+  };
+  return Vector4{along(0, 1, 2), along(1, 2, 0), along(2, 0, 1), 0.0};
+}
+
+[[gnu::always_inline]] inline Vector4 cross(const Vector4& a, const Vector4& b) {
+  return Vector4{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0],
+                 0.0};
+}
+
+inline void gather_residual(const GridView& grid, const ParticleView& all) {
   const Strides stride(grid);
   for_batches(all, [&](const ParticleView& particles, std::size_t) {
     Weights weights;
@@ -117,12 +132,42 @@ inline void gather_motion(const GridView& grid, const ParticleView& all) {
     for (std::size_t p = 0; p < particles.size; ++p) {
       Vector4 velocity, affine[3];
       interpolate_affine(grid, stride, weights, p, velocity, affine);
-      *reinterpret_cast<Stored4*>(particles.velocity + 4 * p) = velocity;
-      Stored4* stored = reinterpret_cast<Stored4*>(particles.affine + 12 * p);
-      for (int d = 0; d < 3; ++d) stored[d] = affine[d];
+      Stored4* residual = reinterpret_cast<Stored4*>(particles.residual + 8 * p);
+      residual[0] = *reinterpret_cast<const Stored4*>(particles.velocity + 4 * p) - velocity;
+      const Stored4* carried = reinterpret_cast<const Stored4*>(particles.affine + 12 * p);
+      for (int d = 0; d < 3; ++d) affine[d] = carried[d] - affine[d];
+      const Vector4 per_spread = {weights.inverse_spread[0][p], weights.inverse_spread[1][p],
+                                  weights.inverse_spread[2][p], 1.0};
+      for (int d = 0; d < 3; ++d) affine[d] /= per_spread[d];
+      const Vector4 moment = {affine[1][2] - affine[2][1], affine[2][0] - affine[0][2],
+                              affine[0][1] - affine[1][0], 0.0};
+      residual[1] = moment_to_spin(moment, per_spread);
+    }
+  });
+}
+
+inline void gather_motion(const GridView& grid, const ParticleView& all, double share) {
+  const Strides stride(grid);
+  for_batches(all, [&](const ParticleView& particles, std::size_t) {
+    Weights weights;
+    find_batch_weights<Slope::moment>(grid, particles.quadrature_position, particles.size, weights);
+    for (std::size_t p = 0; p < particles.size; ++p) {
+      Vector4 velocity, affine[3];
+      interpolate_affine(grid, stride, weights, p, velocity, affine);
       Vector4 displacement;
       interpolate(grid.displacement, stride, weights, p, displacement);
       for (int a = 0; a < 3; ++a) particles.position[a][p] += displacement[a];
+      Stored4* residual = reinterpret_cast<Stored4*>(particles.residual + 8 * p);
+      // what the particle's way adds to the angular momentum of r, the spin takes back
+      const Vector4 per_spread = {weights.inverse_spread[0][p], weights.inverse_spread[1][p],
+                                  weights.inverse_spread[2][p], 0.0};
+      residual[1] -= moment_to_spin(cross(displacement, residual[0]), per_spread);
+      const Vector4 w = share * residual[1];
+      const Vector4 turn[3] = {
+          {0.0, w[2], -w[1], 0.0}, {-w[2], 0.0, w[0], 0.0}, {w[1], -w[0], 0.0, 0.0}};
+      *reinterpret_cast<Stored4*>(particles.velocity + 4 * p) = velocity + share * residual[0];
+      Stored4* stored = reinterpret_cast<Stored4*>(particles.affine + 12 * p);
+      for (int d = 0; d < 3; ++d) stored[d] = affine[d] + turn[d];
     }
   });
 }

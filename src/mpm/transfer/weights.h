@@ -138,6 +138,8 @@ inline ParticleView sub_view(const ParticleView& all, std::size_t first, std::si
   for (double*& x : some.position) advance(x, 1);
   advance(some.velocity, 4);
   advance(some.affine, 12);
+  advance(some.residual, 8);
+  advance(some.cell, 1);
   advance(some.volume, 1);
   advance(some.volume_ratio, 1);
   for (const double*& s : some.stress) advance(s, 1);

@@ -95,7 +95,9 @@ TEST(ActiveGround, NeglectsLessThanItReports) {
   EXPECT_GT(neglect.energy, 0.0);
   EXPECT_LE(neglect.energy, tolerance * active.ground.work().contact);
   const EnergyBudget budget = active.ground.energy_budget();
-  EXPECT_NEAR(budget.residual(), all.ground.energy_budget().residual(), 1e-6 * budget.contact_work);
+  const double residual = all.ground.energy_budget().residual();
+  EXPECT_LT(std::abs(residual), 1e-3 * budget.contact_work);
+  EXPECT_NEAR(budget.residual(), residual, 0.01 * std::abs(residual));
 }
 
 /// Sleeping ground keeps place and stress, and its base keeps its weight.

@@ -193,5 +193,30 @@ TEST(Axis, RefusesLayoutsWithoutSense) {
   EXPECT_THAT(refusal({0.0, 1.0, 0.1, 0.0, 0.5, 2.0}), HasSubstr("coarser steps reflect waves"));
 }
 
+/// Two edges of a body: a knot at each, three cells of the asked length on both sides as nearly as
+/// the lengths between knots allow, and cells that grow by 1.4 at most up to the usual length.
+TEST(Axis, HasShortCellsAtEdges) {
+  AxisLayout layout{-1.0, 2.0, 0.1, -0.5, 1.0, 1.2};
+  layout.edges = {0.37, -0.113};
+  layout.edge_cell = 0.025;
+  const Axis axis(layout, "y axis");
+  EXPECT_EQ(Axis::cell_count(layout), axis.cells());
+  EXPECT_EQ(axis.lower(), -1.0);
+  EXPECT_EQ(axis.upper(), 2.0);
+  for (const double edge : layout.edges) {
+    const int cell = axis.cell_of(edge);
+    EXPECT_EQ(axis.knot(cell), edge);
+    for (int c = cell - 3; c < cell + 3; ++c) EXPECT_NEAR(axis.length(c), 0.025, 0.004) << edge;
+  }
+  double longest = 0.0;
+  for (int c = 1; c < axis.cells(); ++c) {
+    const double ratio = axis.length(c) / axis.length(c - 1);
+    EXPECT_LT(std::max(ratio, 1.0 / ratio), 1.5) << "at " << axis.knot(c);
+    if (axis.knot(c) > -0.5 && axis.knot(c + 1) < 1.0) longest = std::max(longest, axis.length(c));
+  }
+  EXPECT_NEAR(longest, 0.1, 0.01);
+  EXPECT_GT(axis.length(0), 0.15);  // grown
+}
+
 }  // namespace
 }  // namespace furrow::axis_test

@@ -92,6 +92,7 @@ struct Block {
     p.z = even(0, 0.15, 0.025);
     set_boundary(p, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
     p.surface_mesh = true;
+    p.scheme = {false, 0.0};  // damps the waves of the release
     p.surface_mesh_every = 2;
     p.multirate = steps > 1;
     p.cfl = 0.4 * (steps + 0.2) / 8.2;

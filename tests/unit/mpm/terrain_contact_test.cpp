@@ -159,7 +159,7 @@ TEST(TerrainContact, CanBeDefinedOnceMore) {
 /// it.
 TEST(TerrainContact, SpringsPushByTheirPenetration) {
   ContinuumTerrain ground = block();
-  const double depth = 1e-4, stiffness = 0.4 * (1e6 * 0.8 / (1.2 * 0.6)) * 0.0125;  // 0.4 M V^(1/3)
+  const double depth = 1e-4, stiffness = 1.6 * (1e6 * 0.8 / (1.2 * 0.6)) * 0.0125;  // 1.6 M V^(1/3)
   RigidPlate plate({PlateShape::square, 0.1, 0.05, 4}, {0, 0, -depth});
   TerrainContact contact(plate, ground, ContactParameters{}, false, "foot");
   contact.apply(1e-5);

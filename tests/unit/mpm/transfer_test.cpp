@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <random>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -27,6 +29,7 @@ struct Cloud {
         affine(12 * count),
         volume(count),
         ratio(count),
+        residual(8 * count, std::numeric_limits<double>::quiet_NaN()),
         gradient(9 * count) {
     grid.store(grid.all_nodes());
     std::mt19937 random(7);
@@ -57,6 +60,7 @@ struct Cloud {
     }
     v.velocity = velocity.data();
     v.affine = affine.data();
+    v.residual = residual.data();
     v.volume = volume.data();
     v.volume_ratio = ratio.data();
     for (int s = 0; s < 6; ++s) v.stress[s] = stress[s].data();
@@ -88,12 +92,16 @@ struct Cloud {
     find_weights();
     transfer_kernels().gather_strain(grid.view(), view(), weights.data(), dt, gradients);
   }
-  void take_motion() { transfer_kernels().gather_motion(grid.view(), view()); }
+  /// @param share  of the residual motion of the last scatter_momentum that particles keep
+  void take_motion(double share = 0.0) {
+    if (share == 0.0) std::fill(residual.begin(), residual.end(), 0.0);
+    transfer_kernels().gather_motion(grid.view(), view(), share);
+  }
 
   Grid grid;
   static constexpr double rho = 300.0;
   std::vector<std::vector<double>> moved;
-  std::vector<double> position[3], velocity, affine, volume, ratio, gradient, stress[6];
+  std::vector<double> position[3], velocity, affine, volume, ratio, residual, gradient, stress[6];
   double* gradients[9];
   std::vector<Weights> weights;
 };
@@ -117,6 +125,7 @@ TEST(Transfer, AllInstructionSetsAgree) {
     ASSERT_EQ(kernels.scatter_momentum(grid.view(), particles, rho), 0u);
     std::vector<double> nodes = numbers_of(grid);
     grid.compute_velocities(grid.all_nodes());
+    kernels.gather_residual(grid.view(), particles);
     cloud.find_weights(kernels);
     kernels.scatter_force(grid.view(), particles, cloud.weights.data());
     const PointForce forces[2] = {{{0.5, 0.1, 0.3}, {1.0, -2.0, 0.5}, {0.01, 0.0, -0.02}},
@@ -136,7 +145,7 @@ TEST(Transfer, AllInstructionSetsAgree) {
     after.insert(after.end(), point.displacement, point.displacement + 3);
     after.insert(after.end(), point.velocity, point.velocity + 3);
     after.insert(after.end(), point.affine, point.affine + 12);
-    kernels.gather_motion(grid.view(), particles);
+    kernels.gather_motion(grid.view(), particles, 0.95);
     for (const auto& x : cloud.moved) after.insert(after.end(), x.begin(), x.end());
     for (std::size_t p = 0; p < particles.size; ++p)
       after.insert(after.end(), &cloud.velocity[4 * p], &cloud.velocity[4 * p] + 3);
@@ -181,6 +190,7 @@ TEST(Transfer, StoredColumnsHaveTheBitsOfTheWholeGrid) {
       const ParticleView particles = cloud.view();
       ASSERT_EQ(kernels.scatter_momentum(grid.view(), particles, rho), 0u);
       grid.compute_velocities(part);
+      kernels.gather_residual(grid.view(), particles);
       cloud.find_weights(kernels);
       kernels.scatter_force(grid.view(), particles, cloud.weights.data());
       nodes.emplace_back();
@@ -192,7 +202,7 @@ TEST(Transfer, StoredColumnsHaveTheBitsOfTheWholeGrid) {
       grid.accelerate(part, dt, {100.0, 200.0, -9800.0});
       grid.move(part, part, dt);
       kernels.gather_strain(grid.view(), particles, cloud.weights.data(), dt, cloud.gradients);
-      kernels.gather_motion(grid.view(), particles);
+      kernels.gather_motion(grid.view(), particles, 0.95);
       taken.push_back(cloud.gradient);
       for (const auto& x : cloud.moved) taken.back().insert(taken.back().end(), x.begin(), x.end());
       taken.back().insert(taken.back().end(), cloud.affine.begin(), cloud.affine.end());
@@ -338,6 +348,39 @@ TEST(Transfer, ToTheGridKeepsMassAndMomenta) {
   const double scale = mass;  // speeds are of the order of 1 m/s, levers of 1 m
   EXPECT_LT((nodes_momentum - momentum).norm(), 1e-12 * scale);
   EXPECT_LT((nodes_angular - angular).norm(), 1e-12 * scale);
+}
+
+/// Momentum and angular momentum of the nodes, about the origin.
+std::pair<Vector3, Vector3> momenta_of(Cloud& cloud) {
+  Vector3 momentum = Vector3::Zero(), angular = momentum;
+  cloud.for_nodes([&](const NodeSum& node, const NodeMotion&, const Vector3& x) {
+    momentum += Eigen::Map<const Vector3>(node.total);
+    angular += x.cross(Eigen::Map<const Vector3>(node.total));
+  });
+  return {momentum, angular};
+}
+
+/// Particles that keep a share of what the nodes did not take bring the same momentum and angular
+/// momentum to the next grid, and more kinetic energy than those that keep nothing.
+TEST(Transfer, ResidualMotionHasNoMomentumAndNoAngularMomentum) {
+  Vector3 before[2], after[2];
+  double energy[2];
+  for (const bool keep : {false, true}) {
+    Cloud cloud(2000);
+    Grid& grid = cloud.grid;
+    cloud.give_momentum();
+    std::tie(before[0], before[1]) = momenta_of(cloud);
+    grid.compute_velocities(grid.all_nodes());
+    transfer_kernels().gather_residual(grid.view(), cloud.view());
+    cloud.take_motion(keep ? 0.95 : 0.0);
+    cloud.give_momentum();
+    std::tie(after[0], after[1]) = momenta_of(cloud);
+    for (int n = 0; n < 2; ++n) EXPECT_LT((after[n] - before[n]).norm(), 1e-12);
+    grid.compute_velocities(grid.all_nodes());
+    energy[keep] = grid.move(grid.all_nodes(), grid.all_nodes(), dt).kinetic_energy;
+  }
+  EXPECT_GT(before[1].norm(), 1e-3);
+  EXPECT_GT(energy[1], 1.1 * energy[0]);
 }
 
 /// The forces of any stress are in balance, and so are their moments.

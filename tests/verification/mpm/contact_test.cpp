@@ -125,7 +125,8 @@ TEST_P(Enforcements, SlidesAsEquation26Says) {
 /// touches is stopped by its mass in every step, F = m v/dt. N_c of N equal particles touch: the
 /// block creeps with g sin(slope) dt N/N_c.
 TEST_P(Enforcements, RoughSurfaceHoldsOrCreepsWithTheStep) {
-  const ContactParameters parameters = law(std::numeric_limits<double>::infinity(), 1.0);
+  ContactParameters parameters = law(std::numeric_limits<double>::infinity(), 1.0);
+  parameters.stiffness = 0.4;
   const double slope = std::atan(0.6), half_duration = 0.1;
   const double g = standard_gravity * std::sin(slope);
   Incline rough(slope, parameters);
@@ -138,7 +139,7 @@ TEST_P(Enforcements, RoughSurfaceHoldsOrCreepsWithTheStep) {
     // weight along the slope, stretch and rotation of springs k per area under it.
     constexpr double H = 0.1, L = 0.2, E = 1e6, nu = 0.2, rho = 1000.0, spacing = 0.0125;
     const double G = E / (2.0 * (1.0 + nu)), M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
-    const double k = parameters.stiffness * M / spacing;
+    const double k = *parameters.stiffness * M / spacing;
     const double at_rest = rho * g * H *
                            (1.2 * H / (3.0 * G) + 0.6 * std::pow(H, 3) / (E * L * L) + 1.0 / k +
                             3.0 * H * H / (k * L * L));
@@ -232,9 +233,9 @@ TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
     impulse += dt * mass * p.gravity;
     pressed = std::max(pressed, contact.force().z());
     const EnergyBudget b = ground.energy_budget();
-    // A remap only takes. Within an interval the works of an explicit step are off by what comes
-    // back in the next.
-    EXPECT_GE(b.numerical_loss, loss - 5e-3 * b.contact_work - 1e-9);
+    // A grid reset takes, and gives back from the residual motion. Within an interval the works of
+    // an explicit step are off by what comes back in the next.
+    EXPECT_GE(b.numerical_loss, loss - 5e-3 * b.contact_work - 1e-8);
     loss = std::max(loss, b.numerical_loss);
     Vector3 from_faces = Vector3::Zero();
     for (const Face face : all_faces) from_faces += ground.boundary_impulse(face);

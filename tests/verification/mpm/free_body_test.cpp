@@ -17,11 +17,13 @@ constexpr double cell = 0.05;
 
 /// Ground that fills a grid of 1 m.
 TerrainParameters block(double E, double cfl = 0.4,
-                        int remap_interval = TerrainParameters().remap_interval) {
+                        int remap_interval = TerrainParameters().remap_interval,
+                        const TransferScheme& scheme = {}) {
   TerrainParameters parameters =
       box(material_of(elastic(E, 0.3, 500)), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, cell);
   parameters.cfl = cfl;
   parameters.remap_interval = remap_interval;
+  parameters.scheme = scheme;
   return parameters;
 }
 
@@ -82,8 +84,8 @@ struct Spin {
   double momentum = 0.0, angular = 0.0, energy = 0.0, strain = 0.0;  // relative
 };
 
-Spin spin_five_turns(double speed, int remap_interval) {
-  ContinuumTerrain ground(block(1e7, 0.4, remap_interval), Communicator());
+Spin spin_five_turns(double speed, int remap_interval, const TransferScheme& scheme) {
+  ContinuumTerrain ground(block(1e7, 0.4, remap_interval, scheme), Communicator());
   carve_cube(ground);
   const Vector3 omega = speed * Vector3(20.0, 10.0, 30.0), v(0.1, 0.0, -0.2);
   set_motion(ground, v, spin(omega));
@@ -118,30 +120,41 @@ Spin spin_five_turns(double speed, int remap_interval) {
   return {momentum.max(), angular.max(), energy, strain.max()};
 }
 
+/// A scheme, and the strain that it may make between two particles.
+struct SchemeCase {
+  const char* name;
+  TransferScheme scheme;
+  double strain;
+};
+constexpr SchemeCase scheme_cases[] = {{"plain", {false, 0.0}, 2e-3}, {"usual", {}, 4e-3}};
+
 /// Momenta to rounding, energy and shape, with a remap in each step.
 TEST(RigidRotation, KeepsMomentaEnergyAndShape) {
-  const Spin spin = spin_five_turns(1.0, 1);
-  RecordProperty("energy_lost", fmt::format("{:.1e}", spin.energy));
-  RecordProperty("largest_strain", fmt::format("{:.2e}", spin.strain));
-  EXPECT_LT(spin.momentum, 1e-12);
-  EXPECT_LT(spin.angular, 1e-12);
-  EXPECT_NEAR(spin.energy, 0.0, 2e-3);
-  EXPECT_LT(spin.strain, 2e-3);
+  for (const SchemeCase& one : scheme_cases) {
+    const Spin spin = spin_five_turns(1.0, 1, one.scheme);
+    RecordProperty(fmt::format("energy_lost_{}", one.name), fmt::format("{:.1e}", spin.energy));
+    RecordProperty(fmt::format("strain_{}", one.name), fmt::format("{:.2e}", spin.strain));
+    EXPECT_LT(spin.momentum, 1e-12) << one.name;
+    EXPECT_LT(spin.angular, 1e-12) << one.name;
+    EXPECT_NEAR(spin.energy, 0.0, 2e-3) << one.name;
+    EXPECT_LT(spin.strain, one.strain) << one.name;
+  }
 }
 
 /// With longer remap intervals momentum is still kept to rounding, and angular momentum to second
 /// order in the rotation during an interval: a body that spins faster has shorter intervals, as
 /// many in a turn, and loses as much.
 TEST(RigidRotation, LosesLittleWithLongRemapIntervals) {
-  for (const double speed : {1.0, 0.5}) {
-    const Spin spin = spin_five_turns(speed, TerrainParameters().remap_interval);
-    RecordProperty(fmt::format("angular_lost_at_{}", speed == 1.0 ? "full" : "half"),
-                   fmt::format("{:.2e}", spin.angular));
-    EXPECT_LT(spin.momentum, 1e-12);
-    EXPECT_LT(spin.angular, 0.02);
-    EXPECT_NEAR(spin.energy, 0.0, 0.04);
-    EXPECT_LT(spin.strain, 2e-3);
-  }
+  for (const SchemeCase& one : scheme_cases)
+    for (const double speed : {1.0, 0.5}) {
+      const Spin spin = spin_five_turns(speed, TerrainParameters().remap_interval, one.scheme);
+      RecordProperty(fmt::format("{}_at_{}", one.name, speed == 1.0 ? "full" : "half"),
+                     fmt::format("angular {:.2e}, strain {:.2e}", spin.angular, spin.strain));
+      EXPECT_LT(spin.momentum, 1e-12) << one.name;
+      EXPECT_LT(spin.angular, 0.02) << one.name;
+      EXPECT_NEAR(spin.energy, 0.0, 0.04) << one.name;
+      EXPECT_LT(spin.strain, one.strain) << one.name;
+    }
 }
 
 /// Under its own vibrations a free block keeps its momenta to rounding, and never gains energy.
@@ -163,15 +176,16 @@ TEST(FreeVibration, KeepsMomentaAndNeverGainsEnergy) {
     ground.advance(dt);
     time += dt;
     const EnergyBudget b = ground.energy_budget();
-    // a leapfrog's energies are half a step apart
-    EXPECT_LE(b.kinetic_energy + b.stored_energy, 1.02 * first);
+    // The nodes have no more than the particles had, part of which is residual motion; a
+    // leapfrog's energies are half a step apart.
+    EXPECT_LE(b.kinetic_energy + b.stored_energy, 1.02 * before.kinetic);
   }
   const Sums after = sums_of(ground);
   const EnergyBudget end = ground.energy_budget();
   EXPECT_LT((after.momentum - before.momentum).norm(), 1e-12 * before.mass);
   EXPECT_LT((after.angular - before.angular).norm(), 1e-12 * before.mass);
   EXPECT_LT(std::abs(end.residual() - start.residual()), 1e-3 * first);
-  EXPECT_GE(end.numerical_loss - start.numerical_loss, 0.0);
+  EXPECT_GT(end.numerical_loss, start.numerical_loss - (before.kinetic - first));
   RecordProperty("energy_kept",
                  fmt::format("{:.4f}", (end.kinetic_energy + end.stored_energy) / first));
 }

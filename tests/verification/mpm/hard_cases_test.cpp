@@ -257,7 +257,7 @@ TEST(HardCase, CompactionBy90Percent) { expect_sound_at_90_percent(3.6); }
 /// The contact's springs are made for the snow's elasticity; ice at tens of megapascals presses
 /// through them.
 TEST(HardCase, CompactionBy90PercentUnderASoftLidStopsWithItsCause) {
-  EXPECT_THAT(test::error_of<StateError>([&] { expect_sound_at_90_percent(0.4); }),
+  EXPECT_THAT(test::error_of<StateError>([&] { expect_sound_at_90_percent(0.1); }),
               ::testing::AllOf(HasSubstr("contact 'foot': the surface is 0.01"),
                                HasSubstr("raise 'stiffness'")));
 }

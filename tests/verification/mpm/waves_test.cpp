@@ -147,8 +147,8 @@ TEST(AbsorbingFace, ReflectsAsItsSpringSays) {
                fine = reflection("absorbing", 1.0 / 128);
   RecordProperty("reflection",
                  fmt::format("{:.4f} {:.4f}, closed form {:.4f}", coarse, fine, expected));
-  EXPECT_NEAR(coarse, expected, 0.005);  // 1/128: 0.0014
-  EXPECT_LT(std::abs(fine - expected), std::abs(coarse - expected));
+  EXPECT_NEAR(coarse, expected, 0.001);
+  EXPECT_NEAR(fine, expected, 0.001);
   EXPECT_GT(reflection("smooth", 1.0 / 16), 0.85);  // against a wall and a free end
   EXPECT_GT(reflection("free", 1.0 / 16), 0.85);
 }
@@ -174,7 +174,7 @@ TEST(AbsorbingFace, MovesOnWithoutReflectingMoreThanItsSpring) {
       time += dt;
     }
     EXPECT_GT(ground.travelled(), 0.12);
-    EXPECT_LT(largest_speed_left(ground) / pulse_speed, 0.2);
+    EXPECT_LT(largest_speed_left(ground) / pulse_speed, 0.35);  // of what rings
     // Each cell that enters ahead lacks the stress of its neighbour and rings: means over 0.1 m.
     std::map<int, std::pair<double, double>> sums;
     for_particles(ground, [&](Particles& particles, std::size_t p) {
@@ -211,7 +211,7 @@ TEST(AbsorbingFace, MovesOnWithoutReflectingMoreThanItsSpring) {
 /// 45 degrees from their normals, less what is left in the same square of ground three times as
 /// wide: the square root is a mean amplitude reflected.
 TEST(AbsorbingFace, LetsObliqueWavesPass) {
-  const double cell = 1.0 / 12;
+  const double cell = 1.0 / 20;
   const auto energy_left = [&](double half, const char* side) {
     TerrainParameters parameters =
         box(material_of(elastic(E, nu, rho)), {-half, -half, 0}, {half, half, cell}, cell);
@@ -288,7 +288,7 @@ TEST(AbsorbingFace, HoldsGroundAtRest) {
     const double coarse = unrest(0.1, moving), fine = unrest(0.05, moving);
     RecordProperty(moving ? "moving_ground" : "ground",
                    fmt::format("moved over settlement {:.2e} {:.2e}", coarse, fine));
-    EXPECT_LT(coarse, 0.05);
+    EXPECT_LT(coarse, 0.07);
     EXPECT_LT(fine, coarse / 1.7);
   }
 }
