@@ -66,6 +66,9 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   bool has_run() const { return has_run_; }        ///< also no steps, in this process
   bool restored() const { return restored_; }      ///< from a checkpoint
   double sub_steps() const { return sub_steps_; }  ///< of the bodies, since the process started
+  /// Warns of targets of a rig as a run does that begins with them. @throws InputError for those
+  /// that it would refuse. Collective.
+  void check_targets() { scene_watch_->after_change_of_targets(); }
   /// Of the body whose stable step is the smallest now. Collective.
   CoupledSystem::StepLimit step_limit() const { return system_.step_limit(); }
   const Communicator& communicator() const { return communicator_; }

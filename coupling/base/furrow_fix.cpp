@@ -65,19 +65,23 @@ void FurrowFix::restart(char* buffer) {
 }
 
 /// Numbers are compared as numbers: 0.2 is 0.20.
-std::vector<std::pair<std::string, std::string>> FurrowFix::settings() const {
+std::vector<std::pair<std::string, std::string>> FurrowFix::settings_of(const Options& options) {
   std::vector<std::pair<std::string, std::string>> list;
-  for (const Key& key : options_.keys()) {
+  for (const Key& key : options.keys()) {
     if (key.may_change) continue;
     const bool numbers = key.kind == Key::Kind::number || key.kind == Key::Kind::numbers;
-    if (!options_.has(key.name))
+    if (!options.has(key.name))
       list.emplace_back(key.name, "not given");
     else if (numbers)
-      list.emplace_back(key.name, fmt::format("{}", fmt::join(options_.numbers(key.name), " ")));
+      list.emplace_back(key.name, fmt::format("{}", fmt::join(options.numbers(key.name), " ")));
     else
-      list.emplace_back(key.name, options_.text(key.name));
+      list.emplace_back(key.name, options.text(key.name));
   }
   return list;
+}
+
+std::vector<std::pair<std::string, std::string>> FurrowFix::settings() const {
+  return settings_of(options_);
 }
 
 void FurrowFix::match_options(Checkpoint& state) const {

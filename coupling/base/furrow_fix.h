@@ -93,6 +93,7 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, publ
   }
   void keep_state() { restart_global = 1; }
   void change_options(Options options) { options_ = std::move(options); }
+  static std::vector<std::pair<std::string, std::string>> settings_of(const Options& options);
 
   // ---- for the derived class at any time
   // ---------------------------------------------------------

@@ -18,6 +18,7 @@ class SceneWatch {
   /// @param sub_steps of the bodies in this step
   virtual void after_step(int sub_steps) = 0;
   virtual void after_run() = 0;
+  virtual void after_change_of_targets() = 0;
   /// The end of an error message of this run: its likely cause. May be empty.
   virtual std::string likely_cause() const = 0;
 };

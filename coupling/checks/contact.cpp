@@ -15,6 +15,7 @@
 #include "coupling/base/fix_scm.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
+#include "coupling/drive/fix_wheel_rig.h"
 #include "domain.h"
 #include "primitive_wall.h"
 
@@ -33,7 +34,11 @@ constexpr double aligned = 0.7, covered_share = 0.05, behind = 0.5;
 // Of terrain under a wheel, in lengths of the wheel.
 constexpr double longest_window = 30.0, longest_track = 200.0, widest_terrain = 30.0,
                  deepest_terrain = 10.0;
-constexpr double narrow_terrain = 1.5;  // widths of the body
+// Of ground, in widths of a wheel; narrower ground is wide enough if it exceeds the wheel by the
+// depth on both sides (ground_under_wheel.h)
+constexpr double wide_terrain = 5.0, deep_terrain = 3.0;
+constexpr double cells_of_a_lug = 2.5;  // in height and spacing of grousers
+constexpr double narrow_plate = 1.5;    // widths of a plate
 constexpr double near_end = 0.75;       // diameters of the wheel
 // Of surcharge and weight, either over the other.
 constexpr double surcharge_ratio = 2.0;
@@ -270,19 +275,147 @@ Found body_touches_something(const Scene& scene, FixBody& body) {
 
 Found terrain_is_wide_enough(const Scene&, FixContactContinuum& contact) {
   const Pair pair = describe(contact);
-  const double body = pair.body_y.length(), ground = pair.terrain_y.length();
-  if (ground >= narrow_terrain * body) return {};
-  const std::string where = pair.terrain.options().where("width"),
+  const Options& options = pair.terrain.options();
+  const double body = pair.body_y.length(), ground = pair.terrain_y.length(),
+               enough = std::min(wide_terrain * body, body + 2.0 * options.number("depth"));
+  if ((1.0 + round_off) * ground >= (is_wheel(pair.body) ? enough : narrow_plate * body)) return {};
+  const std::string where = options.where("width"),
                     problem =
                         fmt::format("is {:.4g} m, and '{}', which presses on it, is {:.4g} m wide",
                                     ground, pair.body.id, body);
   if (body > (1.0 + round_off) * ground)
     return refusal(where, problem, "ground wider than the body",
-                   "two or three times as wide is usual");
+                   fmt::format("write 'width {:.2g}'", enough));
   return warning(
-      fmt::format("{} {}; its sides hold the ground as walls do; two or three times as wide is "
-                  "usual",
-                  where, problem));
+      fmt::format("{} {}; its sides hold the ground as walls do; write at least {:.2g} m", where,
+                  problem, enough));
+}
+
+/// A line that names its base states what lies below.
+Found terrain_is_deep_enough(const Scene&, FixContactContinuum& contact) {
+  const Pair pair = describe(contact);
+  const Options& options = pair.terrain.options();
+  const double depth = options.number("depth"), width = pair.body_y.length();
+  if (!is_wheel(pair.body) || options.given("base") ||
+      (1.0 + round_off) * depth >= deep_terrain * width)
+    return {};
+  return warning(fmt::format(
+      "{} is {:.4g} m, {:.2g} widths of '{}': a hard base bears a part of its load; make the "
+      "ground "
+      "at least {:.2g} m deep, or write 'base rough' if it lies on something hard",
+      options.where("depth"), depth, depth / width, pair.body.id, deep_terrain * width));
+}
+
+namespace {
+
+/// Grousers that cells do not resolve act as a smooth rim of some radius between rim and tip.
+/// @param height, along  size of the cells [m]
+Found judge_grousers(const FixBody& body, const Options& ground, double height, double along) {
+  const auto* wheel = dynamic_cast<const WheelHub*>(&body.body());
+  if (!wheel || !body.options().has("grousers")) return {};
+  const auto count = static_cast<double>(body.options().integer("grousers"));
+  const double high = wheel->tip_radius() - wheel->nominal_radius(),
+               apart = 2.0 * pi * wheel->nominal_radius() / count;
+  if (count == 0.0 || high <= 0.0 ||
+      (high >= cells_of_a_lug * height && apart >= cells_of_a_lug * along))
+    return {};
+  return warning(fmt::format(
+      "{} is {:.4g} m, and the grousers of '{}' are {:.3g} m high and {:.3g} m apart: the ground "
+      "does not resolve them; write at most 'cell {:.2g}' ({:g} cells in height and spacing), or "
+      "compare with a wheel without grousers",
+      ground.where("cell"), ground.number("cell"), body.id, high, apart,
+      std::min(high / cells_of_a_lug * ground.number("cell") / height,
+               apart / cells_of_a_lug * ground.number("cell") / along),
+      cells_of_a_lug));
+}
+
+/// [m] along x from now to the end of the run; nothing for a body whose speed is an answer.
+std::optional<double> planned_travel(const Scene& scene, const FixBody& body) {
+  for (const auto* rig : fixes_of<const FixWheelRig>(*scene.lammps.modify))
+    if (&rig->wheel_fix() == &body) return rig->rig().travel(scene.time(), scene.end());
+  return {};
+}
+
+}  // namespace
+
+Found cells_show_the_grousers(const Scene&, FixContactContinuum& contact) {
+  const Grid& grid = contact.terrain_fix().terrain().grid();
+  return judge_grousers(contact.body_fix(), contact.terrain_fix().options(),
+                        grid.axis(2).shortest(), grid.axis(0).shortest());
+}
+
+Found cells_of_the_field_show_the_grousers(const Scene&, FixContactScm& contact) {
+  const double cell = contact.terrain_fix().field().cell();
+  return judge_grousers(contact.body_fix(), contact.terrain_fix().options(), cell, cell);
+}
+
+/// After a run in which the wheel has rolled.
+Found cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact) {
+  const FixTerrain& terrain = contact.terrain_fix();
+  const TerrainParameters& parameters = terrain.terrain().parameters();
+  if (!is_wheel(contact.body_fix()) || !parameters.relief.flat()) return {};
+  for (const DrivenBody& driven : driven_bodies(*scene.lammps.modify)) {
+    if (&driven.body != &contact.body_fix() || scene.time() < driven.full_speed) continue;
+    const double sinkage =
+                     parameters.surface - contact.body_fix().body().surface().bounds().first.z(),
+                 cell = contact.terrain_fix().terrain().grid().axis(2).shortest();
+    if (sinkage <= 0.0 || sinkage >= cell) return {};
+    return warning(fmt::format(
+        "{} is {:.4g} m, and '{}' has sunk by {:.2g} m at the end: less than a cell, so "
+        "that sinkage and resistance depend on the cells; write 'cell {:.2g}' or less",
+        terrain.options().where("cell"), terrain.options().number("cell"), contact.body_fix().id,
+        sinkage, 0.5 * sinkage * terrain.options().number("cell") / cell));
+  }
+  return {};
+}
+
+Found travel_stays_on_terrain(const Scene& scene, FixContactContinuum& contact) {
+  const Pair pair = describe(contact);
+  const std::optional<double> travel = planned_travel(scene, pair.body);
+  if (!travel || pair.terrain.moves()) return {};
+  const double end = 0.5 * (pair.body_x.lower + pair.body_x.upper) + *travel,
+               limit = pair.terrain_x.upper - near_end * pair.body_x.length();
+  if (end <= limit || end - *travel > limit) return {};  // it stands there: during the run
+  return warning(fmt::format(
+      "this run brings the axle of '{}' to x = {:.4g} m, and near the end of terrain '{}' at x = "
+      "{:.4g} m the end resists it; shorten the run by {:.3g} m of travel, lengthen the ground, or "
+      "write 'follow {}'",
+      pair.body.id, end, pair.terrain.id, pair.terrain_x.upper, end - limit, pair.body.id));
+}
+
+Found travel_stays_on_the_field(const Scene& scene, FixContactScm& contact) {
+  const std::optional<double> travel = planned_travel(scene, contact.body_fix());
+  if (!travel) return {};
+  const auto [lower, upper] = contact.body_fix().body().surface().bounds();
+  const double end = 0.5 * (lower.x() + upper.x()) + *travel,
+               limit = contact.terrain_fix().field().upper().x();
+  if (end <= limit) return {};
+  return warning(fmt::format(
+      "this run brings the axle of '{}' to x = {:.4g} m, beyond the end of the height "
+      "field '{}' at x = {:.4g} m, where the run will stop; shorten the run by {:.3g} m of "
+      "travel, or lengthen the field",
+      contact.body_fix().id, end, contact.terrain_fix().id, limit, end - limit));
+}
+
+/// LIGGGHTS loses a mesh that leaves the box.
+Found travel_stays_in_the_box(const Scene& scene, const FixMeshBody& mesh) {
+  const LAMMPS_NS::Domain& domain = *scene.lammps.domain;
+  const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
+  if (domain.xperiodic || !in_a_wall(modify, mesh) || !fixes_of<const FixBedWindow>(modify).empty())
+    return {};
+  for (const auto* rig : fixes_of<const FixWheelRig>(modify)) {
+    if (&rig->wheel_fix().body() != &mesh.body()) continue;
+    const double end = mesh.body().surface().bounds().second.x() +
+                       rig->rig().travel(scene.time(), scene.end()).value_or(0.0);
+    if (end <= domain.boxhi[0]) return {};
+    return warning(fmt::format(
+        "this run brings the mesh '{}' to x = {:.4g} m, out of the simulation box, which ends at x "
+        "= "
+        "{:.4g} m, where the run will stop; shorten the run by {:.3g} m of travel, or make the box "
+        "longer",
+        mesh.id, end, domain.boxhi[0], end - domain.boxhi[0]));
+  }
+  return {};
 }
 
 /// In 0.3 radii more the resistance on dry sand grows by a tenth, at one radius 2 times.

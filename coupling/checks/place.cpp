@@ -370,6 +370,13 @@ Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven) {
         fmt::format("'{}' starts below the ground: it reaches up to z = "
                     "{:.4g} m, and {} is at z = {:.4g} m; let it start above",
                     driven.body.id, upper[2], level->what, level->z));
+  if (driven.options.has("release") && driven.options.text("release") == "in_air" &&
+      gap > level->tolerance)
+    return warning(
+        fmt::format("'{}' starts {:.4g} m above the ground and falls, because {} is in_air: it "
+                    "strikes the ground and rests deeper than its load presses it; write 'release "
+                    "on_ground' to lower it",
+                    driven.body.id, gap, driven.options.where("release")));
   if (gap > size_of(driven.body))
     return warning(
         fmt::format("'{}' starts {:.4g} m above the ground, more than its own size: it may not "

@@ -57,6 +57,7 @@ enum class When {
   first_step,  ///< of a run
   during_run,  ///< in the first step and in every one that watch_every divides
   after_run,
+  new_targets,  ///< of a rig, set by a program
 };
 
 struct Rule {
@@ -103,10 +104,16 @@ constexpr Rule rules[] = {
     rule<body_sets_off>(When::before_run),
     rule<body_comes_to_its_speed>(When::before_run),
     rule<terrain_is_wide_enough>(When::before_run),
+    rule<terrain_is_deep_enough>(When::before_run),
     rule<terrain_is_long_enough>(When::before_run),
+    rule<travel_stays_on_terrain>(When::before_run),
+    rule<travel_stays_on_the_field>(When::before_run),
+    rule<travel_stays_in_the_box>(When::before_run),
     rule<terrain_has_the_size_of_a_wheels>(When::before_run),
     rule<cells_show_the_body>(When::before_run),
     rule<cells_of_the_field_show_the_body>(When::before_run),
+    rule<cells_show_the_grousers>(When::before_run),
+    rule<cells_of_the_field_show_the_grousers>(When::before_run),
     rule<wheel_on_a_field_has_no_camber>(When::before_run),
     rule<body_is_over_terrain>(When::before_run),
     rule<cells_enter_grooves>(When::before_run),
@@ -139,6 +146,14 @@ constexpr Rule rules[] = {
     rule<card_reaches_the_pressure>(When::during_run),
 
     rule<grains_stay_in_the_box>(When::after_run),
+    rule<cells_show_the_sinkage>(When::after_run),
+
+    rule<wheels_on_moving_terrain_keep_pace>(When::new_targets),
+    rule<waves_outrun_body>(When::new_targets),
+    rule<speed_suits_the_ground>(When::new_targets),
+    rule<load_suits_the_body>(When::new_targets),
+    rule<mass_suits_the_load>(When::new_targets),
+    rule<body_passes_no_grain_in_a_step>(When::new_targets),
 };
 
 class SceneChecks : public SceneWatch {
@@ -163,6 +178,7 @@ class SceneChecks : public SceneWatch {
   }
 
   void after_run() override { apply(When::after_run); }
+  void after_change_of_targets() override { apply(When::new_targets); }
 
   std::string likely_cause() const override {
     return likely_cause_.empty() ? "" : fmt::format("; a likely cause: {}", likely_cause_);

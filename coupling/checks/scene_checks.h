@@ -143,13 +143,22 @@ Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& ter
 Found body_touches_something(const Scene& scene, FixBody& body);
 // Is continuum terrain large enough, and fine enough, for what presses on it?
 Found terrain_is_wide_enough(const Scene& scene, FixContactContinuum& contact);
+Found terrain_is_deep_enough(const Scene& scene, FixContactContinuum& contact);
 Found terrain_is_long_enough(const Scene& scene, FixContactContinuum& contact);
+/// Where the rig will bring a wheel by the end of the run.
+Found travel_stays_on_terrain(const Scene& scene, FixContactContinuum& contact);
+Found travel_stays_on_the_field(const Scene& scene, FixContactScm& contact);
+Found travel_stays_in_the_box(const Scene& scene, const FixMeshBody& mesh);
 /// Of ground that does not follow it.
 Found wheel_stays_off_the_end(const Scene& scene, FixContactContinuum& contact);
 /// Centimetres for metres.
 Found terrain_has_the_size_of_a_wheels(const Scene& scene, FixContactContinuum& contact);
 Found cells_show_the_body(const Scene& scene, FixContactContinuum& contact);
 Found cells_of_the_field_show_the_body(const Scene& scene, FixContactScm& contact);
+Found cells_show_the_grousers(const Scene& scene, FixContactContinuum& contact);
+Found cells_of_the_field_show_the_grousers(const Scene& scene, FixContactScm& contact);
+/// After a run.
+Found cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact);
 /// The soil contact model has no pressure on upright faces. With camber a side of a wheel is not
 /// upright.
 Found wheel_on_a_field_has_no_camber(const Scene& scene, FixContactScm& contact);

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "coupling/base/require_unique.h"
+#include "coupling/contact/ground_contact.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/base/fix_terrain.h"
 
@@ -16,6 +17,7 @@ const StyleRow contact_continuum_style = fix_style<FixContactContinuum>(
 Schema FixContactContinuum::schema() {
   Schema schema = ContactParameters::schema("fix contact/continuum");
   declare_body(schema);
+  declare_body_material(schema);
   schema.text("terrain", "id of the fix of the terrain");
   schema.alias("ground", "terrain");
   return schema;
@@ -87,12 +89,36 @@ void FixContactContinuum::add_losses(const Body& wheel, GroundLosses& losses) co
   losses.continuum += terrain_factor * contact_.terrain_work();
 }
 
+/// The upper layer is the one that a body touches.
+ContactParameters FixContactContinuum::parameters() {
+  warn_of_slip_length(*lmp, options());
+  if (options().text("surface") != "frictional") return ContactParameters::from(options());
+  const TerrainLayer& top = terrain_fix_.terrain().parameters().layers.front();
+  return ContactParameters::from(
+      options(),
+      contact_with(
+          *lmp, options(), body_fix(), body_material(options(), body_fix()), top.name, top.contact,
+          ContactParameters::unknown(),
+          fmt::format("{:g} and {:g} m hold, and a slip_length of 0 m gives a driven wheel "
+                      "too much traction at small slips",
+                      ContactParameters::unknown().friction,
+                      ContactParameters::unknown().slip_length)));
+}
+
+/// With the friction that holds, wherever it comes from.
+std::vector<std::pair<std::string, std::string>> FixContactContinuum::settings() const {
+  auto list = FixContact::settings();
+  put_effective(list, parameters_.friction, parameters_.slip_length);
+  return list;
+}
+
 /// A half body mirrors what it is given itself; a whole one on half the terrain needs the forces of
 /// the other half as well.
 FixContactContinuum::FixContactContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixContact(lammps, narg, arg, schema()),
       terrain_fix_(find_terrain()),
-      contact_(body(), terrain_fix_.terrain(), ContactParameters::from(options()),
+      parameters_(parameters()),
+      contact_(body(), terrain_fix_.terrain(), parameters_,
                terrain_fix_.half_model() && !body().half_model(), name()) {
   contribute(static_cast<Contact&>(contact_));
   provide(outputs());

@@ -19,8 +19,10 @@ class FixContactContinuum : public FixContact {
   const TerrainContact& contact() const { return contact_; }
   void add_losses(const Body& wheel, GroundLosses& losses) const override;
   FixTerrain& terrain_fix() const { return terrain_fix_; }
+  std::vector<std::pair<std::string, std::string>> settings() const override;
 
  private:
+  ContactParameters parameters();
   FixTerrain& find_terrain();
   // [J] since the start, of the whole body
   double friction_loss() const { return symmetry_factor() * contact_.friction_loss(); }
@@ -28,6 +30,7 @@ class FixContactContinuum : public FixContact {
   void checkpoint(Checkpoint& state) override { contact_.checkpoint(state); }
 
   FixTerrain& terrain_fix_;
+  const ContactParameters parameters_;
   TerrainContact contact_;
 };
 

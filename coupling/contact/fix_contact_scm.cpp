@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "coupling/base/fix_scm.h"
 #include "coupling/base/require_unique.h"
+#include "coupling/contact/ground_contact.h"
 #include "coupling/liggghts/style_registry.h"
 #include "tyre/tyre.h"
 #include "update.h"
@@ -17,11 +18,13 @@ namespace furrow::coupling {
 
 namespace {
 
-ScmContact::Settings settings_from(const Options& options, bool records) {
-  ScmContact::Settings settings;
-  if (options.given("contact_width")) settings.width = options.number("contact_width");
-  settings.records = records;
-  return settings;
+// Contact width over the shorter and the longer side of a body
+constexpr double least_width = 0.05, largest_width = 1.5;
+constexpr char soil[] = "soil";  // between grousers it shears on itself
+
+bool has_grousers(const FixBody& body) {
+  const auto* wheel = dynamic_cast<const WheelHub*>(&body.body());
+  return wheel && wheel->tip_radius() > wheel->nominal_radius();
 }
 
 }  // namespace
@@ -32,7 +35,18 @@ const StyleRow contact_scm_style =
 Schema FixContactScm::schema() {
   Schema schema("fix contact/scm");
   declare_body(schema);
+  declare_body_material(schema, {soil});
   schema.text("terrain", "id of the fix of the height field");
+  schema
+      .number("friction", "", Range::non_negative(),
+              "friction coefficient of body and soil, up to the soil's strength; by default from "
+              "the soil card")
+      .optional();
+  schema
+      .number("slip_length", "m", Range::closed(0.0, 1.0),
+              "slip distance that mobilises this friction, in the place of K; by default from the "
+              "soil card")
+      .optional();
   schema
       .number("contact_width", "m", Range::positive(),
               "width b in k_c/b; by default that of the present contact patch")
@@ -78,11 +92,67 @@ FixScm& FixContactScm::find_terrain() {
   return fix;
 }
 
+/// @throws InputError for a width that has nothing to do with the body
+double FixContactScm::contact_width() const {
+  const double width = options().number("contact_width");
+  const auto [lower, upper] = body().surface().bounds();
+  const double across = (body().half_model() ? 2.0 : 1.0) * (upper.y() - lower.y()),
+               along = upper.x() - lower.x(), largest = largest_width * std::max(across, along),
+               least = least_width * std::min(across, along);
+  if (width < least || width > largest)
+    throw InputError(options().where("contact_width"),
+                     fmt::format("is {:g} m, and '{}' is {:.4g} m wide and {:.4g} m long", width,
+                                 body_fix().id, across, along),
+                     fmt::format("{:.3g} to {:.3g} m", least, largest),
+                     "give the width of the contact in m, or leave it out");
+  return width;
+}
+
+/// Soil that fills the grousers of a wheel shears on soil. Any other surface slides on it.
+ScmContact::Settings FixContactScm::settings_of_contact() {
+  ScmContact::Settings settings;
+  if (options().given("contact_width")) settings.width = contact_width();
+  settings.records = comm->me == 0;
+  warn_of_slip_length(*lmp, options());
+  const bool line_has_friction = options().given("friction") || options().given("slip_length");
+  if (options().given("body_material") && options().text("body_material") == soil &&
+      line_has_friction)
+    throw InputError(options().where("body_material"), "is soil, next to friction or slip_length",
+                     "soil alone: it has the strength and the K of the terrain",
+                     "remove 'friction' and 'slip_length', or write steel or rubber");
+  const std::string material =
+      !options().given("body_material") && has_grousers(body_fix()) && !line_has_friction
+          ? soil
+          : body_material(options(), body_fix());
+  if (material == soil) return settings;
+  BodyContact as_soil;
+  as_soil.friction = settings.friction;
+  as_soil.slip_length = terrain_fix_.soil().shear_length;
+  const auto& card = terrain_fix_.card();
+  const BodyContact contact =
+      contact_with(*lmp, options(), body_fix(), material,
+                   card ? terrain_fix_.options().text("card") : terrain_fix_.id,
+                   card ? card->contact : GroundContact(), as_soil,
+                   "the soil's own c, phi and K hold, and a surface without grousers pulls less");
+  settings.friction = options().given("friction") ? options().number("friction") : contact.friction;
+  settings.slip_length =
+      options().given("slip_length") ? options().number("slip_length") : contact.slip_length;
+  return settings;
+}
+
+/// With the friction that holds, wherever it comes from.
+std::vector<std::pair<std::string, std::string>> FixContactScm::settings() const {
+  auto list = FixContact::settings();
+  put_effective(list, settings_.friction,
+                settings_.slip_length.value_or(terrain_fix_.soil().shear_length));
+  return list;
+}
+
 FixContactScm::FixContactScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixContact(lammps, narg, arg, schema()),
       terrain_fix_(find_terrain()),
-      contact_(body(), terrain_fix_.field(), terrain_fix_.soil(),
-               settings_from(options(), comm->me == 0)) {
+      settings_(settings_of_contact()),
+      contact_(body(), terrain_fix_.field(), terrain_fix_.soil(), settings_) {
   contribute(static_cast<Contact&>(contact_));
   provide(outputs());
 }

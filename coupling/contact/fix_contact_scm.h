@@ -19,16 +19,20 @@ class FixContactScm : public FixContact {
   const FixScm& terrain_fix() const { return terrain_fix_; }
   const ScmContact& contact() const { return contact_; }
   void add_losses(const Body& wheel, GroundLosses& losses) const override;
+  std::vector<std::pair<std::string, std::string>> settings() const override;
   void init() override {
     collectively([&] { check_stability(); });
   }
 
  private:
   FixScm& find_terrain();
+  ScmContact::Settings settings_of_contact();
+  double contact_width() const;
   void check_stability();
   void checkpoint(Checkpoint& state) override { contact_.checkpoint(state); }
 
   FixScm& terrain_fix_;
+  const ScmContact::Settings settings_;
   ScmContact contact_;
 };
 

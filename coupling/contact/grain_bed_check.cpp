@@ -86,9 +86,9 @@ std::string GrainBedCheck::overlap_remedy(double deepest) const {
   if (grains_are_snow(lammps_))
     return "the snow is crushed to ice: lower the load, or raise snowDenseStrength";
   return fmt::format(
-      "the grains are too soft for this load: make the bed with a youngsModulus {:.2g} times as "
+      "the grains are too soft for this load: make the bed with a youngsModulus {:.1f} times as "
       "large, or by 'young auto' with a higher pressure (command bed)",
-      std::pow(deepest / overlap_limit_, 1.5));
+      std::ceil(10.0 * std::pow(deepest / overlap_limit_, 1.5)) / 10.0);
 }
 
 void GrainBedCheck::contact(double overlap, double radius, const Vector3& point,

@@ -2,6 +2,8 @@
 #include "coupling/drive/fix_wheel_rig.h"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,6 +24,8 @@ namespace furrow::coupling {
 namespace {
 
 constexpr double min_steps_of_ramp = 10;
+constexpr double least_damping_ratio = 0.01, least_torque = 1e-3;  // over load x radius
+constexpr double never = -1.0;  // [s] time of a change that has not been
 
 /// The columns of the table, each over the time. @throws InputError
 Courses table_of(const Options& options) {
@@ -84,13 +88,39 @@ FixWheelRig::FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixRig(lammps, narg, arg, schema()),
       wheel_fix_(find_free_wheel()),
       table_(table_of(options())),
-      rig_(make_rig(options(), wheel_fix_, table_)) {
+      rig_(make_rig(options(), wheel_fix_, table_)),
+      line_(options()) {
   contribute(static_cast<MotionController&>(*this));
-  if (rig_.has_suspension()) keep_state();
+  keep_state();
+}
+
+/// Targets that a program has changed are part of the state, and not of the line. A line that has
+/// another value of a target than that of the first run keeps it.
+void FixWheelRig::checkpoint(Checkpoint& state) {
+  std::map<std::string, std::string> line;
+  for (const auto& [key, value] : settings_of(line_)) line[key] = value;
+  std::string targets;
+  for (const auto& [key, value] : changed_)
+    targets += fmt::format("{}\t{}\t{}\n", key, value, line.at(key));
+  state.value("changed_targets", targets);
+  double last = last_change_.value_or(never);
+  state.value("last_change", last);
+  if (!state.saving()) {
+    std::map<std::string, std::string> changed;
+    std::istringstream rows(targets);
+    const auto read = [&](std::string& word, char end) -> bool {
+      return static_cast<bool>(std::getline(rows, word, end));
+    };
+    for (std::string key, value, was; read(key, '\t') && read(value, '\t') && read(was, '\n');)
+      if (line.at(key) == was) changed[key] = value;
+    if (!changed.empty()) retarget(changed);
+    if (last != never) last_change_ = last;
+  }
+  rig_.checkpoint(state);
 }
 
 std::vector<std::pair<std::string, std::string>> FixWheelRig::settings() const {
-  auto list = FurrowFix::settings();
+  auto list = settings_of(line_);
   Checksum sum;
   for (const auto& [target, course] : table_) {
     sum.add(target.data(), target.size());
@@ -105,8 +135,47 @@ std::vector<std::pair<std::string, std::string>> FixWheelRig::settings() const {
 
 int FixWheelRig::setmask() { return on_slope() ? LAMMPS_NS::FixConst::POST_FORCE : 0; }
 
+/// Before a run, once.
+void FixWheelRig::warn_of_soft_spring() {
+  const Suspension* const suspension = rig_.suspension();
+  if (!suspension || warned_of_spring_) return;
+  warned_of_spring_ = true;
+  const double weight = suspension->mass() * options().number("gravity"),
+               deflection = weight / suspension->stiffness(),
+               radius = wheel_fix_.hub().nominal_radius();
+  if (deflection > radius)
+    warn(*lmp, fmt::format(
+                   "{} is {:g} N/m: under the sprung weight of {:.4g} N it gives by {:.3g} m, more "
+                   "than the radius of '{}', {:.3g} m; springs of vehicles give by a tenth of it; "
+                   "give N/m, not N/mm",
+                   options().where("suspension_stiffness"), suspension->stiffness(), weight,
+                   deflection, wheel_fix_.id, radius));
+  const double ratio =
+      0.5 * suspension->damping() / std::sqrt(suspension->stiffness() * suspension->mass());
+  if (suspension->damping() > 0.0 && ratio < least_damping_ratio)
+    warn(*lmp,
+         fmt::format("{} is {:g} N s/m, {:.1g} of critical damping; vehicles have 0.2 to 0.4; give "
+                     "N s/m, not kN s/m",
+                     options().where("suspension_damping"), suspension->damping(), ratio));
+}
+
+/// Before a run, once: a torque that turns nothing.
+void FixWheelRig::warn_of_small_torque() {
+  const double full = rig_.load() * wheel_fix_.hub().nominal_radius();
+  if (warned_of_torque_ || !options().given("torque")) return;
+  warned_of_torque_ = true;
+  const double torque = std::abs(options().number("torque"));
+  if (torque > 0.0 && torque < least_torque * full)
+    warn(*lmp, fmt::format(
+                   "{} is {:g} N m, {:.1g} of load x radius: it hardly turns the wheel; give N m, "
+                   "not kN m",
+                   options().where("torque"), torque, torque / full));
+}
+
 void FixWheelRig::init() {
   warn_of_short_ramps();
+  warn_of_soft_spring();
+  warn_of_small_torque();
   collectively([&] {
     check_slope();
     check_passes();
@@ -158,18 +227,30 @@ void FixWheelRig::change_targets(const std::vector<Entry>& targets) {
     if (std::find(known.begin(), known.end(), target.key) == known.end())
       throw InputError(options().where(target.key), "cannot change during a run",
                        fmt::format("{}", fmt::join(known, ", ")), "set it in the line of the rig");
+  const std::map<std::string, std::string> before = changed_;
+  std::map<std::string, std::string> changed = changed_;
+  for (const Entry& target : targets) changed[target.key] = target.values.front();
+  retarget(changed);
+  FixCoupledSystem& system = FixCoupledSystem::of(*lmp);
+  try {
+    system.check_targets();
+  } catch (const InputError&) {
+    retarget(before);
+    throw;
+  }
+  last_change_ = system.time();
+}
+
+/// The line with other values of targets. @throws InputError, and nothing has changed
+void FixWheelRig::retarget(const std::map<std::string, std::string>& targets) {
   std::vector<Entry> entries;
-  const auto is_new = [&](const std::string& key) {
-    return std::any_of(targets.begin(), targets.end(),
-                       [&](const Entry& target) { return target.key == key; });
-  };
-  for (const Entry& entry : options().effective())
-    if (options().given(entry.key) && !is_new(entry.key)) entries.push_back(entry);
-  entries.insert(entries.end(), targets.begin(), targets.end());
+  for (const Entry& entry : line_.effective())
+    if (line_.given(entry.key) && !targets.count(entry.key)) entries.push_back(entry);
+  for (const auto& [key, value] : targets) entries.push_back({key, {value}});
   const Options changed = schema().read(entries);
   rig_.retarget(changed);
   change_options(changed);
-  last_change_ = FixCoupledSystem::of(*lmp).time();
+  changed_ = targets;
 }
 
 void FixWheelRig::setup(int vflag) { post_force(vflag); }

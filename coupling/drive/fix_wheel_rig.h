@@ -2,6 +2,10 @@
 #pragma once
 /// fix wheel/rig: drives a wheel. See fix_wheel_rig.md.
 
+#include <map>
+#include <optional>
+#include <string>
+
 #include "coupling/base/fix_rig.h"
 #include "coupling/base/motion_controller.h"
 
@@ -31,18 +35,25 @@ class FixWheelRig : public FixRig, public MotionController {
   std::optional<double> last_change() const override { return last_change_; }
 
  private:
-  void checkpoint(Checkpoint& state) override { rig_.checkpoint(state); }
+  void checkpoint(Checkpoint& state) override;
+  bool state_needs_options() const override { return rig_.has_suspension(); }
+  void retarget(const std::map<std::string, std::string>& targets);
   FixWheelHub& find_free_wheel();
   bool on_slope() const { return rig_.on_slope(); }
   void warn_of_short_ramps();
+  void warn_of_soft_spring();
+  void warn_of_small_torque();
   void check_slope();
   void check_passes();
 
   FixWheelHub& wheel_fix_;
   const Courses table_;
   WheelRig rig_;
-  std::optional<double> last_change_;  // of targets [s]
-  bool warned_ = false;                // of short ramps
+  const Options line_;                          // as the script wrote it
+  std::map<std::string, std::string> changed_;  // targets, and their last values
+  std::optional<double> last_change_;           // of targets [s]
+  bool warned_ = false;                         // of short ramps
+  bool warned_of_spring_ = false, warned_of_torque_ = false;
 };
 
 }  // namespace furrow::coupling

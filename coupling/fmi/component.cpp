@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include <mpi.h>
 
@@ -12,6 +15,7 @@
 #include "coupling/fmi/wheel_fmu.h"
 #include "coupling/liggghts/error_policy.h"
 #include "coupling/session/host_process.h"
+#include "coupling/session/session.h"
 
 namespace furrow::coupling::fmi {
 
@@ -36,71 +40,75 @@ class WheelComponent : public Component {
  public:
   WheelComponent(fmi2String name, fmi2String guid, fmi2String resources,
                  const fmi2CallbackFunctions& callbacks)
-      : fmu_(name, guid, resources, callbacks) {}
+      : fmu_(std::in_place, name, guid, resources, callbacks) {}
+  ~WheelComponent() override {
+    const std::lock_guard turn(process_lock());
+    fmu_.reset();
+  }
 
   fmi2Status set_up(double start) override {
-    return guarded("SetupExperiment", [&] { fmu_.set_up(start); });
+    return guarded("SetupExperiment", [&] { fmu_->set_up(start); });
   }
   fmi2Status enter_initialization() override {
-    return guarded("EnterInitializationMode", [&] { fmu_.enter_initialization(); });
+    return guarded("EnterInitializationMode", [&] { fmu_->enter_initialization(); });
   }
   fmi2Status exit_initialization() override {
-    return guarded("ExitInitializationMode", [&] { fmu_.exit_initialization(); });
+    return guarded("ExitInitializationMode", [&] { fmu_->exit_initialization(); });
   }
   fmi2Status step(double time, double length) override {
     fmi2Status status = fmi2OK;
-    const fmi2Status thrown = guarded("DoStep", [&] { status = fmu_.step(time, length); });
+    const fmi2Status thrown = guarded("DoStep", [&] { status = fmu_->step(time, length); });
     return thrown == fmi2OK ? status : thrown;
   }
   fmi2Status terminate() override {
-    return guarded("Terminate", [&] { fmu_.terminate(); });
+    return guarded("Terminate", [&] { fmu_->terminate(); });
   }
   fmi2Status reset() override {
-    return guarded("Reset", [&] { fmu_.reset(); });
+    return guarded("Reset", [&] { fmu_->reset(); });
   }
 
   fmi2Status get_reals(References references, std::size_t count, fmi2Real* values) override {
     return guarded("GetReal", [&] {
-      for (std::size_t i = 0; i < count; ++i) values[i] = fmu_.real(references[i]);
+      for (std::size_t i = 0; i < count; ++i) values[i] = fmu_->real(references[i]);
     });
   }
   fmi2Status get_booleans(References references, std::size_t count, fmi2Boolean* values) override {
     return guarded("GetBoolean", [&] {
-      for (std::size_t i = 0; i < count; ++i) values[i] = fmu_.boolean(references[i]);
+      for (std::size_t i = 0; i < count; ++i) values[i] = fmu_->boolean(references[i]);
     });
   }
   fmi2Status get_strings(References references, std::size_t count, fmi2String* values) override {
     return guarded("GetString", [&] {
-      for (std::size_t i = 0; i < count; ++i) values[i] = fmu_.string(references[i]).c_str();
+      for (std::size_t i = 0; i < count; ++i) values[i] = fmu_->string(references[i]).c_str();
     });
   }
   fmi2Status set_reals(References references, std::size_t count, const fmi2Real* values) override {
     return guarded("SetReal", [&] {
-      for (std::size_t i = 0; i < count; ++i) fmu_.set_real(references[i], values[i]);
+      for (std::size_t i = 0; i < count; ++i) fmu_->set_real(references[i], values[i]);
     });
   }
   fmi2Status set_booleans(References references, std::size_t count,
                           const fmi2Boolean* values) override {
     return guarded("SetBoolean", [&] {
-      for (std::size_t i = 0; i < count; ++i) fmu_.set_boolean(references[i], values[i] != 0);
+      for (std::size_t i = 0; i < count; ++i) fmu_->set_boolean(references[i], values[i] != 0);
     });
   }
   fmi2Status set_strings(References references, std::size_t count,
                          const fmi2String* values) override {
     return guarded("SetString", [&] {
-      for (std::size_t i = 0; i < count; ++i) fmu_.set_string(references[i], values[i]);
+      for (std::size_t i = 0; i < count; ++i) fmu_->set_string(references[i], values[i]);
     });
   }
 
   fmi2Status get_state(fmi2FMUstate* state) override {
     return guarded("GetFMUstate", [&] {
-      std::unique_ptr<WheelFmu::Snapshot> made = fmu_.snapshot();
+      std::unique_ptr<WheelFmu::Snapshot> made = fmu_->snapshot();
       delete static_cast<WheelFmu::Snapshot*>(*state);  // one that is to be overwritten
       *state = made.release();
     });
   }
   fmi2Status set_state(fmi2FMUstate state) override {
-    return guarded("SetFMUstate", [&] { fmu_.restore(snapshot_of(state)); });
+    return guarded("SetFMUstate", [&] { fmu_->restore(snapshot_of(state)); });
   }
   fmi2Status free_state(fmi2FMUstate* state) override {
     if (!state) return fmi2OK;
@@ -123,11 +131,11 @@ class WheelComponent : public Component {
   }
 
   fmi2Status last_time(fmi2Real* value) override {
-    *value = fmu_.time();
+    *value = fmu_->time();
     return fmi2OK;
   }
   fmi2Status ended(fmi2Boolean* value) override {
-    *value = fmu_.ended();
+    *value = fmu_->ended();
     return fmi2OK;
   }
   fmi2Status unsupported(fmi2String function) override {
@@ -140,21 +148,22 @@ class WheelComponent : public Component {
   fmi2Status guarded(const char* function, Action action) {
     const auto report = [&](const std::string& text) {
       const bool named = text.rfind(function, 0) == 0;
-      fmu_.log(fmi2Error, named ? text : std::string(function) + ": " + text);
+      fmu_->log(fmi2Error, named ? text : std::string(function) + ": " + text);
       return fmi2Error;
     };
+    const std::lock_guard turn(process_lock());  // instances may be called in several threads
     try {
       action();
       return fmi2OK;
     } catch (const RunError& problem) {
-      fmu_.fail();
+      fmu_->fail();
       return report(problem.text);
     } catch (const std::exception& problem) {
       return report(problem.what());
     }
   }
 
-  WheelFmu fmu_;
+  std::optional<WheelFmu> fmu_;
 };
 
 using Maker = Component* (*)(fmi2String, fmi2String, fmi2String, const fmi2CallbackFunctions*);
@@ -162,6 +171,7 @@ using Maker = Component* (*)(fmi2String, fmi2String, fmi2String, const fmi2Callb
 /// Of this copy.
 Component* make(fmi2String name, fmi2String guid, fmi2String resources,
                 const fmi2CallbackFunctions* callbacks) {
+  const std::lock_guard turn(process_lock());
   try {
     keep_mpi();
     throw_errors();

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/gravity.h"
 #include "coupling/base/fix_rig.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/liggghts/fixes_of.h"
@@ -30,6 +31,9 @@ constexpr double largest_turn = 0.5;  // in a step [rad]
 constexpr double same_place = 0.1;    // of a radius, between the script and the first step
 constexpr double same_step = 1e-6;    // error of a multiple of the time step
 constexpr char checkpoint[] = "state";
+constexpr double most_steps = 1e9;
+// As those of a rig: load over weight, torque over load x radius, and rim speed [m/s]
+constexpr double largest_load = 1e5, largest_torque = 100.0, largest_rim_speed = 1000.0;
 
 /// A folder that is removed at the end.
 class TemporaryFolder {
@@ -141,17 +145,37 @@ std::array<double, 5> OneWheel::rates(double seconds, const Values& values) cons
   return rates;
 }
 
+void OneWheel::check_inputs(const WheelHub& wheel, const Values& values) {
+  const double weight = wheel.total_mass() * standard_gravity, radius = wheel.nominal_radius(),
+               loads = std::max(
+                   {weight, std::abs(values.reals[load]), wheel.ground_wrench().force.norm()});
+  const auto refuse_above = [&](Real input, double most, const char* unit) {
+    if (std::abs(values.reals[input]) > most)
+      throw InputError(fmt::format("DoStep: {}", reals[input].name),
+                       fmt::format("is {:g} {}", values.reals[input], unit),
+                       fmt::format("{:.3g} to {:.3g} {} for a wheel of {:.4g} kg", -most, most,
+                                   unit, wheel.total_mass()),
+                       "check the unit of the input");
+  };
+  if (values.booleans[height_by_load]) refuse_above(load, largest_load * weight, "N");
+  if (values.booleans[spin_by_torque])
+    refuse_above(spin_torque, largest_torque * loads * radius, "N m");
+  else
+    refuse_above(spin_rate, largest_rim_speed / radius, "rad/s");
+}
+
 double OneWheel::advance(double step, Values& values) {
   const double own = session_->liggghts()->update->dt;
   const double count = std::round(step / own);
-  if (!(count >= 1) || std::abs(step - count * own) > same_step * step)
+  if (!(count >= 1 && count <= most_steps) || std::abs(step - count * own) > same_step * step)
     throw InputError("DoStep: communicationStepSize", fmt::format("is {} s", step),
                      fmt::format("multiples of the script's time step of {} s", own));
   for (const Real each : {load, spin_torque, spin_rate})
     if (!std::isfinite(values.reals[each]))
       throw InputError(fmt::format("DoStep: {}", reals[each].name), "is not finite", "a number");
-  const std::array<double, 5> rate = rates(count * own, values);
   WheelHub& wheel = hub();
+  check_inputs(wheel, values);
+  const std::array<double, 5> rate = rates(count * own, values);
   for (std::size_t i = 0; i < rate.size(); ++i) wheel.prescribe(coordinates[i], rate[i]);
   if (values.booleans[height_by_load]) {
     wheel.release(Coordinate::z);

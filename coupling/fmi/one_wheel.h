@@ -50,6 +50,8 @@ class OneWheel {
 
  private:
   WheelHub& hub() const;
+  /// @throws InputError for a load, torque or spin rate that no wheel of this mass has
+  static void check_inputs(const WheelHub& wheel, const Values& values);
   std::array<double, 5> rates(double seconds, const Values& values) const;
 
   std::unique_ptr<Session> session_;

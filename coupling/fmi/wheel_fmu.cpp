@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/checksum.h"
 #include "core/error.h"
 
 namespace furrow::coupling::fmi {
@@ -48,6 +49,12 @@ const char* name_of(WheelFmu::Phase phase) {
     default:
       return "after an error";
   }
+}
+
+std::uint64_t checksum_of(const void* bytes, std::size_t size) {
+  Checksum sum;
+  sum.add(bytes, size);
+  return sum.value();
 }
 
 template <class Container>
@@ -231,8 +238,10 @@ std::unique_ptr<WheelFmu::Snapshot> WheelFmu::snapshot() {
         "get; see "
         "fmi.md");
   auto snapshot = std::make_unique<Snapshot>(Snapshot{phase_, values_, time_, std::nullopt});
-  if (wheel_) snapshot->wheel = wheel_->state();
-  if (wheel_ && !wheel_->begins_at_state()) restore(*snapshot);
+  const bool over = phase_ == Phase::discarded || phase_ == Phase::terminated;
+  if (!wheel_ || over) return snapshot;  // a script that has ended has only its values
+  snapshot->wheel = wheel_->state();
+  if (!wheel_->begins_at_state()) restore(*snapshot);
   return snapshot;
 }
 
@@ -259,10 +268,23 @@ std::vector<std::uint8_t> pack(const WheelFmu::Snapshot& snapshot) {
       json["files"][name] =
           nlohmann::json::binary(std::vector<std::uint8_t>(content.begin(), content.end()));
   }
-  return nlohmann::json::to_cbor(json);
+  std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(json);
+  const std::uint64_t sum = checksum_of(bytes.data(), bytes.size());
+  for (std::size_t i = 0; i < sizeof sum; ++i)
+    bytes.push_back(static_cast<std::uint8_t>(sum >> (8 * i)));
+  return bytes;
 }
 
 std::unique_ptr<WheelFmu::Snapshot> unpack(const fmi2Byte* bytes, std::size_t size) {
+  constexpr char refused[] =
+      "the bytes are no state of this FMU, or are damaged; give those that fmi2SerializeFMUstate "
+      "wrote";
+  std::uint64_t sum = 0;
+  if (!bytes || size <= sizeof sum) throw Error(refused);
+  size -= sizeof sum;
+  for (std::size_t i = 0; i < sizeof sum; ++i)
+    sum |= static_cast<std::uint64_t>(static_cast<std::uint8_t>(bytes[size + i])) << (8 * i);
+  if (sum != checksum_of(bytes, size)) throw Error(refused);
   try {
     const nlohmann::json json = nlohmann::json::from_cbor(bytes, bytes + size);
     auto snapshot = std::make_unique<WheelFmu::Snapshot>();
@@ -282,8 +304,8 @@ std::unique_ptr<WheelFmu::Snapshot> unpack(const fmi2Byte* bytes, std::size_t si
       snapshot->wheel = state;
     }
     return snapshot;
-  } catch (const nlohmann::json::exception& problem) {
-    throw Error(std::string("the bytes are no state of this FMU: ") + problem.what());
+  } catch (const nlohmann::json::exception&) {
+    throw Error(refused);
   }
 }
 

@@ -179,6 +179,11 @@ void write_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path,
   std::optional<MemoryFile> memory;  // on rank 0
   on_first_rank(lammps.world, [&] {
     std::error_code absent;
+    if (const fs::file_status there = fs::status(path, absent);
+        fs::exists(there) && !fs::is_regular_file(there))
+      throw InputError(fmt::format("restart file '{}'", path),
+                       fs::is_directory(there) ? "is a folder" : "is a device or a pipe",
+                       "a file, which a checkpoint may replace", "choose another name");
     if (fs::is_regular_file(path, absent) && fs::file_size(path, absent) > 0 &&
         !begins_as_restart_file(path))
       throw InputError(fmt::format("restart file '{}'", path),

@@ -47,7 +47,9 @@ void initialize_mpi(int* argc, char*** argv) {
     environment.set_default("HWLOC_COMPONENTS", "-linuxio,-pci");
     environment.set_default("HWLOC_PLUGINS_PATH", "none");
   }
-  MPI_Init(argc, argv);
+  // threads of another program take turns
+  int provided = 0;
+  MPI_Init_thread(argc, argv, argc ? MPI_THREAD_SINGLE : MPI_THREAD_SERIALIZED, &provided);
 }
 
 }  // namespace furrow::coupling

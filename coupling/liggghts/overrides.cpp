@@ -151,6 +151,7 @@ FURROW_EXPORTED void Input::include() {
 FURROW_EXPORTED void Integrate::ev_set(bigint step) {
   static const auto original = next_function<void(Integrate*, bigint)>(symbol::begin_step);
   furrow::coupling::Driver* driver = furrow::coupling::driver();
+  furrow::coupling::note_step();
   if (driver && !update->setupflag) driver->before_step(*lmp);
   original(this, step);
 }

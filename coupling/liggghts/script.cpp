@@ -73,6 +73,27 @@ std::string script_folder(const LAMMPS_NS::LAMMPS& lammps) {
       lammps.world);
 }
 
+std::vector<ScriptLine> later_lines(const LAMMPS_NS::LAMMPS& lammps) {
+  std::vector<ScriptLine> lines;
+  const long present = lammps.infile ? line_number(lammps.infile) : 0;
+  if (present == 0) return lines;
+  std::ifstream file(script_name(lammps));
+  bool continues = false;
+  std::string line;
+  for (long number = 1; std::getline(file, line); ++number) {
+    if (number <= present) continue;
+    const std::size_t end = line.find_last_not_of(" \t\r");
+    const bool more = end != std::string::npos && line[end] == '&';
+    if (more) line.erase(end);
+    if (continues)
+      lines.back().text += line;
+    else
+      lines.push_back({number, line});
+    continues = more;
+  }
+  return lines;
+}
+
 std::string script_text_problem(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text(1 << 16, '\0');

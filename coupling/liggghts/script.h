@@ -20,6 +20,14 @@ std::string script_name(const LAMMPS_NS::LAMMPS& lammps);
 /// folder. Collective.
 std::string script_folder(const LAMMPS_NS::LAMMPS& lammps);
 
+struct ScriptLine {
+  long number;  ///< of its first line in the file
+  std::string text;
+};
+/// What follows the present line in its file, continued lines joined. Empty for standard input.
+/// Rank 0 only.
+std::vector<ScriptLine> later_lines(const LAMMPS_NS::LAMMPS& lammps);
+
 /// Why a file is no text that LIGGGHTS reads line by line; empty for one that is, or cannot be
 /// read.
 std::string script_text_problem(const std::string& path);

@@ -29,6 +29,8 @@ using namespace LAMMPS_NS;
 volatile std::sig_atomic_t stop_wanted = 0;  // the signal
 volatile std::sig_atomic_t checkpoint_wanted = 0;
 volatile std::sig_atomic_t confirms = 1;
+// One command may take minutes without a step, and leaves nothing to save.
+volatile std::sig_atomic_t makes_bed = 0, has_run = 0;
 
 using Clock = std::chrono::steady_clock;
 
@@ -64,6 +66,14 @@ void say(std::string_view text) {
 }
 
 void stop(int signal) {
+  if (makes_bed || !has_run) {
+    if (confirms)
+      say(makes_bed
+              ? "\nERROR: command bed was interrupted while it made the bed, which is not kept; "
+                "start the script again\n"
+              : "\nERROR: the script was interrupted before its first run; start it again\n");
+    _exit(128 + signal);
+  }
   if (stop_wanted) {
     if (confirms) say("\nA second signal: the run ends at once.\n");
     _exit(128 + signal);
@@ -132,8 +142,16 @@ bool run_can_be_continued() { return SignalHandler::enable_restart_writing; }
 
 NoCheckpointOnSignal::NoCheckpointOnSignal() : before_(SignalHandler::enable_restart_writing) {
   SignalHandler::enable_restart_writing = false;
+  makes_bed = 1;
 }
-NoCheckpointOnSignal::~NoCheckpointOnSignal() { SignalHandler::enable_restart_writing = before_; }
+NoCheckpointOnSignal::~NoCheckpointOnSignal() {
+  SignalHandler::enable_restart_writing = before_;
+  makes_bed = 0;
+}
+
+void note_step() {
+  if (!makes_bed) has_run = 1;
+}
 
 void report_stop(LAMMPS& lammps) {
   const bigint step = lammps.update->ntimestep;

@@ -26,6 +26,9 @@ bool follow_signals(const LAMMPS_NS::LAMMPS& lammps, bool lists);
 /// @return whether the command is left out
 bool stop_between_commands(const LAMMPS_NS::LAMMPS& lammps);
 
+/// A run of the scene has begun: from here on a signal waits for a checkpoint.
+void note_step();
+
 /// The signal that all ranks have agreed to end on; 0: none.
 int agreed_signal();
 /// Of a run that did not come to its end: 128 and the signal, as shells have it, or 1 for an error.
@@ -34,7 +37,8 @@ int failure_status();
 /// Whether a run is one of the scene. False while a bed is prepared.
 bool run_can_be_continued();
 
-/// While it lives, a signal that ends the run leaves no checkpoint: there is nothing to continue.
+/// While it lives, a signal ends the process at once: there is nothing to continue. A single
+/// command of LIGGGHTS may fill a bed for minutes without a step.
 class NoCheckpointOnSignal {
  public:
   NoCheckpointOnSignal();

@@ -49,6 +49,37 @@ MPI_Comm ranks_of(const py::object& communicator) {
   return *reinterpret_cast<MPI_Comm*>(address.cast<std::uintptr_t>());
 }
 
+// ---- threads ------------------------------------------------------------------------------------
+
+/// One thread of Python at a time calls LIGGGHTS. A thread that waits for its turn lets the others
+/// run: the one whose turn it is may need Python, for Ctrl-C or a warning.
+class Turn {
+ public:
+  Turn() {
+    const py::gil_scoped_release others;
+    process_lock().lock();
+  }
+  ~Turn() { process_lock().unlock(); }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+};
+
+/// A property of an object.
+template <class Function>
+py::cpp_function in_turn(Function&& function) {
+  return py::cpp_function(std::forward<Function>(function), py::call_guard<Turn>());
+}
+
+/// Python may free a simulation in any thread.
+void free_in_turn(Session* session) {
+  if (PyGILState_Check()) {
+    const Turn turn;
+    delete session;
+  } else {
+    delete session;
+  }
+}
+
 // ---- a simulation -------------------------------------------------------------------------------
 
 /// Ctrl-C, or another signal whose handler raises an exception.
@@ -80,12 +111,6 @@ void add_stream(std::vector<std::string>& arguments, const char* option, const p
   arguments.push_back(none ? "none" : std::string(py::str(target)));
 }
 
-/// As warnings of Python, where its caller stands. @throws error_already_set if they are errors
-void show_warnings(Session& session) {
-  for (const std::string& text : session.take_warnings())
-    if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
-}
-
 SessionPointer open(const py::object& script, const py::dict& variables, const py::object& log,
                     const py::object& screen, const py::object& communicator) {
   start_mpi();
@@ -104,7 +129,8 @@ SessionPointer open(const py::object& script, const py::dict& variables, const p
   }
   const auto make = [&] {
     const py::gil_scoped_release others;
-    return std::make_shared<Session>(arguments, temporary, ranks, python_is_interrupted);
+    return SessionPointer(new Session(arguments, temporary, ranks, python_is_interrupted),
+                          free_in_turn);
   };
   SessionPointer session = make();
   show_warnings(*session);
@@ -217,41 +243,46 @@ PYBIND11_MODULE(furrow, module) {
   py::module_::import("atexit").attr("register")(
       py::cpp_function([sessions, initialized] { close_all(*sessions, !initialized); }));
 
+  const py::call_guard<Turn> turn;
   py::class_<BodyPart>(module, "Body", "A body of the scene and its surface.")
       .def_property_readonly("id", &BodyPart::id)
-      .def_property_readonly("nodes", &BodyPart::nodes, "Positions of the nodes [m], a view.")
-      .def_property_readonly("velocities", &BodyPart::velocities, "Of the nodes [m/s], a view.")
-      .def_property_readonly("forces", &BodyPart::forces,
+      .def_property_readonly("nodes", in_turn(&BodyPart::nodes),
+                             "Positions of the nodes [m], a view.")
+      .def_property_readonly("velocities", in_turn(&BodyPart::velocities),
+                             "Of the nodes [m/s], a view.")
+      .def_property_readonly("forces", in_turn(&BodyPart::forces),
                              "Forces of the ground on the nodes [N], a view.")
-      .def_property_readonly("triangles", &BodyPart::triangles, "Indices of nodes, a view.");
+      .def_property_readonly("triangles", in_turn(&BodyPart::triangles),
+                             "Indices of nodes, a view.");
   py::class_<WheelPart, BodyPart>(module, "Wheel", "A wheel or tyre and its axle.")
-      .def_property_readonly("position", &WheelPart::position,
+      .def_property_readonly("position", in_turn(&WheelPart::position),
                              "x, y, z [m], spin, yaw, camber [rad].")
-      .def_property_readonly("velocity", &WheelPart::velocity,
+      .def_property_readonly("velocity", in_turn(&WheelPart::velocity),
                              "Rates of the position, half a step ago [m/s, rad/s].")
-      .def_property_readonly("force", &WheelPart::force,
+      .def_property_readonly("force", in_turn(&WheelPart::force),
                              "Of the ground: force [N] and moment about the axle centre [N m].")
-      .def_property_readonly("constraint", &WheelPart::constraint,
+      .def_property_readonly("constraint", in_turn(&WheelPart::constraint),
                              "Force or torque that holds or moves each coordinate [N, N m].")
-      .def_property("load", &WheelPart::load, &WheelPart::set_load,
+      .def_property("load", in_turn(&WheelPart::load), in_turn(&WheelPart::set_load),
                     "Force at the axle, the weight included [N].")
-      .def("set_axle_torque", &WheelPart::set_axle_torque, py::arg("torque"),
+      .def("set_axle_torque", &WheelPart::set_axle_torque, py::arg("torque"), turn,
            "Torque of a motor or brake [N m], where the spin is free.")
-      .def("prescribe", &WheelPart::prescribe, py::arg("coordinate"), py::arg("rate"),
+      .def("prescribe", &WheelPart::prescribe, py::arg("coordinate"), py::arg("rate"), turn,
            "Moves x, y, z, spin, yaw or camber at a rate [m/s, rad/s].")
-      .def("hold", &WheelPart::hold, py::arg("coordinate"), "Stops a coordinate.")
-      .def("release", &WheelPart::release, py::arg("coordinate"), "Lets forces move it.")
-      .def_property_readonly("radius", &WheelPart::radius, "Without grousers [m].")
-      .def_property_readonly("mass", &WheelPart::mass, "Of all that moves with the wheel [kg].");
+      .def("hold", &WheelPart::hold, py::arg("coordinate"), turn, "Stops a coordinate.")
+      .def("release", &WheelPart::release, py::arg("coordinate"), turn, "Lets forces move it.")
+      .def_property_readonly("radius", in_turn(&WheelPart::radius), "Without grousers [m].")
+      .def_property_readonly("mass", in_turn(&WheelPart::mass),
+                             "Of all that moves with the wheel [kg].");
   py::class_<TerrainPart, BodyPart>(module, "Terrain", "Ground as a continuum.")
-      .def("particles", &TerrainPart::particles,
+      .def("particles", &TerrainPart::particles, turn,
            "Particles of this rank, a dictionary of views for each material.");
   py::class_<RigPart>(module, "Rig", "A wheel/rig, which drives a wheel.")
       .def_property_readonly("id", &RigPart::id)
-      .def("set", &RigPart::set,
+      .def("set", &RigPart::set, turn,
            "Changes load_mass, load_force, speed, slip, torque, spin_rate or drawbar_load.")
-      .def_property_readonly("targets", &RigPart::targets, "Their present values.")
-      .def("measure", &RigPart::measure,
+      .def_property_readonly("targets", in_turn(&RigPart::targets), "Their present values.")
+      .def("measure", &RigPart::measure, turn,
            "The channels of history.h5 now, without the losses of the ground.");
 
   py::class_<Session, SessionPointer>(module, "Simulation", simulation_text)
@@ -264,37 +295,41 @@ PYBIND11_MODULE(furrow, module) {
            }),
            py::arg("script"), py::kw_only(), py::arg("variables") = py::dict(),
            py::arg("log") = py::none(), py::arg("screen") = py::none(),
-           py::arg("communicator") = py::none())
-      .def("step", &advance, py::arg("count") = 1,
+           py::arg("communicator") = py::none(), turn)
+      .def("step", &advance, py::arg("count") = 1, turn,
            "Runs steps, and the commands between runs. Returns how many: fewer at the end.")
       .def(
           "run",
-          [](Session& session) { return advance(session, std::numeric_limits<long>::max()); },
+          [](Session& session) { return advance(session, std::numeric_limits<long>::max()); }, turn,
           "Runs to the end of the script. Returns the number of steps.")
-      .def("end", &finish<&Session::end>,
+      .def("end", &finish<&Session::end>, turn,
            "Ends the run after its next step, writes its results, and skips the rest.")
-      .def("write_checkpoint", &Session::write_checkpoint, py::arg("path"),
+      .def("write_checkpoint", &Session::write_checkpoint, py::arg("path"), turn,
            "Of the present step, for read_restart.")
-      .def("close", &finish<&Session::close>,
+      .def("close", &finish<&Session::close>, turn,
            "Ends the run and frees the simulation, with the last of its arrays.")
       .def("__enter__", [](const SessionPointer& session) { return session; })
-      .def("__exit__", [](Session& session, const py::args&) { finish<&Session::close>(session); })
-      .def_property_readonly("ended", &Session::ended, "Whether the script is at its end.")
-      .def_property_readonly("time", &Session::time, "Of the scene [s].")
-      .def_property_readonly("step_number", &Session::step_number, "Of LIGGGHTS.")
-      .def_property_readonly("bodies", &parts_of<FixBody, BodyPart>, "All bodies, by id.")
-      .def_property_readonly("wheels", &parts_of<FixWheelHub, WheelPart>)
-      .def_property_readonly("terrains", &parts_of<FixTerrain, TerrainPart>)
-      .def_property_readonly("rigs", &parts_of<FixWheelRig, RigPart>)
-      .def_property_readonly("grains", &grains, "Grains of this rank, a dictionary of views.")
-      .def("outputs", &outputs_of, py::arg("id"), "The values f_ID[n] of a fix, by name.")
+      .def(
+          "__exit__", [](Session& session, const py::args&) { finish<&Session::close>(session); },
+          turn)
+      .def_property_readonly("ended", in_turn(&Session::ended), "Whether the script is at its end.")
+      .def_property_readonly("time", in_turn(&Session::time), "Of the scene [s].")
+      .def_property_readonly("step_number", in_turn(&Session::step_number), "Of LIGGGHTS.")
+      .def_property_readonly("bodies", in_turn(&parts_of<FixBody, BodyPart>), "All bodies, by id.")
+      .def_property_readonly("wheels", in_turn(&parts_of<FixWheelHub, WheelPart>))
+      .def_property_readonly("terrains", in_turn(&parts_of<FixTerrain, TerrainPart>))
+      .def_property_readonly("rigs", in_turn(&parts_of<FixWheelRig, RigPart>))
+      .def_property_readonly("grains", in_turn(&grains),
+                             "Grains of this rank, a dictionary of views.")
+      .def("outputs", &outputs_of, py::arg("id"), turn, "The values f_ID[n] of a fix, by name.")
       .def(
           "variable",
           [](const Session& session, const std::string& name) {
             return variable(*session.liggghts(), name);
           },
-          py::arg("name"), "The text of a variable of the script, or None.")
-      .def_property_readonly("folders", &folders_of, "Results folder of each wheel/history, by id.")
-      .def("summary", &summary_of, py::arg("id") = py::none(),
+          py::arg("name"), turn, "The text of a variable of the script, or None.")
+      .def_property_readonly("folders", in_turn(&folders_of),
+                             "Results folder of each wheel/history, by id.")
+      .def("summary", &summary_of, py::arg("id") = py::none(), turn,
            "Averages of a run that has ended: summary.json as a dictionary.");
 }

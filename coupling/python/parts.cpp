@@ -40,6 +40,11 @@ std::string written(const py::handle& value) {
 
 }  // namespace
 
+void show_warnings(Session& session) {
+  for (const std::string& text : session.take_warnings())
+    if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 py::array BodyPart::nodes() const {
   const Surface& surface = fix().body().surface();
   return view_rows(owner(), surface.x.data(), surface.node_count());
@@ -85,9 +90,8 @@ std::array<double, 3> WheelPart::load() const {
 }
 
 WheelHub& WheelPart::undriven_hub(const std::string& coordinate) const {
-  const bool set_by_rig = coordinate != "y" && coordinate != "yaw" && coordinate != "camber";
   for (FixWheelRig* rig : fixes_of<FixWheelRig>(*owner()->modify))
-    if (set_by_rig && &rig->wheel_fix() == &fix<FixWheelHub>())
+    if (&rig->wheel_fix() == &fix<FixWheelHub>() && rig->rig().sets(coordinate))
       throw Error(
           fmt::format("wheel '{}': fix {} sets {} in every step; change the targets of "
                       "that rig, or write the script without it",
@@ -95,12 +99,30 @@ WheelHub& WheelPart::undriven_hub(const std::string& coordinate) const {
   return hub();
 }
 
+/// @throws Error for a force or torque that a held or prescribed coordinate takes up
+void WheelPart::require_free(const WheelHub& hub, Coordinate coordinate, const char* what) const {
+  const std::string& name = coordinate_names[static_cast<std::size_t>(coordinate)];
+  if (hub.motion(coordinate) != WheelHub::Motion::free)
+    throw Error(fmt::format(
+        "wheel '{}': {} has no effect, because {} is {}; call "
+        "release('{}') before",
+        id(), what, name, hub.motion(coordinate) == WheelHub::Motion::held ? "held" : "prescribed",
+        name));
+}
+
 void WheelPart::set_load(const std::array<double, 3>& force) {
-  undriven_hub("the load").set_load({force[0], force[1], force[2]});
+  WheelHub& wheel = undriven_hub("the load");
+  constexpr Coordinate along[] = {Coordinate::x, Coordinate::y, Coordinate::z};
+  constexpr const char* names[] = {"a load along x", "a load along y", "a load along z"};
+  for (std::size_t i = 0; i < force.size(); ++i)
+    if (force[i] != 0.0) require_free(wheel, along[i], names[i]);
+  wheel.set_load({force[0], force[1], force[2]});
 }
 
 void WheelPart::set_axle_torque(double torque) {
-  undriven_hub("the axle torque").set_axle_torque(torque);
+  WheelHub& wheel = undriven_hub("the axle torque");
+  if (torque != 0.0) require_free(wheel, Coordinate::spin, "an axle torque");
+  wheel.set_axle_torque(torque);
 }
 
 void WheelPart::prescribe(const std::string& coordinate, double rate) {
@@ -144,7 +166,8 @@ py::list TerrainPart::particles() const {
 void RigPart::set(const py::kwargs& targets) {
   std::vector<Entry> entries;
   for (const auto& [key, value] : targets) entries.push_back({py::str(key), {written(value)}});
-  fix().change_targets(entries);
+  session_->change([&] { fix().change_targets(entries); });
+  show_warnings(*session_);
 }
 
 std::map<std::string, double> RigPart::targets() const {

@@ -73,6 +73,7 @@ class WheelPart : public BodyPart {
 
  private:
   WheelHub& hub() const { return fix<FixWheelHub>().hub(); }
+  void require_free(const WheelHub& hub, Coordinate coordinate, const char* what) const;
   /// @throws Error where a rig sets this coordinate, the load or the torque in every step
   WheelHub& undriven_hub(const std::string& coordinate) const;
 };
@@ -92,6 +93,9 @@ class RigPart : public Part<FixWheelRig> {
   std::map<std::string, double> targets() const;
   std::map<std::string, double> measure() const;
 };
+
+/// As warnings of Python, where its caller stands. @throws error_already_set if they are errors
+void show_warnings(Session& session);
 
 /// Grains of this rank. All arrays are views.
 pybind11::dict grains(const Session& session);

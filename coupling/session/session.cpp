@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <utility>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "atom.h"
@@ -84,6 +86,11 @@ void free_all(LAMMPS_NS::LAMMPS* lammps) {
 
 }  // namespace
 
+std::recursive_mutex& process_lock() {
+  static std::recursive_mutex lock;
+  return lock;
+}
+
 Session::Session(std::vector<std::string> arguments, std::string temporary, MPI_Comm ranks,
                  Interrupted interrupted)
     : arguments_(std::move(arguments)),
@@ -141,6 +148,15 @@ void Session::write_checkpoint(const std::string& path) {
   const std::shared_ptr<LAMMPS_NS::LAMMPS> lammps = liggghts();
   if (ended() || lammps->update->whichflag != 1)
     throw Error("a checkpoint between steps needs a run that has begun and has not ended");
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code absent;
+  if (path.empty() || path.find('\0') != std::string::npos)
+    throw InputError("checkpoint", path.empty() ? "has no name" : "has a zero byte in its name",
+                     "the path of a file");
+  if (!folder.empty() && !std::filesystem::is_directory(folder, absent))
+    throw InputError(fmt::format("checkpoint '{}'", path), "lies in a folder that does not exist",
+                     "a file in a folder that exists",
+                     fmt::format("make the folder '{}', or correct the path", folder.string()));
   const GrainsInBox grains(*lammps);
   std::string name = path;
   LAMMPS_NS::WriteRestart(lammps.get()).write(name.data());
@@ -167,12 +183,16 @@ double Session::time() const {
   return static_cast<double>(lammps->update->ntimestep) * lammps->update->dt;
 }
 
-void Session::resume() {
+void Session::change(const std::function<void()>& action) {
   set_driver(this);
   struct Reset {
     ~Reset() { set_driver(nullptr); }
   } reset;
-  script_.resume();
+  action();
+}
+
+void Session::resume() {
+  change([this] { script_.resume(); });
   if (ended()) remove_temporary();
 }
 
@@ -223,6 +243,7 @@ void Session::before_step(LAMMPS_NS::LAMMPS& lammps) {
 bool Session::before_command(LAMMPS_NS::LAMMPS& lammps) {
   if (!run_can_be_continued()) return false;
   const std::vector<std::string> words = current_command(lammps);
+  if (!words.empty() && words[0] == "quit") ending_ = true;  // of the script, not of the process
   const bool runs = !words.empty() && (words[0] == "run" || words[0] == "run_until_steady");
   if (runs && left_ == 0 && !ending_) pause();
   return ending_;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,10 @@
 #include "lammps.h"
 
 namespace furrow::coupling {
+
+/// LIGGGHTS and MPI have one state per process: whoever calls a Session holds this lock. Threads
+/// take turns, also with sessions of their own.
+std::recursive_mutex& process_lock();
 
 /// The script runs in a coroutine. It pauses between two steps of a run, where LIGGGHTS has
 /// finished one and begins the next: runs are neither split nor set up twice, and results are those
@@ -59,6 +64,8 @@ class Session : private Driver {
   long step_number() const;  ///< of LIGGGHTS
   double time() const;       ///< of the scene [s]
   bool interrupted() const { return interrupted_now_; }
+  /// Runs what changes the scene between steps; its warnings come to take_warnings().
+  void change(const std::function<void()>& action);
   /// What Furrow has warned of since the last call, on the first rank.
   std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 

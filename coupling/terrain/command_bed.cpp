@@ -15,10 +15,12 @@
 #include "core/check_number.h"
 #include "core/error.h"
 #include "core/gravity.h"
+#include "io/contact_section.h"
 #include "core/types.h"
 #include "coupling/base/bed_line.h"
 #include "coupling/liggghts/checkpoint_file.h"
 #include "coupling/liggghts/first_rank.h"
+#include "coupling/terrain/later_lines.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/signals.h"
 #include "coupling/liggghts/style_registry.h"
@@ -143,6 +145,11 @@ Schema CommandBed::schema() {
   schema.number("gravity", "m/s^2", admissible_gravity(), "in which the bed settles, downwards")
       .by_default(standard_gravity);
   declare_relief(schema);
+  schema
+      .text("contact",
+            "file with the friction of the grains with steel and rubber; path relative to the "
+            "script")
+      .optional();
   schema.text("from", "checkpoint of a run on this bed, to continue that run; `none`: start")
       .by_default(no_checkpoint);
   return schema;
@@ -210,9 +217,10 @@ CommandBed::Request CommandBed::read_request(const std::vector<std::string>& wor
     const Key* key = keys.find(name);
     const bool several = key && key->kind == Key::Kind::numbers;
     entries.push_back({name, several ? split(value) : std::vector<std::string>{value}});
-    if (name != "from") parameters.push_back({name, value, written});
+    if (name != "from" && name != "contact") parameters.push_back({name, value, written});
   }
   const Options options = keys.read(entries);
+  set_contact(options);
   if (!options.given("gravity"))  // a parameter of every bed, of its identity too
     parameters.push_back({"gravity", fmt::format("{}", options.number("gravity")), "gravity"});
   check_bed_parameters(options);
@@ -223,6 +231,18 @@ CommandBed::Request CommandBed::read_request(const std::vector<std::string>& wor
   const std::string values = values_of(options, surface);
   return {std::move(script), std::move(surface), options.text("from"), std::move(parameters),
           values};
+}
+
+/// The friction with each material of a body becomes a variable, bed_friction_steel.
+void CommandBed::set_contact(const Options& options) {
+  if (!options.has("contact")) return;
+  const std::string path = (fs::path(script_folder(*lmp)) / options.text("contact")).string();
+  for (const auto& [material, contact] : read_contact_file(path)) {
+    set_variable(*lmp, "bed_friction_" + material, fmt::format("{:.15g}", contact.friction));
+    announce(*lmp, fmt::format("Friction of the grains with {}: {:g} ({:g} to {:g}), {}; {}",
+                               material, contact.friction, contact.friction_range[0],
+                               contact.friction_range[1], contact.label, contact.source));
+  }
 }
 
 /// Each becomes a variable with bed_ before its name; of a former name too, which a bed script may
@@ -261,16 +281,18 @@ void CommandBed::make(const Request& request, const KeptBed& bed) {
   const int grid[3] = {comm->user_procgrid[0], comm->user_procgrid[1], comm->user_procgrid[2]};
   // before the minutes that a bed takes
   on_first_rank(world, [&] { check_folder(bed.folder.parent_path()); });
-  const NoCheckpointOnSignal nothing_to_continue;
-  run_section(request, "box");
-  request.surface.check_period(*lmp);
-  for (const char* name : {"contact", "settle"}) run_section(request, name);
-  if (request.script.leaves_levelling()) {
-    remove_surplus(*lmp, request.surface);
-    run_section(request, "levelled");
+  check_later_lines(*lmp);
+  {
+    const NoCheckpointOnSignal nothing_to_continue;
+    run_section(request, "box");
+    request.surface.check_period(*lmp);
+    for (const char* name : {"contact", "settle"}) run_section(request, name);
+    if (request.script.leaves_levelling()) {
+      remove_surplus(*lmp, request.surface);
+      run_section(request, "levelled");
+    }
   }
-  // A termination signal ends every run at once and lets the script go on: what came of it is no
-  // bed, and must not be kept for others.
+  // A signal that came before: what came of it is no bed, and must not be kept for others.
   if (agreed_signal())
     throw StateError(
         "command bed was interrupted while it made the bed, which is not kept; start the script "

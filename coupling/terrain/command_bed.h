@@ -56,6 +56,7 @@ class CommandBed : protected LAMMPS_NS::Pointers {
   };
 
   Request read_request(const std::vector<std::string>& words);
+  void set_contact(const Options& options);
   void set_parameters(const Request& request);
   bool is_kept(const KeptBed& bed);
   void make(const Request& request, const KeptBed& bed);

@@ -56,7 +56,11 @@ Schema FixTerrainScm::schema() {
 FixTerrainScm::FixTerrainScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixScm(lammps, narg, arg, schema()) {
   if (card()) refuse_other_gravity(options(), *card());
-  for (const std::string& doubt : doubts(soil()))
+  std::vector<std::string> all = doubts(soil());
+  for (const std::string& doubt :
+       field().parameters().relief.doubts(options().number("length"), field().cell(), false))
+    all.push_back(doubt);
+  for (const std::string& doubt : all)
     warn(*lmp, fmt::format("{}: {}", options().subject(), doubt));
   if (comm->me == 0 && screen)
     fmt::print(screen, "Height field: {} x {} cells of {:.4g} m, z = {:.4g} m\n", field().columns(),

@@ -17,6 +17,9 @@ namespace {
 constexpr double smallest_mesh = 1e-3, largest_mesh = 5.0;  // [m], of wheels and tools
 // Of a wheel: distance of the centre of mass from the axle over the radius, and difference of the
 // moments of inertia across the axle over that about it.
+// Nominal radius over the largest distance from the axle: grousers of a small rover wheel reach 0.2
+// of it
+constexpr double least_radius = 0.5, usual_radius = 0.75;
 constexpr double largest_offset = 0.02, largest_difference = 0.1;
 const Range densities = Range::closed(10.0, 25000.0);  // [kg/m^3] from foam to tungsten
 constexpr double noise = 1e-6;                         // of coordinates and directions in messages
@@ -91,6 +94,17 @@ class MeshWheel {
       throw InputError(options.where("radius"), fmt::format("is {:g} m", radius),
                        fmt::format("at most {:.6g} m, the largest distance from the axle", reach),
                        "check scale, origin and axis");
+    const std::string as_nominal =
+        fmt::format("is {:g} m, and the mesh reaches {:.4g} m from the axle", radius, reach);
+    if (radius < least_radius * reach)
+      throw InputError(options.where("radius"), as_nominal,
+                       fmt::format("{:.4g} to {:.4g} m", least_radius * reach, reach),
+                       "give the radius of the rim between its grousers, in m");
+    if (radius < usual_radius * reach)
+      doubts_.push_back(
+          fmt::format("{} {}: rim speed, slip and hub drop take the smaller radius; "
+                      "give that of the rim between its grousers",
+                      options.where("radius"), as_nominal));
     reach_ = reach;
     wheel_.geometry.diameter = 2.0 * radius;
     wheel_.geometry.grousers.height = std::max(0.0, reach - radius);

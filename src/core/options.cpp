@@ -246,6 +246,30 @@ Options Schema::read(const std::vector<Entry>& entries) const {
   return options;
 }
 
+void Schema::check(const std::vector<std::string>& words) const {
+  const auto unknown = [](const std::string& word) { return word.find('$') != std::string::npos; };
+  for (std::size_t i = 0; i < words.size();) {
+    const std::string& name = words[i++];
+    if (unknown(name)) return;
+    const Key* key = resolve(name);
+    if (!key) {
+      read(std::vector<Entry>{{name, {}}});  // throws
+      return;
+    }
+    std::vector<std::string> values;
+    while (i < words.size() &&
+           (key->count == 0 ? to_number(words[i]).has_value() : values.size() < key->count))
+      values.push_back(words[i++]);
+    if (std::any_of(values.begin(), values.end(), unknown) ||
+        (key->count == 0 && i < words.size() && unknown(words[i]))) {
+      if (key->count != 1 || (i < words.size() && !resolve(words[i]))) return;
+      continue;  // one word stood for the value
+    }
+    Options scratch;
+    accept(scratch, *key, values, true, {}, fmt::format("{}, keyword '{}'", subject_, name));
+  }
+}
+
 std::string Schema::table() const {
   std::string text;
   for (const Key& key : keys_)

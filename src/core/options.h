@@ -115,6 +115,9 @@ class Schema {
   Options read(const std::vector<std::string>& words) const;
   /// Reads entries as a file has them. @throws InputError
   Options read(const std::vector<Entry>& entries) const;
+  /// Looks at words of which those with a '$' are known only when the script runs, as far as they
+  /// can be told apart. Missing keys are no error. @throws InputError
+  void check(const std::vector<std::string>& words) const;
   /// The table of keys for --help: a line for each with unit, range, default and meaning.
   std::string table() const;
 

@@ -22,6 +22,10 @@ constexpr int waves = 256;                   // of a random profile, in equal ba
 constexpr double round_off = 1e-9;           // of a spacing
 constexpr int map_samples = 200;             // along the middle of a ground
 constexpr double steepest_mean = 1.0;        // slope, as height over length
+// Wavelength of a washboard over the length of ground that stays and of ground that follows a
+// wheel, and over a cell
+constexpr double flattest = 5e-4;  // amplitude over wavelength
+constexpr double longest_of_ground = 4.0, longest_of_window = 50.0, cells_of_wave = 4.0;
 constexpr char best_road = 'A', worst_road = 'H';
 constexpr double best_density = 16e-6;  // G(n0) of the best road [m^3]
 
@@ -163,6 +167,46 @@ std::string GroundRelief::map_checksum() const {
   checksum.add(map.spacing.data(), 2 * sizeof(double));
   checksum.add(map.heights.data(), map.heights.size() * sizeof(double));
   return fmt::format("{}x{} {:016x}", map.columns, map.rows, checksum.value());
+}
+
+std::vector<std::string> GroundRelief::doubts(double length, double cell, bool moves) const {
+  std::vector<std::string> found;
+  if (const auto& washboard = parameters_.washboard) {
+    const double wave = (*washboard)[0], height = std::abs((*washboard)[1]);
+    const double longest = (moves ? longest_of_window : longest_of_ground) * length;
+    if (height > 0.5 * wave)
+      found.push_back(
+          fmt::format("'washboard' has a wavelength of {:g} m and an amplitude of {:g} m: it is "
+                      "steeper than any "
+                      "ground; write the wavelength first",
+                      wave, height));
+    else if (wave > longest)
+      found.push_back(
+          fmt::format("'washboard' has a wavelength of {:g} m on ground {:g} m long, which "
+                      "is flat on this scale; give m, not mm",
+                      wave, length));
+    else if (height < flattest * wave)
+      found.push_back(
+          fmt::format("'washboard' has a wavelength of {:g} m and an amplitude of {:g} m, "
+                      "which is flat; give m, not km",
+                      wave, height));
+    else if (wave < cells_of_wave * cell)
+      found.push_back(fmt::format(
+          "'washboard' has a wavelength of {:g} m, and a cell is {:g} m: the ground does "
+          "not show it; write at most 'cell {:.2g}'",
+          wave, cell, wave / cells_of_wave));
+  }
+  if (const auto& cylinder = parameters_.half_cylinder; cylinder && (*cylinder)[1] < 2.0 * cell)
+    found.push_back(
+        fmt::format("'half_cylinder' has a radius of {:g} m, and a cell is {:g} m: the "
+                    "ground does not show it; write at most 'cell {:.2g}'",
+                    (*cylinder)[1], cell, 0.5 * (*cylinder)[1]));
+  if (const auto& bump = parameters_.trapezoid; bump && (*bump)[3] < 2.0 * cell)
+    found.push_back(
+        fmt::format("'trapezoid' has a base of {:g} m, and a cell is {:g} m: the ground "
+                    "does not show it; write at most 'cell {:.2g}'",
+                    (*bump)[3], cell, 0.5 * (*bump)[3]));
+  return found;
 }
 
 void GroundRelief::match(Checkpoint& state) const {

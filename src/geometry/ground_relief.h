@@ -63,6 +63,9 @@ class GroundRelief {
   /// Of a ground from a lower to an upper corner [m]; without a heightmap nothing.
   /// @throws InputError for a map that is coarser, higher or steeper than such a ground can be
   void check_map(const Vector2& lower, const Vector2& upper) const;
+  /// Warnings of shapes that ground of this length and cell [m] cannot show, a sentence each.
+  /// @param moves  with a wheel, over any distance
+  std::vector<std::string> doubts(double length, double cell, bool moves) const;
   /// Of the heightmap's nodes, equal for equal maps; empty without one.
   std::string map_checksum() const;
   /// A run that continues must have the same heightmap. Keywords are compared by the fix.

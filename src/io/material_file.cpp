@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/nearest_word.h"
+#include "io/contact_section.h"
 #include "io/input_kind.h"
 #include "material/plausibility.h"
 
@@ -83,6 +84,7 @@ void put_over(YamlTree& base, const YamlTree& section) {
 YamlTree read_with_base(const std::vector<std::string>& files) {
   YamlTree file = read_yaml(files.back());
   check_kind(file, InputKind::material);
+  insert_contact_file(file, files.back());
   if (!file.find("base")) return file;
   const YamlTree name = text_of(file, "base", "a file beside this one");
   std::vector<std::string> more = files;
@@ -126,12 +128,14 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
       result.title = text_of(file, key, "a text").text;
       continue;
     }
+    if (key == "contact") continue;
     const std::vector<std::string> names = section_names(model);
     if (std::find(names.begin(), names.end(), key) == names.end())
       throw InputError(
           value.origin,
           fmt::format("has the section '{}', which law {} does not have", key, model.name),
-          fmt::format("title, base, {}", fmt::join(names, ", ")), did_you_mean(names, key));
+          fmt::format("title, base, contact, {}", fmt::join(names, ", ")),
+          did_you_mean(names, key));
     if (value.kind != YamlTree::Kind::map)
       throw InputError(fmt::format("{}: '{}'", value.origin, key), "is not a section of keys",
                        "keys with values, indented below it");
@@ -153,6 +157,7 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
     if (section.name == "law") aside.push_back("type");
     if (map != &nothing) result.sections[section.name] = entries_of(*map, aside);
   }
+  result.contact = contact_of(file);
   const std::unique_ptr<Material> material = with_place(path, [&] { return result.make(); });
   with_place(path, [&] {
     check_plausible(*material);

@@ -9,6 +9,7 @@
 ///     density: 1900                       # the keys of the law
 ///   elasticity: { type: linear, ... }     # the law's other sections, each with its `type` where
 ///   hardening: { type: table, ... }       # it has several
+///   contact: contact/sand.yaml            # optional (contact_section.h)
 ///
 /// A variant names another file and gives what differs: `base: fresh_snow.yaml` (in the same
 /// folder). A section that is of another type than the base's replaces it whole.
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "io/yaml_tree.h"
+#include "material/ground_contact.h"
 #include "material/material.h"
 #include "material/registry.h"
 
@@ -29,6 +31,7 @@ struct MaterialFile {
   std::string title;  ///< the file's, or its name without folder and ending
   MaterialModel model;
   MaterialSections sections;
+  GroundContact contact;
   std::vector<std::string> warnings;  ///< what is unusual, a sentence each, to be shown
 
   std::unique_ptr<Material> make() const { return make_material(model, sections); }

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/gravity.h"
 #include "core/types.h"
+#include "io/contact_section.h"
 #include "io/yaml_tree.h"
 
 namespace furrow {
@@ -35,6 +36,9 @@ double plain_value(const YamlTree& entry, const std::string& name, const std::st
 double largest_of(const YamlTree& part, const std::string& name, double without) {
   const YamlTree* const range = part.find(name);
   if (!range) return without;
+  if (range->kind != YamlTree::Kind::list)
+    throw InputError(fmt::format("{}: '{}'", range->origin, name), "is not a list of two numbers",
+                     "the least and the largest value of the tests", "write [0.001, 0.06]");
   Entry entry{name, {}, range->origin};
   for (const YamlTree& end : range->items) entry.values.push_back(end.text);
   Schema schema("soil card");
@@ -45,7 +49,8 @@ double largest_of(const YamlTree& part, const std::string& name, double without)
 }  // namespace
 
 SoilCard read_soil_card(const std::string& path) {
-  const YamlTree card = read_yaml(path);
+  YamlTree card = read_yaml(path);
+  insert_contact_file(card, path);
   const YamlTree& plate = card.map("pressure_sinkage", what_a_card_is);
   const YamlTree& shear = card.map("shear", what_a_card_is);
   for (const YamlTree* part : {&plate, &shear})
@@ -66,7 +71,8 @@ SoilCard read_soil_card(const std::string& path) {
   values["K"] = value_of(shear.map("K", what_a_card_is), "K", Range::positive());
   if (const YamlTree* stiffness = card.find("stiffness"))
     values["stiffness"] = plain_value(*stiffness, "stiffness", "Pa/m", Range::positive());
-  const YamlTree* const gravity = card.find("gravity");
+  found.contact = contact_of(card);
+  const YamlTree* const gravity = static_cast<const YamlTree&>(card).find("gravity");
   need(gravity != nullptr, path, "has no 'gravity'", "the gravity of the tests, in m/s^2",
        fmt::format("add the line 'gravity: {:g}' to a card of tests on the Earth",
                    standard_gravity));

@@ -74,7 +74,7 @@ TerrainLayer load(const Options& options, const std::filesystem::path& path, dou
         fmt::format("{} is {}, and the stress of the law {} jumps in waves, which only a transfer "
                     "in every step damps; write 'transfer_interval 1'",
                     options.where("transfer_interval"), interval, material->name()));
-  return {std::move(material), thickness, describe(file), file.warnings};
+  return {std::move(material), thickness, describe(file), file.warnings, file.title, file.contact};
 }
 
 /// @param all_have_one the lowest as well, which could do without

@@ -10,6 +10,7 @@
 
 #include "core/options.h"
 #include "geometry/ground_relief.h"
+#include "material/ground_contact.h"
 #include "material/material.h"
 #include "mpm/axis.h"
 #include "mpm/block_layout.h"
@@ -25,6 +26,8 @@ struct TerrainLayer {
   /// The law and its effective keys, as a checkpoint compares them; may be empty.
   std::vector<Entry> description = {};
   std::vector<std::string> warnings = {};  ///< of the reader, to be shown
+  std::string name = {};                   ///< of its material
+  GroundContact contact = {};              ///< with bodies
 };
 
 /// A channel along x in the surface, as long as the ground, that grains fill; its middle is that of

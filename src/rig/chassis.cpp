@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "rig/chassis.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -13,6 +14,7 @@ namespace furrow {
 namespace {
 
 constexpr double apart = 1e-6;          // [m] wheels that are closer are in one line
+constexpr double most_radii = 10.0;     // of a wheel, of heights above the axles
 constexpr double least_support = 1e-6;  // of the stiffest coordinate
 
 double mass_of(const WheelRig& rig) { return rig.suspension()->mass(); }
@@ -104,6 +106,14 @@ Chassis::Chassis(const Options& options, std::vector<WheelRig*> rigs)
       height_(options.number("height")),
       guide_height_(options.number("guide_height")),
       body_(make_body(options, rigs_)) {
+  double radius = 0.0;
+  for (const WheelRig* rig : rigs_) radius = std::max(radius, rig->wheel().nominal_radius());
+  for (const char* key : {"height", "guide_height"})
+    if (std::abs(options.number(key)) > most_radii * radius)
+      throw InputError(options.where(key), fmt::format("is {:g} m", options.number(key)),
+                       fmt::format("-{0:.3g} to {0:.3g} m, {1:g} radii of the largest wheel",
+                                   most_radii * radius, most_radii),
+                       "give m, not cm or mm");
   for (WheelRig* rig : rigs_) rig->join();
 }
 
@@ -112,7 +122,8 @@ void Chassis::release() {
 }
 
 void Chassis::apply(double time, double dt) {
-  if (!rigs_.front()->lowered(time + 0.5 * dt)) return;
+  for (const WheelRig* rig : rigs_)
+    if (!rig->lowered(time + 0.5 * dt)) return;
   const Vector2 centre = centre_of_mass(rigs_);
   std::vector<Strut> struts;
   for (const WheelRig* rig : rigs_) {

@@ -14,6 +14,7 @@ namespace {
 
 // Of the load: what the ground bears when a lowered wheel has come down on it.
 constexpr double touching_share = 0.02;
+constexpr double least_share = 0.05;  // of the load that counts for this
 // dt^2 k/m and dt c/m of a suspension, whose force is constant over a step
 constexpr double largest_spring_step = 0.1, largest_damper_step = 0.2;
 
@@ -57,6 +58,17 @@ void WheelRig::apply(double time, double dt) {
       go_back(clock, dt);
       return;
   }
+}
+
+std::optional<double> WheelRig::travel(double from, double to) const {
+  if (travel_free_ || passes_.passes() > 1) return {};
+  return speed_ * (speed_ramp_.integral(to) - speed_ramp_.integral(from));
+}
+
+bool WheelRig::sets(const std::string& coordinate) const {
+  if (coordinate == "y") return lateral_free_;
+  if (coordinate == "yaw") return has_course("slip_angle");
+  return coordinate != "camber";
 }
 
 double WheelRig::slip_angle(double time) const {
@@ -124,9 +136,11 @@ void WheelRig::drive_travel(double time, double dt) {
 }
 
 void WheelRig::drive_vertical(double time, double dt) {
-  if (time + 0.5 * dt < load_ramp_.start) {
+  if (time + 0.5 * dt < start_) {
     wheel_.hold(Coordinate::z);
     wheel_.set_load(Vector3::Zero());
+  } else if (lowers_ && lower(time, dt)) {
+    return;
   } else if (sinkage_prescribed_) {
     wheel_.prescribe(Coordinate::z, lowering_ * load_ramp_.mean_rate(time, time + dt));
   } else {
@@ -137,6 +151,31 @@ void WheelRig::drive_vertical(double time, double dt) {
     else
       wheel_.set_load(load_ * share * down());
   }
+}
+
+/// During the settling: a smooth way down to ground_level, then a creep until the ground bears the
+/// wheel. While the load grows, the rig holds the wheel whenever the ground bears more than the
+/// load, so that it does not swing. What the ground bears shows where the wheel is, so nothing
+/// needs to be remembered. The sprung mass of a suspension comes down with the wheel, and then
+/// swings freely.
+/// @return whether the rig holds or moves the wheel
+bool WheelRig::lower(double time, double dt) {
+  const double middle = time + 0.5 * dt;
+  if (middle >= speed_ramp_.start || (suspension_ && middle >= load_ramp_.start)) return false;
+  const double share = load_ramp_.value(time), force = wheel_.ground_wrench().force.z();
+  const bool touches = force > touching_share * load_ * std::max(share, least_share);
+  const bool loads = middle >= load_ramp_.start && force <= -share * load_ * down().z();
+  if (touches && loads) return false;
+  wheel_.set_load(Vector3::Zero());
+  if (touches)
+    wheel_.hold(Coordinate::z);
+  else if (middle < lowering_ramp_.end())
+    wheel_.prescribe(Coordinate::z, approach(lowering_ramp_, wheel_.position(Coordinate::z),
+                                             touching_z_, time, dt));
+  else
+    wheel_.prescribe(Coordinate::z, -creep_speed_);
+  first_height_ = wheel_.position(Coordinate::z);
+  return true;
 }
 
 /// Direction of gravity in the axes of the ground.
@@ -165,6 +204,10 @@ void WheelRig::press_by_suspension(double share, double dt) {
   wheel_.set_load(load);
 }
 
+double WheelRig::sprung_drop() const {
+  return suspension_ ? start_height_ - first_height_ - suspension_->height() : 0.0;
+}
+
 Strut WheelRig::strut() const {
   Strut strut;
   strut.arm = wheel_.centre().head<2>();
@@ -182,7 +225,9 @@ void WheelRig::press(const Strut& strut) {
 }
 
 void WheelRig::checkpoint(Checkpoint& state) {
-  if (suspension_) suspension_->checkpoint(state);
+  if (!suspension_) return;
+  suspension_->checkpoint(state);
+  state.value("first_height", first_height_);
 }
 
 void WheelRig::drive_spin(double time, double dt) {

@@ -21,8 +21,9 @@
 namespace furrow {
 
 /// The stages follow each other.
-///   settle      x, y and spin are held. The load grows smoothly from 0 over load_ramp_time, or the
-///               wheel comes down to its sinkage. Every run starts to roll from an unturned wheel.
+///   settle      x, y and spin are held. The rig lowers the wheel to the ground. Then the load
+///               grows smoothly from 0 over load_ramp_time, or the wheel comes down to its sinkage.
+///               Every run starts to roll from an unturned wheel.
 ///   accelerate  x follows speed x ramp. The spin is free (towed), follows the rim speed of the
 ///               slip times the same ramp (slip), or is driven by torque x ramp (torque). The slip
 ///               thus has its value from the first step.
@@ -48,7 +49,7 @@ namespace furrow {
 ///
 /// With a suspension the part beyond the wheel's weight is a mass on spring and damper.
 ///
-/// All stages are functions of time alone, so a rig without suspension has no state.
+/// All stages are functions of time and of the wheel, so a rig without suspension has no state.
 class WheelRig {
  public:
   enum class Mode { towed, slip, torque, spin };
@@ -81,6 +82,8 @@ class WheelRig {
   /// the step are known.
   std::vector<double> measure(double time, const GroundLosses& losses = {}) const;
 
+  /// Whether the rig sets a coordinate, "the load" or "the axle torque" of its wheel in every step.
+  bool sets(const std::string& coordinate) const;
   bool has_suspension() const { return suspension_.has_value(); }
   /// Null without one.
   const Suspension* suspension() const { return suspension_ ? &*suspension_ : nullptr; }
@@ -90,7 +93,7 @@ class WheelRig {
   void join() { joined_ = true; }
   void leave() { joined_ = false; }
   bool joined() const { return joined_; }
-  /// Whether the settling has begun. @param time [s] the middle of a step
+  /// Whether the load has begun to grow. @param time [s] the middle of a step
   bool lowered(double time) const { return time >= load_ramp_.start; }
   /// [N] weight of the sprung mass in the axes of the ground
   const Vector3& sprung_weight() const { return sprung_weight_; }
@@ -109,6 +112,8 @@ class WheelRig {
   double load() const { return load_; }
   /// [m/s] in cruise, now; 0 unless slip or spin is prescribed
   double target_rim_speed() const { return spin_rate_ * wheel_.nominal_radius(); }
+  /// [m] along x over a time [s]; nothing where the travel is free, or goes back
+  std::optional<double> travel(double from, double to) const;
   double cruise_start() const { return speed_ramp_.end(); }  ///< [s]
 
  private:
@@ -123,12 +128,14 @@ class WheelRig {
   void read_slip(const Options& options);
   void read_load(const Options& options);
   void read_vertical(const Options& options);
+  void plan_lowering(double settle_time);
   void read_travel(const Options& options);
   void read_dragged_mass(const Options& options);
   void read_drive(const Options& options);
   void read_passes(const Options& options);
   void read_suspension(const Options& options);
   void press_by_suspension(double share, double dt);
+  double sprung_drop() const;  // [m] since the start; 0 without suspension
   Vector3 down() const;
   bool has_course(const std::string& key) const { return courses_.count(key) > 0; }
   double slip_angle(double time) const;
@@ -136,6 +143,7 @@ class WheelRig {
   std::string slip_meaning() const;
   void follow_courses(double time, double dt);
   void drive_vertical(double time, double dt);
+  bool lower(double time, double dt);
   void go_back(double time, double dt);
   void drive_travel(double time, double dt);
   void drive_spin(double time, double dt);
@@ -159,14 +167,20 @@ class WheelRig {
   SlipDefinition slip_definition_ = SlipDefinition::larger_speed;  // of the prescribed slip
   double slip_radius_ = 0.0;                                       // [m] of the rim speed in slip
   bool slip_by_total_speed_ = false;
-  Ramp load_ramp_;   // begins with the settling; as all ramps, on the first pass's clock
-  Ramp speed_ramp_;  // begins with the acceleration
+  bool lowers_ = false;       // the wheel to the ground, before the load grows
+  double start_ = 0.0;        // [s] of the settling; as all ramps, on the first pass's clock
+  Ramp lowering_ramp_;        // begins with the settling
+  double touching_z_ = 0.0;   // [m] of the axle when the wheel has come to the ground
+  double creep_speed_ = 0.0;  // [m/s] of a wheel that does not touch there
+  Ramp load_ramp_;            // begins when the wheel is lowered
+  Ramp speed_ramp_;           // begins with the acceleration
   PassSchedule passes_;
   std::optional<Suspension> suspension_;
   bool joined_ = false;
   Vector3 sprung_weight_ = Vector3::Zero();  // [N] in the axes of the ground, of this step
+  double start_height_ = 0.0;                // [m] of the axle with a suspension
   double wheel_weight_ = 0.0;                // [N] with a suspension
-  double first_height_ = 0.0;                // [m] of the axle, likewise
+  double first_height_ = 0.0;                // [m] of the axle when the load begins to grow
   double first_x_ = 0.0;                     // [m] of the axle, where every pass begins
   double lifted_z_ = 0.0;                    // [m] of the axle on its way back
   double lowering_speed_ = 0.0;              // [m/s]

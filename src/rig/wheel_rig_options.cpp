@@ -26,6 +26,11 @@ constexpr double largest_speed = 1000.0;     // [m/s] of axle and rim
 constexpr double largest_slip_radius = 2.0;  // of the nominal radius
 // [m/s] while the wheel is brought back for another pass
 constexpr double largest_return_speed = 100.0, largest_lowering_speed = 10.0;
+// Of settle_time, for the lowering; its largest acceleration [m/s^2]; largest second derivative of
+// a smooth step over its range
+constexpr double largest_lowering_share = 0.25, lowering_acceleration = 5.0,
+                 smooth_step_acceleration = 5.78;
+constexpr double creep_energy = 0.01;
 
 /// @throws InputError when key is missing (needed) or given (not needed)
 void expect_key(const Options& options, const std::string& key, bool needed,
@@ -147,6 +152,12 @@ Schema WheelRig::schema(const std::string& subject) {
       .by_default(0.0);
   schema.number("settle_time", "s", Range::positive(), "duration of settling at standstill");
   schema
+      .choice(
+          "release", {"on_ground", "in_air"},
+          "`on_ground`: the rig lowers the wheel to the ground before the load grows; `in_air`: "
+          "the wheel falls under the growing load")
+      .by_default("on_ground");
+  schema
       .number("load_ramp_time", "s", Range::non_negative(),
               "time in which the load grows, at most `settle_time`; by default half of it")
       .optional();
@@ -179,7 +190,8 @@ WheelRig::WheelRig(const Options& options, WheelHub& wheel, const Courses& table
   if (load_ramp_.duration > settle_time)
     throw InputError(options.where("load_ramp_time"), fmt::format("is {} s", load_ramp_.duration),
                      fmt::format("0 to settle_time, {} s", settle_time), "lengthen settle_time");
-  speed_ramp_ = {load_ramp_.start + settle_time, options.number("accelerate_time")};
+  start_ = load_ramp_.start;
+  speed_ramp_ = {start_ + settle_time, options.number("accelerate_time")};
 
   slope_ = radians(options.number("slope"));
   side_slope_ = radians(options.number("side_slope"));
@@ -355,6 +367,22 @@ void WheelRig::read_vertical(const Options& options) {
                      "a number > 0 [s]", "the wheel needs time to go down");
   if (sinkage_prescribed_)
     lowering_ = ground_level_ - options.number("sinkage") - wheel_.lowest_point();
+  lowers_ = !sinkage_prescribed_ && options.text("release") == "on_ground";
+  if (lowers_) plan_lowering(options.number("settle_time"));
+}
+
+/// The load grows once the wheel is down.
+void WheelRig::plan_lowering(double settle_time) {
+  const double gap = std::max(0.0, wheel_.lowest_point() - ground_level_);
+  touching_z_ = wheel_.position(Coordinate::z) - gap;
+  lowering_ramp_ = {start_,
+                    std::min(largest_lowering_share * settle_time,
+                             std::sqrt(smooth_step_acceleration * gap / lowering_acceleration))};
+  load_ramp_.start = lowering_ramp_.end();
+  load_ramp_.duration = std::min(load_ramp_.duration, speed_ramp_.start - load_ramp_.start);
+  // kinetic energy over the work of the load on a hundredth of the radius
+  creep_speed_ =
+      std::sqrt(2.0 * creep_energy * 0.01 * wheel_.nominal_radius() * load_ / wheel_.total_mass());
 }
 
 void WheelRig::check_load(const Options& options) const {
@@ -515,7 +543,7 @@ void WheelRig::read_suspension(const Options& options) {
   suspension_.emplace(options.number("suspension_stiffness"), options.number("suspension_damping"),
                       sprung);
   wheel_weight_ = own * gravity;
-  first_height_ = wheel_.position(Coordinate::z);
+  start_height_ = first_height_ = wheel_.position(Coordinate::z);
 }
 
 void WheelRig::read_passes(const Options& options) {
@@ -544,9 +572,9 @@ void WheelRig::read_passes(const Options& options) {
                          ? fmt::format("more than {:.4g} m, the travel of the acceleration", least)
                          : std::string("a speed > 0"),
                      "each pass needs a cruise");
-  const double start = load_ramp_.start, back = options.number("return_time");
+  const double back = options.number("return_time");
   passes_ =
-      PassSchedule(passes, start, speed_ramp_.end() - start + (length - least) / speed_, back);
+      PassSchedule(passes, start_, speed_ramp_.end() - start_ + (length - least) / speed_, back);
   const double diameter = 2.0 * wheel_.nominal_radius();
   const double lift = options.has("lift") ? options.number("lift") : 0.1 * diameter;
   first_x_ = wheel_.centre().x();

@@ -123,7 +123,7 @@ const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
        [](R& r) { return -r.wheel.load().z() - r.wheel.constraint(Coordinate::z); }},
       {"sprung_drop", "m",
        "downward motion of the sprung mass since the start; 0 without suspension",
-       [](R& r) { return r.rig.suspension_ ? -r.rig.suspension_->height() : 0.0; }},
+       [](R& r) { return r.rig.sprung_drop(); }},
       {"suspension_force", "N", "force of spring and damper on the axle, positive downwards",
        [](R& r) { return r.rig.suspension_ ? r.rig.suspension_->force() : 0.0; }},
       {"kinetic_energy", "J", "kinetic energy of the wheel",

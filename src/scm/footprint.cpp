@@ -15,8 +15,9 @@ namespace furrow {
 
 namespace {
 
-constexpr double steepest = 1e-6;   // cosine to the vertical of a face that counts as upright
-constexpr double smallest = 1e-12;  // area of a piece over that of a cell
+constexpr double steepest = 1e-6;  // cosine to the vertical of a face that counts as upright
+constexpr double smallest =
+    1e-12;  // area of a piece over twice that of its triangle, seen from above
 constexpr double overfull = 1.0 + 1e-9;
 
 }  // namespace

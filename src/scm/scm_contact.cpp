@@ -167,7 +167,8 @@ void ScmContact::shear_triangle(std::size_t first, std::size_t end, double dt) {
   mobilised *= std::min(1.0, sheared_area_[triangle] / area);
   if (const double speed = sliding.norm(); speed > 0.0) {
     const Vector2 limit = -sliding / speed;
-    mobilised = limit + std::exp(-speed * dt / soil_.shear_length) * (mobilised - limit);
+    const double length = settings_.slip_length.value_or(soil_.shear_length);
+    mobilised = length > 0.0 ? limit + std::exp(-speed * dt / length) * (mobilised - limit) : limit;
   }
   next_area_[triangle] = area;
   const Vector3 direction = mobilised[0] * along + mobilised[1] * across;
@@ -177,7 +178,9 @@ void ScmContact::shear_triangle(std::size_t first, std::size_t end, double dt) {
     const auto s = static_cast<std::size_t>(pieces.slot[p]);
     if (!touches_[s]) continue;
     const double of_piece = slope * pieces.area[p];
-    const double strength = soil_.cohesion + pressure_[s] * slope_of_strength;
+    double strength = soil_.cohesion + pressure_[s] * slope_of_strength;
+    if (const double friction = pressure_[s] * settings_.friction; friction < strength)
+      strength = friction;
     const Vector3 shear_force = of_piece * strength * direction;
     const Vector3 force = shear_force - of_piece * pressure_[s] * normal;
     const Vector3 moving = place_of(p, surface.v);

@@ -2,6 +2,7 @@
 #pragma once
 /// Contact of a body with a height field by the soil contact model [Krenn2009] (theory: scm).
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -19,7 +20,10 @@ class ScmContact : public Contact {
  public:
   struct Settings {
     std::optional<double> width;  ///< b in k_c/b [m]; none: of the present contact patch
-    bool records = true;          ///< this rank hands forces to the body's contact record
+    /// of the body's surface and the soil, up to the strength of the soil; infinity: that strength
+    double friction = std::numeric_limits<double>::infinity();
+    std::optional<double> slip_length = {};  ///< [m] in the place of K, for this friction; none: K
+    bool records = true;  ///< this rank hands forces to the body's contact record
   };
   /// Of the last apply(); of a half model, of the half.
   struct Step {

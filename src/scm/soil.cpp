@@ -24,6 +24,7 @@ constexpr double least_shear_length = 1e-3;  // [m]; soils of [Wong2008] have 5 
 // 1.1 MPa [Wong2008]; 10 times less and more
 constexpr double usual_sinkage = 0.05, usual_width = 0.1;
 const Range pressures = Range::closed(200.0, 1e7);
+constexpr double least_share_of_k_c = 1e-3;  // dry sand has 6e-3 [Wong2008]
 constexpr char si_of_modulus[] = "give N/m^(n+2), not kN/m^(n+2) or MN/m^(n+2)";
 
 }  // namespace
@@ -160,6 +161,11 @@ std::vector<std::string> doubts(const Soil& soil) {
     found.push_back(fmt::format(
         "the cohesion c is {:g} Pa; soils have 0, or {:g} Pa and more; give Pa, not kPa",
         soil.cohesion, usual_range("c").range.lower));
+  if (const double share = std::abs(soil.k_c) / (usual_width * std::abs(soil.k_phi));
+      soil.k_c != 0.0 && soil.k_phi != 0.0 && share < least_share_of_k_c)
+    found.push_back(fmt::format(
+        "k_c is {:g}, {:.1g} of k_phi times a width of {:g} m; soils have {:g} or more, or 0; {}",
+        soil.k_c, share, usual_width, least_share_of_k_c, si_of_modulus));
   if (soil.shear_length < least_shear_length)
     found.push_back(
         fmt::format("the shear displacement K is {:.2g} m; soils have 0.005 to 0.025 m: the "

@@ -6,7 +6,7 @@ a card as well.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -162,6 +162,7 @@ class SoilCard:
     notes: tuple[str, ...] = ()
     c1: float = math.nan  # place of the greatest stress under a wheel, (c1 + c2 slip) of the entry angle
     c2: float = math.nan
+    contact: Mapping[str, Any] | None = None  # with steel and rubber, as a material file has it
 
     def failures(self) -> dict[str, str]:
         """Instrument -> why it has no result."""
@@ -304,6 +305,7 @@ def write_card(card: SoilCard, path: Path) -> None:
         "gravity": card.gravity,
         **{name: _as_yaml(getattr(card, name)) for name in SECTIONS},
         "notes": list(card.notes),
+        **({"contact": dict(card.contact)} if card.contact else {}),
     }
     head = (
         "# Soil card, SI units and degrees, written by furrow-post card make. value and error: fit and\n"
@@ -340,6 +342,7 @@ def read_card(path: Path | str) -> SoilCard:
             notes=tuple(str(note) for note in content.get("notes", ())),
             c1=c1,
             c2=c2,
+            contact=contact_of(path, content),
         )
 
 
@@ -381,6 +384,18 @@ def _of_chrono(path: Path, text: str) -> SoilCard:
         cone=NoResult("the card has none"),
         notes=("of Chrono, which states no gravity: that of the Earth",),
     )
+
+
+def contact_of(path: Path, content: Mapping[str, Any]) -> dict[str, Any] | None:
+    """Of a card or material file, whose section `contact` may name a file."""
+    contact: dict[str, Any] | str | None = content.get("contact")
+    if not isinstance(contact, str):
+        return contact
+    file = path.parent / contact
+    if not file.is_file():
+        return None
+    found: dict[str, Any] = yaml.safe_load(file.read_text(encoding="utf-8"))
+    return found
 
 
 def _gravity(path: Path, given: object) -> float:

@@ -5,11 +5,15 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from ..errors import ResultsError
+import yaml
+
+from ..errors import ResultsError, content_of
 from ..formatting import yaml_text
 from ..json_text import parse_json
 from ..programs import find_program, inputs_folder
+from ..read.soil_card import contact_of
 from ..run.tools import answer
 
 OF_GRAINS = ".lig"  # ending of a ground of grains
@@ -64,6 +68,15 @@ def read_material(path: Path) -> Material:
     # NorSand has its own elasticity
     linear = content["sections"].get("elasticity", {}).get("type") == "linear"
     return Material(content["title"], elastic["density"], elastic["young"], elastic["poisson"], linear)
+
+
+def read_contact(path: Path) -> dict[str, Any] | None:
+    """The section `contact` with those of the bases below it. @raises ResultsError"""
+    with content_of(path, "a material file is YAML, inputs/guide/soil_files.md"):
+        content = yaml.safe_load(path.read_text(encoding="utf-8"))
+        below = read_contact(path.parent / str(content["base"])) if "base" in content else None
+        own = contact_of(path, content)
+        return {**(below or {}), **own} if own else below
 
 
 @dataclass(frozen=True)

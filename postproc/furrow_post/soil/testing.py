@@ -27,6 +27,7 @@ from .instruments import (
     ring_tests,
 )
 from .card_page import Curves, draw_card, write_page
+from .material import read_contact
 from .units import usual_ranges
 
 Part = TypeVar("Part")
@@ -95,6 +96,7 @@ def make_card(
             f"plates {cells} cells across, ring {across}, cone {effort.cone_cells}: errors of "
             "the cells are not in the standard errors",
         ),
+        contact=read_contact(bench.path),
     )
     _write(card, Curves(plates, rings, [cone]), bench.executor.results, formats)
     return card

@@ -19,12 +19,13 @@ Schema ContactParameters::schema(const std::string& subject) {
       .by_default("frictional");
   schema
       .number("friction", "", Range::non_negative(),
-              "friction coefficient mu of a frictional surface")
-      .by_default(0.3);
+              "friction coefficient mu of a frictional surface; by default from the material file")
+      .optional();
   schema
       .number("slip_length", "m", Range::closed(0.0, 1.0),
-              "k of tau = mu sigma (1 - exp(-j/k)), j the slip distance; 0: tau = mu sigma")
-      .by_default(0.0);
+              "k of tau = mu sigma (1 - exp(-j/k)), j the slip distance; 0: tau = mu sigma; by "
+              "default from the material file")
+      .optional();
   schema
       .number("stiffness", "", Range::closed(0.01, 100.0),
               "spring stiffness of a particle over wave modulus times cube root of its volume; by "
@@ -37,12 +38,24 @@ Schema ContactParameters::schema(const std::string& subject) {
   return schema;
 }
 
-ContactParameters ContactParameters::from(const Options& options) {
+BodyContact ContactParameters::unknown() {
+  const ContactParameters p;
+  BodyContact contact;
+  contact.friction = p.friction;
+  contact.slip_length = p.slip_length;
+  return contact;
+}
+
+ContactParameters ContactParameters::from(const Options& options, const BodyContact& ground) {
+  const auto value = [&](const char* key, double of_ground) {
+    return options.given(key) ? options.number(key) : of_ground;
+  };
   const std::string& surface = options.text("surface");
   if (surface != "frictional" && options.given("friction"))
     throw InputError(options.where("friction"), fmt::format("is given with a {} surface", surface),
                      "friction with surface frictional only");
-  if (surface != "frictional" && options.number("slip_length") > 0.0)
+  if (surface != "frictional" && options.given("slip_length") &&
+      options.number("slip_length") > 0.0)
     throw InputError(options.where("slip_length"),
                      fmt::format("is given with a {} surface", surface),
                      "slip_length with surface frictional only", "remove 'slip_length'");
@@ -54,8 +67,8 @@ ContactParameters ContactParameters::from(const Options& options) {
   p.enforcement = options.text("enforcement");
   p.friction = surface == "rough"    ? std::numeric_limits<double>::infinity()
                : surface == "smooth" ? 0.0
-                                     : options.number("friction");
-  p.slip_length = options.number("slip_length");
+                                     : value("friction", ground.friction);
+  p.slip_length = surface == "frictional" ? value("slip_length", ground.slip_length) : 0.0;
   if (options.given("stiffness")) p.stiffness = options.number("stiffness");
   p.damping = options.number("damping");
   return p;

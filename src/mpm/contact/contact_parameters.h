@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/options.h"
+#include "material/ground_contact.h"
 
 namespace furrow {
 
@@ -21,8 +22,11 @@ struct ContactParameters {
 
   /// The keys of a contact. @param subject  names the owner in errors
   static Schema schema(const std::string& subject = "contact with ground");
+  /// @param ground  friction and slip length of a frictional surface that the keys do not give
   /// @throws InputError for keys that do not go together
-  static ContactParameters from(const Options& options);
+  static ContactParameters from(const Options& options, const BodyContact& ground = unknown());
+  /// What holds for a ground of which nothing is known.
+  static BodyContact unknown();
 };
 
 }  // namespace furrow

@@ -37,6 +37,7 @@ CASES = [
      ["'lenght' that no line of 'script.lig' reads", "length, speed, width, angle", "did you mean 'length'?"]),
     ("-in script.lig -var x 1 -var length 3 -var length 4", 2, ["the variable 'length' twice, as '3' and '4'"]),
     ("-in script.lig -var x 1 -var print 3", 2, ["'print' that no line"]),
+    ("-in bed_in_part.lig -var depht 3", 2, ["'depht'", "depth"]),
     ("-in script.lig -log nowhere/log", 2, ["'nowhere/log' of -log or -screen cannot be written: No such file"]),
     ("-in script.lig -log .", 2, ["Is a directory"]),
     ("-in script.lig -screen nowhere/screen", 2, ["'nowhere/screen'"]),
@@ -89,6 +90,11 @@ def main(furrow, *mpirun):
     files = {"script.lig": SCRIPT, "part.lig": PART, "empty.lig": "",
              "computed.lig": 'variable n string part\nvariable file equal 1\nvariable x index part\n'
                              'variable part getenv HOME\nif "1 > 2" then "include ${part}"\ninclude part.lig\n'}
+    # A bed is found from the folder of the file with its line
+    files |= {"bed_in_part.lig": "variable depth index 1\ninclude parts/bed_line.lig\n",
+              "parts/bed_line.lig": "bed ../beds/bed.lig depth ${depth}\n", "beds/bed.lig": "variable half equal 0.5*${bed_depth}\n"}
+    for folder in ("parts", "beds"):
+        (table.folder / folder).mkdir()
     for name, text in files.items():
         (table.folder / name).write_text(text)
     (table.folder / "utf16.lig").write_bytes(SCRIPT.encode("utf-16"))

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 from pathlib import Path
 
@@ -225,8 +226,20 @@ class States(Case):
         for state in (fresh, middle, loaded, again):
             wheel.free_state(state)
             self.assertIsNone(state.value)
-        with self.assertRaisesRegex(FmuError, "DeSerializeFMUstate: the bytes are no state"):
-            wheel.deserialize(data[:100])
+        for damaged in (data[:100], data[:200] + b"x" + data[201:], b""):
+            with self.assertRaisesRegex(FmuError, "DeSerializeFMUstate: the bytes are no state of this FMU, or are damaged"):
+                wheel.deserialize(damaged)
+
+    def test_instances_in_two_threads_take_turns(self) -> None:
+        expected = advance(self.opened(), 0, 20)
+        wheels, rows = [self.opened(), self.opened()], [[], []]
+        threads = [threading.Thread(target=lambda i=i: rows[i].extend(advance(wheels[i], 0, 20)), daemon=True) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(60.0)
+            self.assertFalse(thread.is_alive())
+        self.assertEqual(rows, [expected, expected])
 
     def test_steps_on_a_continuum_repeat_from_a_state(self) -> None:
         wheel = self.opened(snow="1", here=str(SCRIPT.parent), step="2e-4")
@@ -325,6 +338,13 @@ class Refusals(Case):
         self.refused("position_z is 0 in the first step, .* wheel at 0.351; .* give the place", wheel, "step", 0.0, STEP)
         wheel.set({"position_z": 0.351, "spin_torque": float("nan")})
         self.refused("spin_torque is not finite", wheel, "step", 0.0, STEP)
+        wheel.set({"spin_torque": 1e30})
+        self.refused("spin_torque is 1e\\+30 N m; allowed: .* check the unit", wheel, "step", 0.0, STEP)
+        self.refused("communicationStepSize is inf s", wheel, "step", 0.0, float("inf"))
+        by_load = self.instance()
+        by_load.initialize({"script": "wheel.lig", "height_by_load": True, "variables.cell": "0.04", "variables.z": "0.351"})
+        by_load.set({"load": 1e30})
+        self.refused("load is 1e\\+30 N; allowed: ", by_load, "step", 0.0, STEP)
         unknown = (ctypes.c_uint * 1)(99)
         self.refused("value reference 99 is no Real", wheel, "call", "fmi2GetReal", unknown, 1, (ctypes.c_double * 1)())
         wheel.set({"spin_torque": 0.0})
@@ -356,6 +376,12 @@ class Refusals(Case):
         self.assertEqual(wheel.status("fmi2GetBooleanStatus", 3, ctypes.byref(ended)), OK)
         self.assertEqual(wheel.status("fmi2GetRealStatus", 2, ctypes.byref(time)), OK)
         self.assertEqual((ended.value, round(time.value, 9)), (1, 0.01))
+        state = wheel.deserialize(wheel.serialize(wheel.get_state()))
+        last = wheel.get("force_z")
+        other = self.opened(self.changed("1000000000", "10"))
+        other.set_state(state)
+        self.assertEqual(other.get("force_z"), last)
+        self.refused("DoStep: the call is not allowed at the end of the script", other, "step", 2 * STEP, STEP)
         wheel.call("fmi2Terminate")
         self.assertGreater(wheel.get("hub_z"), 0.3)
 

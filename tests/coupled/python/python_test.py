@@ -6,8 +6,10 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -208,6 +210,108 @@ class Targets(Case):
         with opened(results="rigged") as run:
             with self.assertRaisesRegex(furrow.Error, "wheel 'wheel': fix rig sets z in every step"):
                 run.wheels["wheel"].prescribe("z", 0.0)
+
+
+class Threads(Case):
+    def test_two_simulations_in_two_threads_count_their_steps(self) -> None:
+        with opened(results="one") as one, opened(results="other") as other:
+            self.in_threads([lambda: [one.step(30) for _ in range(5)], lambda: [other.step(20) for _ in range(5)]])
+            self.assertEqual((one.step_number, other.step_number), (150, 100))
+
+    def test_two_threads_of_one_simulation_take_turns(self) -> None:
+        with opened(results="driven") as run:
+            places = []
+            self.in_threads([lambda: run.step(60), lambda: run.step(40),
+                             lambda: [places.append(run.wheels["wheel"].position[2]) for _ in range(50)]])
+            self.assertEqual((run.step_number, len(places)), (100, 50))
+        run = opened(results="closed")
+        self.in_threads([lambda: run.run(), run.close])
+        with self.assertRaisesRegex(furrow.Error, "the simulation is closed"):
+            run.step(1)
+
+    def in_threads(self, actions: list[Callable[[], object]]) -> None:
+        failures: list[BaseException] = []
+
+        def guarded(action: Callable[[], object]) -> None:
+            try:
+                action()
+            except BaseException as failure:
+                if "the simulation is closed" not in str(failure):  # by another thread
+                    failures.append(failure)
+
+        threads = [threading.Thread(target=guarded, args=(action,), daemon=True) for action in actions]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(60.0)
+            self.assertFalse(thread.is_alive())
+        self.assertEqual(failures, [])
+
+
+class Seams(Case):
+    def test_quit_ends_the_script_and_not_the_process(self) -> None:
+        lines = [*SCENE.read_text(encoding="utf-8").splitlines(), "quit", "print never"]
+        with furrow.Simulation(lines, variables={"here": HERE, "results": "quit", "last": 20}) as run:
+            self.assertEqual(run.run(), 20)
+            self.assertTrue(run.ended)
+
+    def test_checkpoints_replace_files_only(self) -> None:
+        with opened(results="driven") as run:
+            run.step(5)
+            os.mkfifo("pipe")
+            for path, fault in (("pipe", "is a device or a pipe"), ("/dev/null", "is a device or a pipe"), (".", "is a folder"),
+                                ("missing/file", "lies in a folder that does not exist"), ("a\0b", "has a zero byte in its name")):
+                with self.assertRaisesRegex(furrow.Error, fault):
+                    run.write_checkpoint(path)
+            self.assertFalse(Path("missing").exists() or Path("a").exists())
+            self.assertTrue(Path("pipe").is_fifo())
+            run.write_checkpoint("file")
+
+    def test_targets_of_python_get_the_warnings_of_a_script(self) -> None:
+        with opened(results="driven") as run:
+            run.step(5)
+            with self.assertWarnsRegex(UserWarning, "speed' is 7 m/s, and 'wheel' usually has at most"):
+                run.rigs["rig"].set(speed=7)
+            with self.assertRaisesRegex(furrow.Error, "speed' is 1000 m/s"):
+                run.rigs["rig"].set(speed=1000)
+            self.assertEqual(run.rigs["rig"].targets["speed"], 7)
+
+    def test_suspended_wheel_continues_with_the_targets_of_python(self) -> None:
+        lines = SCENE.read_text(encoding="utf-8").replace(
+            "ground_level 0.12", "ground_level 0.12 suspension_stiffness 2e4 suspension_damping 200").splitlines()
+        variables = {"here": HERE, "results": "whole"}
+        with furrow.Simulation(lines, variables=variables) as run:
+            run.step(260)
+            run.rigs["rig"].set(load_force=120, slip=0.25)
+            run.step(50)
+            run.write_checkpoint("state")
+            run.step(100)
+            expected = run.wheels["wheel"].position
+        with furrow.Simulation(lines, variables={**variables, "begin": "read_restart state"}) as run:
+            self.assertEqual((run.rigs["rig"].targets["load_force"], run.rigs["rig"].targets["slip"]), (120, 0.25))
+            run.step(100)
+            np.testing.assert_array_equal(run.wheels["wheel"].position, expected)
+            run.run()
+            self.assertTrue(any("targets of the rig changed" in text for text in run.summary()["warnings"]))
+
+    def test_coordinate_that_a_rig_or_a_hold_takes_is_refused(self) -> None:
+        rig = "mode slip slip ${slip}"
+        whole = SCENE.read_text(encoding="utf-8").replace("symmetry yes ", "")
+        for words, coordinate in (("lateral free", "y"), ("slip_angle_ramp 0 0 1 5", "yaw")):
+            lines = whole.replace(rig, f"{rig} {words}").splitlines()
+            with furrow.Simulation(lines, variables={"here": HERE, "results": coordinate}) as run:
+                wheel = run.wheels["wheel"]
+                for command in (lambda: wheel.prescribe(coordinate, 0.1), lambda: wheel.hold(coordinate), lambda: wheel.release(coordinate)):
+                    with self.assertRaisesRegex(furrow.Error, f"fix rig sets {coordinate} in every step"):
+                        command()
+        lines = [line for line in whole.replace("&\n", "").splitlines() if not line.startswith(("fix             rig", "fix             out"))]
+        with furrow.Simulation(lines, variables={"here": HERE, "results": "free"}) as run:
+            wheel = run.wheels["wheel"]
+            with self.assertRaisesRegex(furrow.Error, "a load along z has no effect, because z is held; call release\\('z'\\)"):
+                wheel.load = (0.0, 0.0, -50.0)
+            wheel.prescribe("spin", 1.0)
+            with self.assertRaisesRegex(furrow.Error, "an axle torque has no effect, because spin is prescribed"):
+                wheel.set_axle_torque(3.0)
 
 
 class Arrays(Case):

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "io/contact_section.h"
 #include "io/csv_file.h"
 #include "io/replace_file.h"
 #include "io/yaml_tree.h"
@@ -54,6 +55,46 @@ TEST_F(MaterialFileTest, GivesTheLawOfTheRegistry) {
   EXPECT_DOUBLE_EQ(material->moduli(material->initial_state()).bulk, 689e6 / 1.5);
   EXPECT_DOUBLE_EQ(material->yield_surface(material->initial_state()).back().x(), 0.138e6);
   EXPECT_EQ(load_material(file(sand))->name(), "drucker_prager_cap");
+}
+
+/// As inputs/materials/contact/sand.yaml.
+const std::string of_rubber =
+    "rubber:\n"
+    "  friction: 0.41\n"
+    "  friction_range: [0.38, 0.45]\n"
+    "  slip_length: 0.009\n"
+    "  slip_length_range: [0.006, 0.012]\n"
+    "  label: estimated\n"
+    "  source: three soils\n";
+
+TEST_F(MaterialFileTest, ContactIsThatOfItsFileOrSection) {
+  EXPECT_TRUE(read_material_file(file(sand)).contact.empty());
+  file(of_rubber, "rubber.yaml");
+  file(sand + "contact: rubber.yaml\n", "base.yaml");
+  for (const std::string& text :
+       {sand + "contact: rubber.yaml\n", std::string("base: base.yaml\n")}) {
+    const GroundContact contact = read_material_file(file(text)).contact;
+    ASSERT_EQ(contact.count("rubber"), 1u);
+    EXPECT_EQ(contact.at("rubber").friction, 0.41);
+    EXPECT_EQ(contact.at("rubber").slip_length, 0.009);
+    EXPECT_EQ(contact.at("rubber").slip_length_range[1], 0.012);
+    EXPECT_EQ(contact.at("rubber").label, "estimated");
+  }
+}
+
+TEST_F(MaterialFileTest, RefusesContactInOtherUnits) {
+  const auto refused = [&](const std::string& old, const std::string& now) {
+    file(with(of_rubber, old, now), "rubber.yaml");
+    return refusal(sand + "contact: rubber.yaml\n");
+  };
+  EXPECT_THAT(refused("friction: 0.41", "friction: 22"), HasSubstr("keyword 'friction' is 22"));
+  EXPECT_THAT(refused("slip_length: 0.009", "slip_length: 9"), HasSubstr("'slip_length' is 9"));
+  EXPECT_THAT(refused("slip_length: 0.009", "slip_length: 0.09"),
+              HasSubstr("is [0.006, 0.012], and slip_length is 0.09"));
+  EXPECT_THAT(refused("label: estimated", "label: guess"),
+              HasSubstr("measured, estimated, assumed"));
+  EXPECT_THAT(refused("rubber:", "wood:"), HasSubstr("'wood'"));
+  EXPECT_TRUE(read_material_file(file(sand + "contact: absent.yaml\n")).contact.empty());
 }
 
 TEST_F(MaterialFileTest, EffectiveValuesReadBackAsTheSameLaw) {
@@ -251,6 +292,10 @@ TEST_F(MaterialFileTest, ShippedMaterialsAreReadWithoutAWarning) {
        std::filesystem::recursive_directory_iterator(FURROW_SOURCE_DIR "/inputs/materials")) {
     if (entry.path().extension() != ".yaml") continue;
     ++count;
+    if (entry.path().parent_path().filename() == "contact") {
+      EXPECT_EQ(read_contact_file(entry.path().string()).size(), body_materials().size());
+      continue;
+    }
     EXPECT_THAT(read_material_file(entry.path().string()).warnings, ::testing::IsEmpty())
         << entry.path();
   }

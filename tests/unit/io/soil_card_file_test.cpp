@@ -73,6 +73,22 @@ TEST_F(SoilCardFile, GivesTheGravityOfTheTests) {
   EXPECT_THAT(refusal("gravity: 9.80665", "gravity: -1.62"), HasSubstr("card.yaml, line 5"));
 }
 
+TEST_F(SoilCardFile, GivesTheContactWithBodies) {
+  EXPECT_TRUE(read_soil_card(written()).contact.empty());
+  const GroundContact contact =
+      read_soil_card(written("notes: []",
+                             "contact: {steel: {friction: 0.4, friction_range: [0.3, 0.5], "
+                             "slip_length: 0.01, slip_length_range: [0, 0.02], label: measured, "
+                             "source: ring}}"))
+          .contact;
+  EXPECT_EQ(contact.at("steel").friction, 0.4);
+}
+
+TEST_F(SoilCardFile, RefusesOneNumberForARange) {
+  EXPECT_THAT(refusal("sinkage: [0.0016, 0.06]", "sinkage: 0.06"),
+              HasSubstr("'sinkage' is not a list of two numbers"));
+}
+
 TEST_F(SoilCardFile, RefusalsNameFileLineAndKey) {
   EXPECT_THAT(refusal("shear:", "sheer:"), HasSubstr("shear"));
   EXPECT_THAT(refusal("{value: 29.7, error: 0.6, unit: degree}", "29.7"), HasSubstr("phi"));

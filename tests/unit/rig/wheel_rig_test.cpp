@@ -45,6 +45,48 @@ struct CruiseMean {
   }
 };
 
+/// The wheel of make_wheel() at a height above a floor: largest force, and height at the end [N,
+/// m].
+std::pair<double, double> lowered(double gap, const std::string& more = "") {
+  RigidWheel wheel = make_wheel(0.2 + gap);
+  WheelRig rig = make_rig(wheel, "load_force 60 speed 0 mode towed damping 60 " + more);
+  const Floor floor;
+  double largest = 0.0;
+  run(rig, wheel, 0.4, 1e-4, &floor, [&](const std::vector<double>& row) {
+    largest = std::max(largest, row[channel("force_z")]);
+  });
+  return {largest, wheel.centre().z()};
+}
+
+TEST(WheelRig, HeightOfTheStartDoesNotChangeTheRest) {
+  const double rest = lowered(0.0).second;
+  for (const double gap : {1e-5, 1e-3, 0.02, 0.1, 0.5}) {
+    const auto [largest, height] = lowered(gap);
+    EXPECT_LT(largest, 1.05 * 60.0) << gap;
+    EXPECT_NEAR(height, rest, 2e-6) << gap;
+  }
+  EXPECT_GT(lowered(0.02, "release in_air").first, 2.0 * 60.0);
+}
+
+/// Ground that lies lower than stated is reached at a creep, ground that lies higher stops the
+/// wheel.
+TEST(WheelRig, WheelIsLoweredToGroundOfAnotherLevel) {
+  for (const double level : {-5e-4, 2e-3}) {
+    RigidWheel wheel = make_wheel(0.23);
+    WheelRig rig =
+        rig_of(wheel, fmt::format("load_force 60 speed 1 mode towed damping 60 settle_time 0.4 "
+                                  "accelerate_time 0.2 ground_level {}",
+                                  level));
+    const Floor floor;
+    double largest = 0.0;
+    run(rig, wheel, 0.4, 1e-4, &floor, [&](const std::vector<double>& row) {
+      largest = std::max(largest, row[channel("force_z")]);
+    });
+    EXPECT_LT(largest, 1.3 * 60.0) << level;
+    EXPECT_NEAR(wheel.ground_wrench().force.z(), 60.0, 1.0) << level;
+  }
+}
+
 TEST(WheelRig, ChannelsAndRowsAgree) {
   RigidWheel wheel = make_wheel();
   const WheelRig rig = make_rig(wheel, "load_force 60 speed 1 mode towed");
@@ -107,7 +149,8 @@ TEST(WheelRig, TheLoadIsAMassOrAForceWheelIncluded) {
 // the ramp.
 TEST(WheelRig, WithoutGroundTheLoadFallsFreely) {
   RigidWheel wheel = make_wheel();
-  WheelRig rig = make_rig(wheel, "load_force 60 speed 0 mode towed load_ramp_time 0.1 start 0.05");
+  WheelRig rig = make_rig(
+      wheel, "load_force 60 speed 0 mode towed load_ramp_time 0.1 start 0.05 release in_air");
   const Ramp ramp{0.05, 0.1};
   run(rig, wheel, 0.3, 1e-4, nullptr, [&](const std::vector<double>& row) {
     ASSERT_NEAR(row[channel("velocity_z")], -60.0 / 3.0 * ramp.integral(row[0]), 60.0 / 3.0 * 1e-4);
@@ -187,10 +230,10 @@ TEST(WheelRig, OnAFloorTheWheelCarriesItsLoad) {
   EXPECT_NEAR(last[channel("force_z")], 60.0, 1e-6);
   EXPECT_NEAR(last[channel("load")], 60.0, 1e-12);
   EXPECT_GT(last[channel("damping_loss")], 0.0);
-  // the energy that left with the damper is what the load gave and the floor does not hold
-  EXPECT_NEAR(
-      last[channel("contact_work")] + last[channel("load_work")] - last[channel("damping_loss")],
-      last[channel("kinetic_energy")], 1e-12);
+  // the energy that left with the damper is what load and rig gave and the floor does not hold
+  EXPECT_NEAR(last[channel("contact_work")] + last[channel("load_work")] +
+                  last[channel("drive_work")] - last[channel("damping_loss")],
+              last[channel("kinetic_energy")], 1e-12);
 }
 
 // No axle torque: in steady rolling the moment about the axle, and so the friction, vanishes; the

@@ -147,6 +147,29 @@ TEST(NorSandClosedForm, PeakAndDilatancyFollowTheStateParameter) {
   }
 }
 
+/// Dense sand that was pressed harder than it now is yields on the cone of the least dilatancy.
+TEST(NorSandClosedForm, DensePointOnTheConeLiesOnTheYieldSurface) {
+  const auto material = material_of(sand(0.58));
+  VectorX state = state_at(*material, 2e3, 20.0);
+  int yielding = 0;
+  for (int step = 0; step < 400; ++step) {
+    const double before = state[NorSand::eps_dev_pl];
+    drained_step(*material, state, 5e-5, 2e3);
+    const Invariants stress = invariants(stress_of(state));
+    if (state[NorSand::eps_dev_pl] <= before ||
+        stress.p + 10 > 0.3 * state[NorSand::image_pressure])
+      continue;
+    ++yielding;
+    EXPECT_NEAR(material->yield_function(state), 0.0, 0.01 * stress.q);
+    double on_surface = 0.0;  // q of the drawn surface at this pressure
+    const std::vector<Vector2> line = material->yield_surface(state, 2000);
+    for (const Vector2& point : line)
+      if (point[0] <= stress.p) on_surface = point[1];
+    EXPECT_NEAR(stress.q, on_surface, 0.02 * stress.q);
+  }
+  EXPECT_GT(yielding, 20);
+}
+
 /// At constant volume sand ends at the pressure whose critical void ratio it has.
 TEST(NorSandClosedForm, ConstantVolumeEndsOnTheCriticalStateLine) {
   for (const double void_ratio : {0.68, 0.74}) {

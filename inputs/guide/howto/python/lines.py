@@ -17,7 +17,7 @@ timestep     2e-4
 fix wheel all wheel/rigid diameter 0.3 width 0.1 mass 5 inertia 0.06 axle 0 0 0.28
 fix soil  all terrain/continuum material inputs/materials/fresh_snow_cam_clay.yaml length 0.8 width 0.32 &
     depth 0.12 surface 0.12 cell 0.04 symmetry yes follow wheel clearance_above 0.3
-fix touch all contact/continuum body wheel terrain soil friction 0.3
+fix touch all contact/continuum body wheel terrain soil
 run 400
 """.splitlines()
 with furrow.Simulation(lines) as run:

@@ -167,16 +167,18 @@ double NorSand::critical_void_ratio(double pressure) const {
                                    : std::log(pressure));
 }
 
-double NorSand::strength(double P, double image) const {
-  const double x = std::max(P, 0.0) / image, N = parameters_.N;
-  const double D = parameters_.M / N * (std::pow(x, N / (1.0 - N)) - 1.0);
-  return (parameters_.M - (1.0 - N) * D) * P;
+double NorSand::strength(double P, const VectorX& state) const {
+  const double x = std::max(P, 0.0) / state[image_pressure], N = parameters_.N;
+  const double psi = state[void_ratio] - critical_void_ratio(state[image_pressure]);
+  const double limit = std::clamp(parameters_.chi_i * psi, -parameters_.M,
+                                  NorSandParameters::loosest * parameters_.largest_D());
+  const double D = std::max(parameters_.M / N * (std::pow(x, N / (1.0 - N)) - 1.0), limit);
+  return std::max(0.0, parameters_.M - (1.0 - N) * D) * P;
 }
 
 double NorSand::yield_function(const VectorX& state) const {
   const Invariants stress = invariants(stress_of(state));
-  return yield_measure(stress, parameters_.section) -
-         strength(stress.p + parameters_.pt, state[image_pressure]);
+  return yield_measure(stress, parameters_.section) - strength(stress.p + parameters_.pt, state);
 }
 
 double NorSand::stress_scale(const VectorX& state) const {
@@ -190,7 +192,7 @@ std::vector<Vector2> NorSand::yield_surface(const VectorX& state, std::size_t po
   std::vector<Vector2> line;
   for (std::size_t i = 0; i <= pieces; ++i) {
     const double P = tip * static_cast<double>(i) / static_cast<double>(pieces);
-    line.emplace_back(P - parameters_.pt, strength(P, state[image_pressure]));
+    line.emplace_back(P - parameters_.pt, strength(P, state));
   }
   return line;
 }

@@ -57,7 +57,7 @@ class NorSand : public KernelLaw<NorSandParameters, NorSandKernels> {
   double critical_void_ratio(double pressure) const;
 
  private:
-  double strength(double P, double image) const;  ///< t on the surface [Pa]
+  double strength(double P, const VectorX& state) const;  ///< t on the surface [Pa]
 };
 
 }  // namespace furrow

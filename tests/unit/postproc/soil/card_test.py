@@ -25,6 +25,8 @@ from furrow_post.read.soil_card import (
     write_card,
 )
 from furrow_post.soil.exports import EXPORTS, write_altair, write_chrono, write_table
+from furrow_post.soil.material import read_contact
+from support.command import SOURCE
 from support.folder import FolderTest
 
 CARD = SoilCard(
@@ -65,6 +67,15 @@ class SoilCardTest(FolderTest):
         super().setUp()
         self.path = self.folder / "card.yaml"
         write_card(CARD, self.path)
+
+    def test_a_card_has_the_contact_of_its_ground(self) -> None:
+        contact = read_contact(SOURCE / "inputs/materials/norsand_dense.yaml")
+        assert contact
+        self.assertEqual(contact["rubber"]["friction"], 0.41)
+        write_card(replace(CARD, contact=contact), self.path)
+        self.assertEqual(read_card(self.path).contact, contact)
+        self.path.write_text(self.path.read_text().split("contact:")[0] + f"contact: {SOURCE}/inputs/materials/contact/sand.yaml\n")
+        self.assertEqual(read_card(self.path).contact, contact)
 
     def test_a_card_is_read_as_it_was_written(self) -> None:
         self.assertEqual(read_card(self.path), CARD)

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The section `contact` of material files and soil cards:
+///
+///   contact:                       # or the path of a file that has what follows
+///     steel:                       # material of the body
+///       friction: 0.4
+///       friction_range: [0.3, 0.45]
+///       slip_length: 0.009         # [m]
+///       slip_length_range: [0.006, 0.012]
+///       label: estimated           # measured, estimated or assumed
+///       source: where both come from
+
+#include <string>
+
+#include "io/yaml_tree.h"
+#include "material/ground_contact.h"
+
+namespace furrow {
+
+/// Replaces the path in a section `contact` of this file by the content of that file. A file that
+/// was copied without it has no contact, of which contact lines warn. @throws InputError
+void insert_contact_file(YamlTree& file, const std::string& path);
+/// Of a file in which insert_contact_file() has worked; empty without a section. @throws InputError
+GroundContact contact_of(const YamlTree& file);
+/// Of a file that has what follows `contact`. @throws InputError
+GroundContact read_contact_file(const std::string& path);
+
+}  // namespace furrow
