@@ -1,13 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Tables as text: commas, one line of names, '#' comments before it.
+/// Tables as text: a line of names, and lines of as many cells.
 
 #include <string>
 #include <vector>
 
 namespace furrow {
 
-/// A table read from a file.
+/// A column of measurements.
+struct MeasuredColumn {
+  std::string heading;         ///< as the file has it
+  std::string name;            ///< without the unit
+  std::string unit;            ///< in the heading; empty without
+  std::string si;              ///< unit of the values: "Pa", "" for a ratio
+  double factor = 1.0;         ///< from the unit of the heading to SI
+  std::vector<double> values;  ///< SI if the heading has a unit
+};
+
+/// A table read from a file. Cells are separated by commas, semicolons or tabulators, as the line
+/// of names has them; with the latter two a number may have a decimal comma. An empty cell, NaN and
+/// NA are no number. A second line of names may hold the units. '#' begins a comment.
 class CsvTable {
  public:
   /// @throws InputError naming file and line: missing, empty, a line of another length
@@ -18,9 +30,20 @@ class CsvTable {
   /// A column of numbers; an empty cell is NaN. @throws InputError for an unknown name, or a cell
   /// that is no finite number
   std::vector<double> numbers(const std::string& name) const;
+  /// A column in an SI unit. The heading may name another unit of the kind: "q_kPa", "q [kPa]",
+  /// "strain (%)". A name without heading may end with the unit of its column: "q [kPa]".
+  /// @param si  "Pa", "m", "N", "kg/m3", "degree", "s" or "" for a ratio
+  /// @throws InputError for a unit of another kind, and for a column without a unit whose values
+  /// fit another unit better
+  MeasuredColumn measured(const std::string& name, const std::string& si) const;
+  /// All columns of numbers, each in the SI unit of its heading.
+  std::vector<MeasuredColumn> all_measured() const;
 
  private:
+  bool has_numbers(std::size_t column) const;
+
   std::string path_;
+  bool decimal_comma_ = false;
   std::vector<std::string> names_;
   std::vector<std::vector<std::string>> cells_;
   std::vector<int> lines_;

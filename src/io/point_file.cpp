@@ -43,8 +43,8 @@ Schema curve_schema() {
       .by_default("linear");
   schema
       .number("deviation", "", Range::positive(),
-              "standard deviation of a measured value, of its logarithm with scale: log; from the "
-              "scatter unless given")
+              "standard deviation of a measured value in the unit of its column, of its logarithm "
+              "with scale: log; from the scatter unless given")
       .optional();
   return schema;
 }
@@ -146,8 +146,8 @@ std::pair<std::string, const YamlTree*> one_pair(const YamlTree& curve, const st
   return {map.keys.front().first, &map.keys.front().second};
 }
 
-std::vector<double> column_of(const CsvTable& table, const YamlTree& name) {
-  return in_path(name, [&] { return table.numbers(name.text); });
+MeasuredColumn column_of(const CsvTable& table, const YamlTree& name, const std::string& si) {
+  return in_path(name, [&] { return table.measured(name.text, si); });
 }
 
 /// What the sample of a curve has of its own: "sample: {law.e0: 0.58}".
@@ -204,10 +204,14 @@ FitCurve read_curve(const std::string& file, const YamlTree& map, const Material
             ? "a path with a list of targets: hydrostatic, confined, triaxial, simple_shear"
             : fmt::format("{}", fmt::join(lists, ", ")));
   }
-  curve.driven = column_of(table, *driving);
+  curve.driven = column_of(table, *driving, key->unit).values;
   curve.driven_by = target;
   curve.driven_unit = key->unit;
-  curve.measured = column_of(table, *measured);
+  const PointChannel compared =
+      in_path(*measured, [&] { return find_point_channel(material, channel); });
+  const MeasuredColumn of_channel = column_of(table, *measured, compared.unit);
+  curve.measured = of_channel.values;
+  if (!curve.relative) curve.deviation *= of_channel.factor;
   YamlTree targets;
   targets.kind = YamlTree::Kind::list;
   targets.origin = driving->origin;
@@ -224,7 +228,6 @@ FitCurve read_curve(const std::string& file, const YamlTree& map, const Material
   path.keys.emplace_back(target, targets);
   curve.path = read_path(path, nullptr);
   curve.channel = channel;
-  in_path(*measured, [&] { return find_point_channel(material, curve.channel); });
   for (const double value : curve.measured)
     if (curve.relative && value <= 0.0)
       throw InputError(measured->origin,

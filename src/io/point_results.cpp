@@ -159,10 +159,25 @@ std::string run_report(const PointRun& run, const Material& material, const Poin
   return text;
 }
 
+nlohmann::ordered_json finite(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
+std::string measured_description(const std::vector<MeasuredColumn>& columns) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const MeasuredColumn& column : columns) {
+    nlohmann::ordered_json values = nlohmann::ordered_json::array();
+    for (const double value : column.values) values.push_back(finite(value));
+    json.push_back({{"heading", column.heading},
+                    {"name", column.name},
+                    {"unit", column.unit},
+                    {"si", column.si},
+                    {"values", values}});
+  }
+  return json.dump();
+}
+
 std::string fit_description(const PointFit& fit) {
-  const auto finite = [](double value) {
-    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
-  };
   nlohmann::ordered_json json;
   json["title"] = fit.title;
   json["material"] = fit.material.title;

@@ -15,6 +15,8 @@
 
 namespace furrow {
 
+struct MeasuredColumn;
+
 /// Writes all files of a run into the folder, which is made. @throws Error naming the file
 void write_point_run(const std::string& folder, const PointRun& run, const Material& material,
                      const PointHistory& history);
@@ -27,6 +29,8 @@ std::string run_report(const PointRun& run, const Material& material, const Poin
 /// Title, material, parameters and curves of a fit on one line of JSON, for `furrow-point curves`;
 /// an infinite bound and an empty cell are null.
 std::string fit_description(const PointFit& fit);
+/// Columns of a table as one line of JSON; null: an empty cell.
+std::string measured_description(const std::vector<MeasuredColumn>& columns);
 /// Values of every channel on one line of JSON, for `furrow-point channels`; NaN is null.
 std::string channel_values(const Material& material, const PointHistory& history);
 /// The material file with fitted values, as a text of JSON.

@@ -20,6 +20,7 @@
 #include "core/error.h"
 #include "end_output.h"
 #include "figure.h"
+#include "io/csv_file.h"
 #include "io/law_json.h"
 #include "io/point_file.h"
 #include "io/point_results.h"
@@ -104,6 +105,20 @@ void channels() {
   });
 }
 
+/// Measurements in SI units for other programs.
+/// @param as  "heading=unit" of columns whose kind is known; without, all as their headings have
+/// them
+void table(const std::string& file, const std::vector<std::string>& as) {
+  const furrow::CsvTable table = furrow::CsvTable::read(file);
+  std::vector<furrow::MeasuredColumn> columns;
+  for (const std::string& text : as) {
+    const std::size_t equals = std::min(text.rfind('='), text.size());
+    columns.push_back(
+        table.measured(text.substr(0, equals), text.substr(std::min(equals + 1, text.size()))));
+  }
+  std::cout << furrow::measured_description(as.empty() ? table.all_measured() : columns) << '\n';
+}
+
 /// The effective values of a material file with its bases.
 void show(const std::string& input, bool json, double pressure) {
   const furrow::MaterialFile file = furrow::read_material_file(input);
@@ -158,6 +173,11 @@ int main(int argc, char** argv) {
       "fit parameters of a law to measured curves (inputs/points/fit_*.yaml); see fit --help");
   CLI::App* curves_command = app.add_subcommand(
       "curves", "curves of a fit: one line of output for each line of parameter values");
+  CLI::App* table_command = app.add_subcommand(
+      "table", "columns of a table of measurements in SI units, as one line of JSON");
+  table_command->add_option("file", input, "a CSV file")->required();
+  std::vector<std::string> as;
+  table_command->add_option("--as", as, "columns and their SI units: 'q=Pa', 'strain='");
   for (CLI::App* command : {run_command, curves_command})
     command->add_option("file", input, "a YAML file; furrow-point paths lists its keys")
         ->required();
@@ -183,7 +203,7 @@ int main(int argc, char** argv) {
   if (!fit)
     if (const auto status = furrow::parse_options(app, argc, argv)) return *status;
   if (!fit && app.get_subcommands().empty()) {
-    std::cerr << "furrow-point: needs one of the commands run, fit, curves, channels, laws, "
+    std::cerr << "furrow-point: needs one of the commands run, fit, curves, channels, table, laws, "
                  "show, usual or paths; see --help\n";
     return 1;
   }
@@ -193,6 +213,7 @@ int main(int argc, char** argv) {
     if (*run_command) run(input, output, !no_plot);
     if (*curves_command) curves(input);
     if (*channels_command) channels();
+    if (*table_command) table(input, as);
     if (*laws_command) {
       if (json)
         std::cout << furrow::laws_json(laws_named(law)) << '\n';

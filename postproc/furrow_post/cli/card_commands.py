@@ -12,8 +12,9 @@ from ..read.soil_card import Fitted, SoilCard, markdown, read_card
 from ..soil.exports import EXPORTS
 from ..soil import grains
 from ..soil.instruments import Bench, card_executor
-from ..soil.make import CLASSES, compression, from_bekker, from_cone, from_strength, read_oedometer
+from ..soil.make import CLASSES, compression, from_bekker, from_cone, from_strength
 from ..soil.material import OF_GRAINS, NewMaterial, find_ground
+from ..soil.oedometer import read_oedometer
 from ..soil.virtual_oedometer import oedometer_misfit
 from ..soil.testing import FULL, QUICK, cone_misfit, default_folder, make_card, make_grain_card, plate_misfit
 from ..soil.units import EARTH, require_plausible
@@ -106,7 +107,7 @@ def card_table(given: Given) -> None:
     argument("file", "material file to write", path),
     option("--title", help="by default the name of the file"),
     *(option(f"--{name}", name, parse=number, help=meaning) for name, meaning in NUMBERS.items()),
-    option("--oedometer", parse=path, help="table with the columns stress_Pa and strain"),
+    option("--oedometer", parse=path, help="table of stress and strain or void ratio, units in the headings"),
     option("--class", "soil_class", parse=str, help=f"of the USCS: {', '.join(CLASSES)}"),
     flag("--no-check", help="no virtual plate or cone"),
 )
@@ -143,6 +144,8 @@ def _material(route: str, given: Given) -> NewMaterial:
     title = given.title or given.file.stem
     if route == "c":
         oedometer = read_oedometer(given.oedometer) if given.oedometer else None
+        for note in oedometer.notes if oedometer else ():
+            print(f"  oedometer     {note}")
         return from_strength(title, given.c, given.phi, given.density, oedometer, given.E)
     if route == "k_phi":
         return from_bekker(

@@ -8,16 +8,15 @@ Mohr-Coulomb in triaxial compression and extension (inputs/guide/soil_files.md).
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from scipy.optimize import brentq
 
 from ..arrays import Floats
-from ..csv_table import read_rows
 from ..errors import ResultsError
 from ..read.soil_card import INDEX_DEPTH
 from .material import NewMaterial, Parameter
+from .oedometer import Confined
 from .units import EARTH, require_plausible
 
 POISSON = Parameter(0.25, "0.2 to 0.35 for soil", guessed=True)
@@ -65,43 +64,6 @@ class Strength:
         """Hydrostatic, of the cap whose corner is at this mean stress."""
         p: Floats = mean + float(CAP.value) * (self.d + mean * self.tangent)
         return p
-
-
-@dataclass(frozen=True)
-class Confined:
-    """Confined compression: axial stress [Pa] over strain, both increasing."""
-
-    stress: tuple[float, ...]
-    strain: tuple[float, ...]
-    origin: str
-    guessed: bool = False
-
-
-def read_oedometer(path: Path) -> Confined:
-    """A table with the columns stress_Pa and strain. @raises OSError, ResultsError"""
-    rows = read_rows(path)
-    for column in ("stress_Pa", "strain"):
-        if not rows or column not in rows[0]:
-            raise ResultsError(
-                f"{path}: has no column '{column}'; an oedometer is a table with the columns "
-                "stress_Pa [Pa] and strain (a ratio)"
-            )
-    points = []
-    for number, row in enumerate(rows, 1):
-        try:
-            point = float(row["stress_Pa"]), float(row["strain"])
-            require_plausible("stress", point[0])
-            require_plausible("strain", point[1])
-        except (ValueError, ResultsError) as error:
-            raise ResultsError(f"{path}, row {number}: {error}") from error
-        points.append(point)
-    if len(points) < 3 or any(a[0] >= b[0] or a[1] >= b[1] for a, b in zip(points, points[1:])):
-        raise ResultsError(
-            f"{path}: needs three rows or more with increasing stress and increasing strain; "
-            "leave out unloading"
-        )
-    stress, strain = zip(*points)
-    return Confined(stress, strain, f"oedometer {path.name}")
 
 
 def confined_of_modulus(modulus: float, reference: float = REFERENCE) -> Confined:
@@ -191,8 +153,12 @@ def material_of(
     )
 
 
-def stiffer_than(confined: Confined) -> Parameter:
-    """An E for a curve without unloading."""
+def young_of(confined: Confined) -> Parameter:
+    """Of the unloading of a test; of a curve without unloading, a guess."""
+    if math.isfinite(confined.unloading):
+        nu = float(POISSON.value)
+        young = confined.unloading * (1 + nu) * (1 - 2 * nu) / (1 - nu)
+        return Parameter(young, f"unloading of the {confined.origin}, with nu {nu:g}")
     stress, strain = np.array(confined.stress), np.array(confined.strain)
     steepest = float(np.max(np.diff(stress) / np.diff(strain)))
     return Parameter(UNLOADING * steepest, f"{UNLOADING:g} times the steepest modulus", True)
@@ -217,7 +183,7 @@ def from_strength(
     if young is not None:
         require_plausible("E", young)
     confined = compression(oedometer, young)
-    elastic = Parameter(young, "given") if young is not None else stiffer_than(confined)
+    elastic = Parameter(young, "given") if young is not None else young_of(confined)
     strength = Strength(c, phi)
     return material_of(
         title,
@@ -258,7 +224,7 @@ def from_bekker(
         Strength(c, phi),
         known,
         confined,
-        stiffer_than(confined),
+        young_of(confined),
         f"c {c:g} Pa, phi {phi:g} degrees",
         head=head,
     )
@@ -372,7 +338,7 @@ def from_cone(title: str, cone_index: float, soil_class: str, density: float | N
         strength,
         known,
         confined,
-        stiffer_than(confined),
+        young_of(confined),
         f"cone index {cone_index:g} Pa and {source}",
         guessed_strength=True,
         head=head,

@@ -8,7 +8,7 @@ import numpy as np
 from ..analyse.point_curves import PointPaths
 from ..analyse.statistics import rms
 from ..arrays import Floats
-from .make import Confined
+from .oedometer import Confined
 
 
 def confined_strain(material: Path, stresses: tuple[float, ...]) -> Floats:

@@ -445,5 +445,60 @@ TEST(CsvFile, ReadsNumbersAndNamesWhatIsWrong) {
   EXPECT_EQ(back.numbers("y"), (std::vector<double>{-1e-300, 4}));
 }
 
+/// A column of the same test in the dialects of programs and in the units of apparatus.
+TEST(CsvFile, ReadsTheDialectsAndUnitsOfPrograms) {
+  const Scratch scratch;
+  const struct {
+    const char* text;
+    const char* strain;
+    const char* stress;
+  } tables[] = {
+      {"strain,q_Pa\n0.005,60000\n0.1,119000\n", "strain", "q_Pa"},
+      {"\xEF\xBB\xBFstrain_percent,q_kPa\r\n0.5,60\r\n10,119\r\n", "strain_percent", "q_kPa"},
+      {"Axial strain (%);Deviator [kPa]\n0,5;60,0\n10,0;119,0\n", "Axial strain (%)",
+       "Deviator [kPa]"},
+      {"\"strain\"\t\"q, MPa\"\n0,005\t0,06\n0,1\t0,119\n\t\n", "strain", "q, MPa"},
+      {"strain,q\n%,kN/m²\n+0.5,60\n10,119\n", "strain", "q [kPa]"},
+      {"strain,q\n5e-3,60\n0.1,119\n", "strain", "q [kPa]"},
+      {"strain,q [psi]\n0.005,8.702264\n0.1,17.25952\n", "strain", "q [psi]"}};
+  for (const auto& one : tables) {
+    const CsvTable table = CsvTable::read(scratch.file("a.csv", one.text));
+    const std::string units = one.text;
+    const bool second_line = units.find("\n%,") != std::string::npos;
+    const MeasuredColumn strain = table.measured(second_line ? "strain [%]" : one.strain, ""),
+                         stress = table.measured(second_line ? "q [kN/m²]" : one.stress, "Pa");
+    ASSERT_EQ(strain.values.size(), 2u) << one.text;
+    EXPECT_NEAR(strain.values[0], 0.005, 1e-12) << one.text;
+    EXPECT_NEAR(strain.values[1], 0.1, 1e-12) << one.text;
+    EXPECT_NEAR(stress.values[0], 60e3, 0.5) << one.text;
+    EXPECT_NEAR(stress.values[1], 119e3, 0.5) << one.text;
+  }
+  const CsvTable gaps = CsvTable::read(scratch.file("a.csv", "a,b\n1,NaN\nNA,2\n,3\n"));
+  EXPECT_TRUE(std::isnan(gaps.numbers("a")[1]) && std::isnan(gaps.numbers("a")[2]));
+  EXPECT_TRUE(std::isnan(gaps.numbers("b")[0]));
+}
+
+TEST(CsvFile, RefusesAnUnclearOrWrongUnitWithBothReadings) {
+  const Scratch scratch;
+  const CsvTable table = CsvTable::read(
+      scratch.file("a.csv", "strain,q,e [kPa],p_s,eps\n0.5,60,0.8,1e5,0.1\n10,119,0.7,2e5,0.2\n"));
+  EXPECT_THAT(
+      error_of([&] { table.measured("strain", ""); }),
+      HasSubstr("column 'strain' has no unit, and values up to 10: in ratio up to 10 ratio, "
+                "in % up to 0.1 ratio; allowed: a heading with its unit: 'strain [ratio]' or "
+                "'strain [%]'"));
+  EXPECT_THAT(error_of([&] { table.measured("q", "Pa"); }),
+              HasSubstr("values up to 119: in Pa up to 119 Pa, in kPa up to 1.19e+05 Pa"));
+  EXPECT_THAT(error_of([&] { table.measured("e [kPa]", ""); }),
+              HasSubstr("has the unit 'kPa'; allowed: %, percent"));
+  EXPECT_THAT(error_of([&] { table.measured("eps [furlong]", ""); }),
+              HasSubstr("has the unit 'furlong'"));
+  EXPECT_EQ(table.measured("p_s", "Pa").values[1], 2e5);  // s is no unit of a pressure
+  EXPECT_EQ(table.measured("strain [ratio]", "").values[1], 10.0);
+  EXPECT_EQ(table.measured("eps", "").values[1], 0.2);
+  EXPECT_THAT(error_of([&] { CsvTable::read(scratch.file("b.csv", "a,b\n1,5,2\n")); }),
+              HasSubstr("has 3 values; allowed: 2"));
+}
+
 }  // namespace
 }  // namespace furrow::material_file_test

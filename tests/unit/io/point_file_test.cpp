@@ -17,7 +17,7 @@ class PointFileTest : public ::testing::Test {
  protected:
   PointFileTest() {
     file("ground.yaml", "law: {type: elastic, density: 1000}\nelasticity: {E: 1e6, nu: 0.25}\n");
-    file("data.csv", "sigma_Pa,rho,hole\n1e4,1008,1\n2e4,1017,\n");
+    file("data.csv", "sigma_Pa,rho,hole_Pa\n1e4,1008,1\n2e4,1017,\n");
   }
   std::string file(const std::string& name, const std::string& text) {
     return scratch_.file(name, text);
@@ -118,14 +118,14 @@ TEST_F(PointFileTest, BadFitsAreRefusedWithTheirPlace) {
       {fit(e,
            "data: data.csv, path: {type: confined}, drive: {stress: sigma}, compare: {density: "
            "rho}"),
-       "has no column 'sigma'; allowed: sigma_Pa, rho, hole"},
+       "has no column 'sigma'; allowed: sigma_Pa, rho, hole_Pa"},
       {fit(e,
            "data: data.csv, path: {type: confined}, drive: {steps: sigma_Pa}, compare: {density: "
            "rho}"),
        "fit.yaml, line 4: 'drive' names 'steps', no list of targets of this path; allowed: stress, "
        "strain"},
       {fit(e,
-           "data: data.csv, path: {type: confined}, drive: {stress: hole}, compare: {density: "
+           "data: data.csv, path: {type: confined}, drive: {stress: hole_Pa}, compare: {density: "
            "rho}"),
        "which has an empty cell"},
       {fit(e,

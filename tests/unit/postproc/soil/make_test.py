@@ -16,9 +16,9 @@ from furrow_post.soil.make import (
     from_bekker,
     from_cone,
     from_strength,
-    read_oedometer,
 )
 from furrow_post.soil.material import read_material
+from furrow_post.soil.oedometer import read_oedometer
 from furrow_post.soil.virtual_oedometer import confined_strain, oedometer_misfit
 from support.command import SOURCE, run_card
 from support.folder import FolderTest
@@ -127,15 +127,59 @@ class MakeTest(FolderTest):
             self.assertRegex(done.stderr, f"^furrow-post: .*{message}")
         self.assertFalse(self.file.exists())
         for text, message in (
-            ("stress,strain\n1e4,0.1\n", "has no column 'stress_Pa'"),
+            ("force,strain\n1e4,0.1\n", "has no column of the stress; it has 'force', 'strain'; an oedometer is"),
+            ("stress_Pa,height\n1e4,0.1\n", "has no column of the strain"),
             ("stress_Pa,strain\n10,0.02\n20,0.03\n50,0.04\n", "row 1: stress is 10 Pa"),
-            ("stress_Pa,strain\n1e4,2\n2e4,3\n5e4,4\n", "row 1: strain is 2"),
+            ("stress_Pa,strain\n1e4,2\n2e4,3\n5e4,4\n", "'strain' has no unit, and values up to 4: in ratio .*in %"),
+            ("stress,strain\n10,0.02\n20,0.03\n50,0.04\n", "'stress' has no unit, and values up to 50: in Pa .*in kPa"),
             ("stress_Pa,strain\n1e4,0.02\n5e4,0.04\n2e4,0.05\n", "increasing stress and increasing strain"),
-            ("stress_Pa,strain\n1e4,soft\n", "row 1: could not convert"),
+            ("stress_Pa,strain\n1e4,0.02\n5e4,0.04\n6e4,0.05\n2e4,0.06\n", "falls from 60000 to 20000 Pa and the strain"),
+            ("stress_Pa,strain\n1e4,soft\n", "has no column of the strain"),
+            ("stress_Pa,strain,eps_v\n1e4,0.1,0.1\n", "'strain', 'eps_v', which may all be the strain"),
+            ("stress_Pa,strain\n1e4,-0.02\n5e4,0.04\n", "strain has values of both signs"),
         ):
             self.table.write_text(text, encoding="utf-8")
             with self.assertRaisesRegex(ResultsError, message):
                 read_oedometer(self.table)
+
+    def test_tables_of_laboratories_give_the_same_test(self) -> None:
+        """The same numbers in the units, signs and dialects of apparatus and programs."""
+        wanted = read_oedometer(self.table)
+        strain = np.array(wanted.strain)
+        stress = np.array(wanted.stress) / 1e3
+        void = 0.8 - 1.8 * (strain - strain[0])
+
+        def rows(head: str, separator: str, *columns: object) -> str:
+            lines = [head, *(separator.join(f"{v:.12g}" for v in row) for row in zip(*columns))]  # type: ignore[call-overload]
+            return "\n".join(lines) + "\n"
+
+        comma = rows("Stress [kPa];Strain (%)", ";", stress, 100 * strain).replace(".", ",")
+        for text in (
+            rows("sigma_kPa,strain_percent", ",", stress, 100 * strain),
+            "\ufeff" + rows("vertical stress [kPa],axial strain [%]", ",", stress, 100 * strain),
+            comma,
+            rows("stress_kPa\tstrain", "\t", -stress, -strain),
+            rows("stress_kPa,strain", ",", stress, strain).replace("\n20,", "\n,\n15,\n20,"),
+        ):
+            self.table.write_text(text, encoding="utf-8")
+            found = read_oedometer(self.table)
+            np.testing.assert_allclose(found.stress, wanted.stress, rtol=1e-9, err_msg=text)
+            np.testing.assert_allclose(found.strain, wanted.strain, rtol=1e-9, err_msg=text)
+        self.table.write_text(rows("stress_kPa,e", ",", stress, void), encoding="utf-8")
+        found = read_oedometer(self.table)
+        np.testing.assert_allclose(found.strain, strain - strain[0], rtol=1e-9, atol=1e-12)
+        self.assertIn("void ratio, 0.8 at the first stress", found.notes[0])
+
+    def test_unloading_gives_the_modulus_of_elasticity(self) -> None:
+        """Closed form of confined compression: Hooke's law without lateral strain."""
+        unloaded = "stress_kPa,strain\n10,0.02\n20,0.03\n50,0.045\n100,0.06\n25,0.058\n100,0.0601\n300,0.09\n"
+        self.table.write_text(unloaded, encoding="utf-8")
+        found = read_oedometer(self.table)
+        self.assertEqual(found.stress, (1e4, 2e4, 5e4, 1e5, 3e5))
+        self.assertAlmostEqual(found.unloading / (75e3 / 0.002), 1, places=9)
+        made = from_strength("mine", 500.0, 33.0, 1600.0, found, None)
+        self.assertAlmostEqual(float(made.elasticity["E"].value) / (75e3 / 0.002 * 1.25 * 0.5 / 0.75), 1, places=9)
+        self.assertNotIn("E", [guess.split(":")[0] for guess in made.guesses()])
 
     def test_strengths_that_no_soil_of_the_class_has(self) -> None:
         with self.assertRaisesRegex(ResultsError, "no friction angle of 5 to 48 gives a cone index"):
