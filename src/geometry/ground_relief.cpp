@@ -111,6 +111,10 @@ double GroundRelief::waves_at(double x) const {
   return sum;
 }
 
+std::string GroundRelief::note() const {
+  return parameters_.heightmap ? parameters_.heightmap->note : "";
+}
+
 double GroundRelief::map_height(double x, double y) const {
   return parameters_.heightmap ? parameters_.heightmap->height(x, y) : 0.0;
 }
@@ -216,13 +220,18 @@ void GroundRelief::match(Checkpoint& state) const {
 void declare_relief(Schema& schema) {
   schema
       .text("heightmap",
-            "file of heights above the flat surface, ESRI ASCII grid or text with x y z; path "
-            "relative to the script")
+            "file of heights above the flat surface: ESRI ASCII grid, text with x y z, BMP or PNG "
+            "picture; path relative to the script")
       .optional()
       .may_change();  // of place: checkpoints compare the heights
   schema
       .numbers("heightmap_origin", 3, "m", Range::any(), "x y z in the file of the ground's origin")
       .by_default(std::vector<double>{0.0, 0.0, 0.0});
+  schema
+      .numbers(
+          "heightmap_picture", 4, "m", Range::any(),
+          "of a BMP or PNG picture: length along x, width along y, height of black and of white")
+      .optional();
   schema.numbers("washboard", 2, "m", Range::any(), "wavelength along x and amplitude of a sine")
       .optional();
   schema

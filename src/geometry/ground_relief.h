@@ -21,6 +21,7 @@ struct Heightmap {
   Vector2 spacing = Vector2::Zero();  ///< of nodes [m]
   int columns = 0, rows = 0;          ///< along x, along y
   std::vector<double> heights = {};   ///< [m]
+  std::string note = {};              ///< what a reader did to make a grid of them, for a person
 
   /// Bilinear. A node stands for half a spacing around it, so that the map ends there.
   /// @throws InputError outside of the map
@@ -68,6 +69,7 @@ class GroundRelief {
   std::vector<std::string> doubts(double length, double cell, bool moves) const;
   /// Of the heightmap's nodes, equal for equal maps; empty without one.
   std::string map_checksum() const;
+  std::string note() const;  ///< of the heightmap; empty without
   /// A run that continues must have the same heightmap. Keywords are compared by the fix.
   void match(Checkpoint& state) const;
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Heightmaps: both formats give the same surface, and faulty files are refused with their line.
 #include "io/heightmap_file.h"
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+
+#include <cmath>
+#include <functional>
 
 #include "core/error.h"
 #include "scratch.h"
@@ -76,6 +80,93 @@ TEST_F(HeightmapFile, FaultyFilesAreRefusedWithTheirLine) {
   EXPECT_THAT(refusal(std::string("II*\0\x08\0\0\0", 8)), HasSubstr("gdal_translate -of AAIGrid"));
   EXPECT_THAT(error_of<InputError>([] { read_heightmap("nowhere.asc"); }),
               HasSubstr("does not exist"));
+}
+
+TEST_F(HeightmapFile, HeadingsColoursAndDecimalCommasAreRead) {
+  const std::string rows = "10 20 1.40\n10.5 20 1.45\n11 20 1.50\n11 20.5 1.51\n10 20.5 1.41\n";
+  const Heightmap plain = read_heightmap(write(rows + "10.5 20.5 1.46\n"));
+  for (const char* text :
+       {"X,Y,Z\n10,20,1.40\n10.5,20,1.45\n11,20,1.50\n11,20.5,1.51\n10,20.5,1.41\n10.5,20.5,1.46\n",
+        "//Z Y[m] X R G B\n1.40 20 10 1 2 3\n1.45 20 10.5 1 2 3\n1.50 20 11 1 2 3\n1.51 20.5 11 1 "
+        "2 3\n"
+        "1.41 20.5 10 1 2 3\n1.46 20.5 10.5 1 2 3\n",
+        "10 20 1.40 9 9 9\n10.5 20 1.45 9 9 9\n11 20 1.50 9 9 9\n11 20.5 1.51 9 9 9\n10 20.5 1.41 "
+        "9 9 "
+        "9\n10.5 20.5 1.46 9 9 9\n",
+        "10;20;1,40\n10,5;20;1,45\n11;20;1,50\n11;20,5;1,51\n10;20,5;1,41\n10,5;20,5;1,46\n"}) {
+    const Heightmap map = read_heightmap(write(text));
+    EXPECT_EQ(map.heights, plain.heights) << text;
+    EXPECT_EQ(map.lower, plain.lower) << text;
+  }
+  std::string commas = grid;
+  for (char& c : commas)
+    if (c == '.') c = ',';
+  EXPECT_EQ(read_heightmap(write(commas)).heights, read_heightmap(write(grid)).heights);
+  EXPECT_THAT(refusal("X,Y,depth\n1,2,3\n"), HasSubstr("has no heading 'z'"));
+}
+
+/// Closed form: planes are resampled without an error. The error of a wave falls with the spacing.
+TEST_F(HeightmapFile, ScansOffTheGridAreResampledWithTheirError) {
+  const auto scan = [&](int count, const std::function<double(double, double)>& height) {
+    std::string text;
+    std::uint32_t seed = 1;
+    const auto jitter = [&] {
+      seed = 1664525u * seed + 1013904223u;
+      return 0.4 * (seed / 4294967296.0 - 0.5) / count;
+    };
+    for (int i = 0; i <= count; ++i)
+      for (int j = 0; j <= count; ++j) {
+        const double x = static_cast<double>(i) / count + jitter(),
+                     y = static_cast<double>(j) / count + jitter();
+        text += fmt::format("{:.17g} {:.17g} {:.17g}\n", x, y, height(x, y));
+      }
+    return read_heightmap(write(text));
+  };
+  const auto plane = [](double x, double y) { return 0.1 * x - 0.3 * y + 2.0; };
+  const Heightmap flat = scan(20, plane);
+  EXPECT_NEAR(flat.height(0.37, 0.61), plane(0.37, 0.61), 1e-12);
+  EXPECT_THAT(flat.note, HasSubstr("441 points on no regular grid are resampled every 0.0"));
+  const auto wave = [](double x, double) { return 0.01 * std::sin(2.0 * pi * x); };
+  const auto error = [&](int count) {
+    const Heightmap map = scan(count, wave);
+    double sum = 0.0;
+    for (int n = 1; n < 50; ++n)
+      sum += std::pow(map.height(0.02 * n, 0.5) - wave(0.02 * n, 0.5), 2);
+    return std::sqrt(sum / 49.0);
+  };
+  const double coarse = error(20), fine = error(40);
+  EXPECT_LT(coarse, 5e-4);
+  EXPECT_NEAR(coarse / fine, 4.0, 1.5);  // second order
+}
+
+/// The bytes of a picture without compression: two rows of three pixels, the lower one first.
+TEST_F(HeightmapFile, PicturesGiveHeightsFromBlackToWhite) {
+  const auto number = [](std::uint32_t value, int bytes) {
+    std::string text;
+    for (int n = 0; n < bytes; ++n) text += static_cast<char>(value >> (8 * n) & 255u);
+    return text;
+  };
+  std::string bmp = "BM" + number(54 + 24, 4) + number(0, 4) + number(54, 4) + number(40, 4) +
+                    number(3, 4) + number(2, 4) + number(1, 2) + number(24, 2) + number(0, 4) +
+                    number(24, 4) + number(0, 16);
+  for (const int grey : {0, 51, 102, -1, 153, 204, 255, -1})
+    bmp += grey < 0 ? number(0, 3) : number(static_cast<std::uint32_t>(grey) * 0x010101u, 3);
+  const std::string path = scratch.file("map.bmp", bmp);
+  const Heightmap map = read_heightmap(path, Vector3::Zero(), PictureSize(6.0, 2.0, -0.5, 0.5));
+  ASSERT_EQ(map.columns, 3);
+  ASSERT_EQ(map.rows, 2);
+  EXPECT_NEAR(map.height(-2.0, -0.5), -0.5, 1e-12);
+  EXPECT_NEAR(map.height(2.0, 0.5), 0.5, 1e-12);
+  EXPECT_NEAR(map.height(0.0, 0.0), 0.5 * (51 + 204) / 255.0 - 0.5, 1e-12);
+  EXPECT_THAT(error_of<InputError>([&] { read_heightmap(path); }),
+              HasSubstr("is a picture, which has no lengths; allowed: the keyword"));
+  EXPECT_THAT(error_of<InputError>(
+                  [&] { read_heightmap(write(grid), Vector3::Zero(), PictureSize(1, 1, 0, 1)); }),
+              HasSubstr("is no picture"));
+  const std::string broken = scratch.file("map.png", "text");
+  EXPECT_THAT(error_of<InputError>(
+                  [&] { read_heightmap(broken, Vector3::Zero(), PictureSize(1, 1, 0, 1)); }),
+              HasSubstr("is no picture"));
 }
 
 /// 49 million nodes would take 392 MB.
