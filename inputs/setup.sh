@@ -7,7 +7,7 @@ furrow_build=${FURROW_BUILD:-$furrow_root/build}
 
 # To build and run.
 furrow_packages="g++ cmake ninja-build liggghts libliggghts-dev libopenmpi-dev openmpi-bin libeigen3-dev libhdf5-dev
-  libvtk9-dev libyaml-cpp-dev libfmt-dev libcli11-dev nlohmann-json3-dev libspectra-dev pybind11-dev
+  libvtk9-dev libcgal-dev libassimp-dev libyaml-cpp-dev libfmt-dev libcli11-dev nlohmann-json3-dev libspectra-dev pybind11-dev
   python3 python3-dev python3-numpy python3-h5py python3-click python3-jinja2 python3-jsonschema python3-matplotlib python3-pandas
   python3-scipy python3-yaml libjs-three"
 # To test as well.

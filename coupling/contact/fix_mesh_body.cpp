@@ -24,6 +24,8 @@ namespace {
 
 // Nodes nearer than this are one, of the diagonal of the surface's box.
 constexpr double weld_distance = 1e-9;
+// LIGGGHTS refuses 0.057 degrees, and without more tolerance 0.26 degrees.
+constexpr double sharpest_corner = radians(0.06);
 // Share of the skin that a node may move before neighbour lists are made again, as LIGGGHTS has it.
 constexpr double skin_share = 0.5;
 
@@ -36,6 +38,13 @@ BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& sur
                    const Matrix3X& nodes_as_made)
     : TriMesh(lammps), surface_(surface) {
   setMeshID(id);
+  setCurvatureTolerant(true);
+  if (const double corner = surface.minimum_angle(); corner < sharpest_corner)
+    throw InputError(
+        fmt::format("mesh '{}'", id),
+        fmt::format("has a facet with a corner of {:.2g} degrees", degrees(corner)),
+        fmt::format("corners of at least {:g} degrees among grains", degrees(sharpest_corner)),
+        "write a mesh without such facets: 'furrow-tyre mesh FILE'");
   // Every triangle on every rank: LIGGGHTS keeps those it owns. Its triangle ids then are our
   // triangle numbers.
   for (const Vector3i& triangle : surface.triangles) {

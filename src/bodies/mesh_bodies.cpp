@@ -2,6 +2,7 @@
 #include "bodies/mesh_bodies.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -22,12 +23,14 @@ constexpr double smallest_mesh = 1e-3, largest_mesh = 5.0;  // [m], of wheels an
 constexpr double least_radius = 0.5, usual_radius = 0.75;
 constexpr double largest_offset = 0.02, largest_difference = 0.1;
 const Range densities = Range::closed(10.0, 25000.0);  // [kg/m^3] from foam to tungsten
-constexpr double noise = 1e-6;                         // of coordinates and directions in messages
+// Of proposals: steps of the axis and of the origin over the size; angle within which the axis is
+// one of the file's
+constexpr double axis_step = 1e-3, origin_step = 1e-3, origin_noise = 2e-3, straight = radians(0.5);
 
 /// @param axis the key's meaning and default
 void declare_mesh(Schema& schema, const std::string& origin, const std::string& axis,
                   const std::vector<double>& default_axis) {
-  schema.text("file", "mesh of a solid, STL or OBJ, relative to the script").may_change();
+  schema.text("file", "mesh of a solid, STL, OBJ or VTP, relative to the script").may_change();
   schema
       .number("scale", "m", Range::positive(),
               "length of a unit of the file: 0.001 for a mesh in millimetres")
@@ -40,10 +43,31 @@ Vector3 vector_from(const Options& options, const std::string& key) {
   return Eigen::Map<const Vector3>(options.numbers(key).data());
 }
 
-/// As a keyword has them. @param least what is below it is zero
-std::string numbers(Vector3 vector, double least) {
-  vector = (vector.array().abs() < least).select(0.0, vector);
+std::string numbers(const Vector3& vector) {
   return fmt::format("{:.6g} {:.6g} {:.6g}", vector.x(), vector.y(), vector.z());
+}
+
+/// Of units in files; the first that gives a usual size counts.
+constexpr std::array units{1.0, 0.001, 0.01, 0.0254};
+constexpr double usual_least = 0.03, usual_most = 3.0;  // [m]
+
+double rounded(double value, double step) {
+  const double number = step * std::round(value / step);
+  return number == 0.0 ? 0.0 : number;  // without the sign of -0
+}
+
+/// The principal axis whose two others have the most equal moments.
+Vector3 axis_of_revolution(const MassProperties& of) {
+  const Matrix3 about_centre =
+      of.inertia - of.volume * (of.centre.squaredNorm() * Matrix3::Identity() -
+                                of.centre * of.centre.transpose());
+  const Eigen::SelfAdjointEigenSolver<Matrix3> principal(about_centre);
+  const Vector3& moments = principal.eigenvalues();  // increasing
+  Vector3 axis =
+      principal.eigenvectors().col(moments[1] - moments[0] < moments[2] - moments[1] ? 2 : 0);
+  int largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  return axis[largest] < 0.0 ? -axis : axis;
 }
 
 /// @returns the rotation from the axes of the file, with 'axis' along the unit vector `target`
@@ -60,15 +84,16 @@ Matrix3 attitude_of(const Options& options, const Vector3& target) {
   return rotation.normalized().toRotationMatrix();
 }
 
-/// A mesh that is probably in millimetres or inches.
+/// A mesh that is probably in another unit.
 void check_size(const Options& options, const SolidMesh& mesh) {
   const auto [lower, upper] = mesh.surface.bounds();
-  const double scale = options.number("scale"), size = scale * (upper - lower).maxCoeff();
+  const double span = (upper - lower).maxCoeff(), size = options.number("scale") * span;
   if (size >= smallest_mesh && size <= largest_mesh) return;
   throw InputError(options.where("scale"),
-                   fmt::format("is {:g} m, and {} spans {:.4g} m with it", scale, mesh.file, size),
+                   fmt::format("is {:g} m, and {} spans {:.4g} m with it", options.number("scale"),
+                               mesh.file, size),
                    fmt::format("a size of {:g} to {:g} m", smallest_mesh, largest_mesh),
-                   "write 'scale 0.001' for a mesh in millimetres, 'scale 0.0254' for inches");
+                   fmt::format("write '{}'", keywords(propose_placement(mesh.surface))));
 }
 
 /// Checks the mesh, and brings it into metres about the origin of the body.
@@ -83,8 +108,11 @@ void place(const Options& options, const Vector3& target, SolidMesh& mesh) {
 /// With the axle along y through the origin.
 class MeshWheel {
  public:
-  MeshWheel(const Options& options, const Surface& surface)
-      : options_(options), of_unit_density_(mass_properties(surface)) {
+  /// @param proposal  keywords of a balanced wheel
+  MeshWheel(const Options& options, const Surface& surface, std::string proposal)
+      : options_(options),
+        proposal_(std::move(proposal)),
+        of_unit_density_(mass_properties(surface)) {
     double reach = 0.0;
     for (const auto& node : surface.x.colwise())
       reach = std::max(reach, std::hypot(node.x(), node.z()));
@@ -144,18 +172,14 @@ class MeshWheel {
 
   /// A hub is a body of revolution with its centre of mass on the axle. @return what is not so
   std::optional<InputError> imbalance(const std::string& otherwise) const {
-    const Matrix3 to_file = attitude_of(options_, Vector3::UnitY()).transpose();
+    const std::string remedy = fmt::format("write '{}'{}", proposal_, otherwise);
     const Vector3& centre = of_unit_density_.centre;
     if (const double offset = std::hypot(centre.x(), centre.z()); offset > largest_offset * reach_)
       return InputError(options_.where("origin"),
                         fmt::format("puts the axle {:.4g} m from the centre of mass", offset),
                         fmt::format("at most {:.4g} m, {:g} of the largest radius",
                                     largest_offset * reach_, largest_offset),
-                        fmt::format("write 'origin {}'{}",
-                                    numbers(vector_from(options_, "origin") +
-                                                to_file * centre / options_.number("scale"),
-                                            noise * reach_ / options_.number("scale")),
-                                    otherwise));
+                        remedy);
     const Matrix3& inertia = of_unit_density_.inertia;
     if (std::abs(inertia(0, 0) - inertia(2, 2)) <= largest_difference * inertia(1, 1)) return {};
     return InputError(
@@ -163,25 +187,11 @@ class MeshWheel {
         fmt::format("moments of inertia across the axle that differ by at most {:g} of that about "
                     "it",
                     largest_difference),
-        fmt::format("write 'axis {}'{}", numbers(to_file * axis_of_revolution(), noise),
-                    otherwise));
-  }
-
-  /// The principal axis whose two others have the most equal moments.
-  Vector3 axis_of_revolution() const {
-    const Vector3& centre = of_unit_density_.centre;
-    const Matrix3 about_centre =
-        of_unit_density_.inertia -
-        of_unit_density_.volume *
-            (centre.squaredNorm() * Matrix3::Identity() - centre * centre.transpose());
-    const Eigen::SelfAdjointEigenSolver<Matrix3> principal(about_centre);
-    const Vector3& moments = principal.eigenvalues();  // increasing
-    Vector3 axis =
-        principal.eigenvectors().col(moments[1] - moments[0] < moments[2] - moments[1] ? 2 : 0);
-    return axis.sum() < 0.0 ? -axis : axis;
+        remedy);
   }
 
   const Options& options_;
+  std::string proposal_;
   MassProperties of_unit_density_;
   double reach_ = 0.0;  // [m] largest distance from the axle
   RigidWheelParameters wheel_;
@@ -197,6 +207,34 @@ double area_from_below(const Surface& surface) {
 }
 
 }  // namespace
+
+MeshPlacement propose_placement(const Surface& surface) {
+  const auto [lower, upper] = surface.bounds();
+  const double span = (upper - lower).maxCoeff();
+  MeshPlacement found;
+  const auto is_usual = [&](double unit) {
+    return unit * span >= usual_least && unit * span <= usual_most;
+  };
+  const auto unit = std::find_if(units.begin(), units.end(), is_usual);
+  if (unit != units.end()) found.scale = *unit;
+  const MassProperties of = mass_properties(surface);
+  if (!(of.volume > 0.0)) return found;
+  found.axis = axis_of_revolution(of);
+  int along = 0;
+  if (found.axis.maxCoeff(&along) > std::cos(straight)) found.axis = Vector3::Unit(along);
+  // a step of a decimal digit
+  const double step = std::pow(10.0, std::floor(std::log10(origin_step * span)));
+  for (int k = 0; k < 3; ++k) {
+    found.axis[k] = rounded(found.axis[k], axis_step);
+    if (std::abs(of.centre[k]) > origin_noise * span) found.origin[k] = rounded(of.centre[k], step);
+  }
+  return found;
+}
+
+std::string keywords(const MeshPlacement& placement) {
+  return fmt::format("scale {:g} origin {} axis {}", placement.scale, numbers(placement.origin),
+                     numbers(placement.axis));
+}
 
 Vector3 direction_from(const Options& options, const std::string& key) {
   const Vector3 direction = vector_from(options, key);
@@ -247,8 +285,10 @@ Schema mesh_plate_schema(const std::string& subject) {
 
 std::unique_ptr<RigidWheel> make_mesh_wheel(const Options& options, SolidMesh mesh,
                                             std::vector<std::string>& doubts) {
+  MeshPlacement proposal = propose_placement(mesh.surface);
+  proposal.scale = options.number("scale");
   place(options, Vector3::UnitY(), mesh);
-  const MeshWheel wheel(options, mesh.surface);
+  const MeshWheel wheel(options, mesh.surface, keywords(proposal));
   doubts = wheel.doubts();
   return std::make_unique<RigidWheel>(wheel.parameters(), std::move(mesh.surface),
                                       options.subject());

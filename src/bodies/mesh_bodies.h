@@ -13,6 +13,19 @@
 
 namespace furrow {
 
+/// Where the file of a wheel has its axle.
+struct MeshPlacement {
+  double scale = 1.0;                ///< [m] of a unit of the file
+  Vector3 origin = Vector3::Zero();  ///< in the coordinates of the file
+  Vector3 axis = Vector3::UnitY();   ///< in the axes of the file
+};
+
+/// The unit that gives a usual size, the centre of mass and the axis of revolution, rounded to what
+/// a person would write.
+MeshPlacement propose_placement(const Surface& surface);
+/// As a line has it: "scale 0.001 origin 0 0 0 axis 0 0 1".
+std::string keywords(const MeshPlacement& placement);
+
 /// Unit vector along the three numbers of a key. @throws InputError for three zeros
 Vector3 direction_from(const Options& options, const std::string& key);
 

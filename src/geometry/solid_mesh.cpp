@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -19,6 +20,16 @@ namespace {
 constexpr double coplanar = 1e-9;  // sine of the angle between two normals
 
 using Corners = std::array<Vector3, 3>;
+
+enum class Fault { flat, open, shared, turned, folded, meeting, inwards, inside };
+constexpr std::array fault_names{"facets without area",
+                                 "edges without a neighbour",
+                                 "edges with three or more facets",
+                                 "edges of neighbours with opposite orientations",
+                                 "edges where facets are folded onto each other",
+                                 "facets that meet others",
+                                 "shells that point inwards",
+                                 "solids inside others"};
 
 struct EdgeUse {
   int lower, higher;  // nodes
@@ -35,11 +46,18 @@ class SolidCheck {
     tolerance_ = solid_mesh_tolerance * (upper - lower).norm();
   }
 
-  void check() const {
+  /// Faults of one kind may have others as their consequence, so that inner walls and turned shells
+  /// are looked for in a closed surface only.
+  void check() {
     check_degenerate();
     check_edges();
     check_intersections();
-    check_orientation();
+    if (!first_) check_orientation();
+    if (!first_) return;
+    throw InputError(first_->place, first_->problem, first_->allowed,
+                     fmt::format("{}, or write a repaired mesh with 'furrow-tyre mesh {}'; all "
+                                 "faults: {}",
+                                 first_->remedy, mesh_.file, list()));
   }
 
  private:
@@ -60,12 +78,22 @@ class SolidCheck {
     return fmt::format("{}, facet {} at {:.4g} {:.4g} {:.4g}", mesh_.file, facet(triangle),
                        middle.x(), middle.y(), middle.z());
   }
-  [[noreturn]] void refuse(int triangle, const std::string& problem, const std::string& allowed,
-                           const std::string& remedy) const {
-    throw InputError(place(triangle), problem, allowed, remedy);
+  /// The first fault of all is written out.
+  void note(Fault fault, int triangle, const std::string& problem, const std::string& allowed,
+            const std::string& remedy) {
+    ++counts_[static_cast<std::size_t>(fault)];
+    if (!first_) first_ = {place(triangle), problem, allowed, remedy};
+  }
+  std::string list() const {
+    std::string text;
+    for (std::size_t fault = 0; fault < counts_.size(); ++fault)
+      if (counts_[fault] > 0)
+        text +=
+            fmt::format("{}{} {}", text.empty() ? "" : ", ", counts_[fault], fault_names[fault]);
+    return text;
   }
 
-  void check_degenerate() const {
+  void check_degenerate() {
     for (int t = 0; t < count_; ++t) {
       const Corners x = corners(t);
       const double longest =
@@ -73,13 +101,13 @@ class SolidCheck {
       const double height =
           2.0 * surface_.area_vector(static_cast<std::size_t>(t)).norm() / longest;
       if (!(longest > tolerance_ && height > tolerance_))
-        refuse(t, "is degenerate: its three corners lie on a line",
-               fmt::format("facets of a height of at least {:g} of the mesh", solid_mesh_tolerance),
-               "merge vertices and remove degenerate faces in the program that made the mesh");
+        note(Fault::flat, t, "is degenerate: its three corners lie on a line",
+             fmt::format("facets of a height of at least {:g} of the mesh", solid_mesh_tolerance),
+             "merge vertices and remove degenerate faces in the program that made the mesh");
     }
   }
 
-  void check_edges() const {
+  void check_edges() {
     std::vector<EdgeUse> uses;
     for (int t = 0; t < count_; ++t)
       for (int corner = 0; corner < 3; ++corner) {
@@ -99,31 +127,33 @@ class SolidCheck {
   }
 
   template <class Iterator>
-  void check_edge(Iterator first, Iterator last) const {
+  void check_edge(Iterator first, Iterator last) {
     const auto users = last - first;
     if (users == 1)
-      refuse(first->triangle, "has an edge without a neighbour: the surface is open there",
-             "a watertight surface", "close the holes and merge vertices");
+      return note(Fault::open, first->triangle,
+                  "has an edge without a neighbour: the surface is open there",
+                  "a watertight surface", "close the holes and merge vertices");
     if (users > 2)
-      refuse(first->triangle, fmt::format("shares an edge with {} other facets", users - 1),
-             "one neighbour at each edge",
-             "remove double facets and inner walls, or unite the parts of the solid");
+      return note(Fault::shared, first->triangle,
+                  fmt::format("shares an edge with {} other facets", users - 1),
+                  "one neighbour at each edge",
+                  "remove double facets and inner walls, or unite the parts of the solid");
     const auto other = first + 1;
     if (first->upwards == other->upwards)
-      refuse(first->triangle,
-             fmt::format("and its neighbour, facet {}, have opposite orientations",
-                         facet(other->triangle)),
-             "corners in counter-clockwise order, seen from outside",
-             "make the normals consistent");
+      return note(Fault::turned, first->triangle,
+                  fmt::format("and its neighbour, facet {}, have opposite orientations",
+                              facet(other->triangle)),
+                  "corners in counter-clockwise order, seen from outside",
+                  "make the normals consistent");
     const Vector3 normal_here = normal(first->triangle), normal_there = normal(other->triangle);
     if (normal_here.dot(normal_there) < 0.0 && normal_here.cross(normal_there).norm() < coplanar)
-      refuse(first->triangle, fmt::format("is folded onto facet {}", facet(other->triangle)),
-             "a surface that encloses a volume",
-             "remove one of them, or give the part a thickness");
+      note(Fault::folded, first->triangle,
+           fmt::format("is folded onto facet {}", facet(other->triangle)),
+           "a surface that encloses a volume", "remove one of them, or give the part a thickness");
   }
 
   /// The pairs whose boxes overlap, by a sweep along the longest side.
-  void check_intersections() const {
+  void check_intersections() {
     const auto [lower, upper] = surface_.bounds();
     int axis = 0;
     (upper - lower).maxCoeff(&axis);
@@ -139,17 +169,26 @@ class SolidCheck {
     std::sort(boxes.begin(), boxes.end(), [axis](const Box& a, const Box& b) {
       return std::make_pair(a.lower[axis], a.triangle) < std::make_pair(b.lower[axis], b.triangle);
     });
+    std::vector<int> met(boxes.size(), -1);  // the lowest facet that each one meets
     for (std::size_t a = 0; a < boxes.size(); ++a)
       for (std::size_t b = a + 1; b < boxes.size() && boxes[b].lower[axis] <= boxes[a].upper[axis];
-           ++b)
-        if ((boxes[a].lower.array() <= boxes[b].upper.array()).all() &&
-            (boxes[b].lower.array() <= boxes[a].upper.array()).all() &&
-            meet(boxes[a].triangle, boxes[b].triangle))
-          refuse(std::min(boxes[a].triangle, boxes[b].triangle),
-                 fmt::format("meets facet {}, which is not its neighbour",
-                             facet(std::max(boxes[a].triangle, boxes[b].triangle))),
-                 "a surface that does not intersect itself",
-                 "unite the parts of the solid (Boolean union)");
+           ++b) {
+        const int one = boxes[a].triangle, other = boxes[b].triangle;
+        int &of_one = met[static_cast<std::size_t>(one)],
+            &of_other = met[static_cast<std::size_t>(other)];
+        if ((of_one < 0 || of_other < 0) &&
+            (boxes[a].lower.array() <= boxes[b].upper.array()).all() &&
+            (boxes[b].lower.array() <= boxes[a].upper.array()).all() && meet(one, other)) {
+          if (of_one < 0 || other < of_one) of_one = other;
+          if (of_other < 0 || one < of_other) of_other = one;
+        }
+      }
+    for (int t = 0; t < count_; ++t)
+      if (const int other = met[static_cast<std::size_t>(t)]; other >= 0)
+        note(Fault::meeting, t,
+             fmt::format("meets facet {}, which is not its neighbour", facet(other)),
+             "a surface that does not intersect itself",
+             "unite the parts of the solid (Boolean union)");
   }
 
   bool meet(int a, int b) const { return an_edge_crosses(a, b) || an_edge_crosses(b, a); }
@@ -221,7 +260,7 @@ class SolidCheck {
     return list;
   }
 
-  void check_orientation() const {
+  void check_orientation() {
     const std::vector<Shell> all = shells();
     for (const Shell& shell : all) {
       const bool outwards = shell.surface.enclosed_volume() > 0.0;
@@ -235,19 +274,26 @@ class SolidCheck {
       }
       const bool enclosed = around > 0.5;
       if (!outwards && !enclosed)
-        refuse(shell.first, "points inwards, as all facets of its shell do",
-               "corners in counter-clockwise order, seen from outside",
-               "flip the normals of the mesh or of this part");
+        note(Fault::inwards, shell.first, "points inwards, as all facets of its shell do",
+             "corners in counter-clockwise order, seen from outside",
+             "flip the normals of the mesh or of this part");
       if (outwards && enclosed)
-        refuse(shell.first, "belongs to a solid inside another solid", "solids that are apart",
-               "remove the inner solid, or flip its normals if it is a cavity");
+        note(Fault::inside, shell.first, "belongs to a solid inside another solid",
+             "solids that are apart",
+             "remove the inner solid, or flip its normals if it is a cavity");
     }
   }
+
+  struct Written {
+    std::string place, problem, allowed, remedy;
+  };
 
   const SolidMesh& mesh_;
   const Surface& surface_;
   int count_;
   double tolerance_ = 0.0;
+  std::array<int, fault_names.size()> counts_{};
+  std::optional<Written> first_;
 };
 
 }  // namespace

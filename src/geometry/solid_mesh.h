@@ -23,7 +23,7 @@ constexpr double solid_mesh_tolerance = 1e-6;
 /// Checks that the mesh encloses a solid: no degenerate facet, every edge in two facets that run
 /// through it in opposite directions, no facets that meet elsewhere, all facets outwards. A cavity
 /// is a shell inside the solid whose facets point into the cavity.
-/// @throws InputError with file, facet and remedy
+/// @throws InputError with file, facet and remedy of the first fault, and the number of each kind
 void check_solid(const SolidMesh& mesh);
 
 /// Of a solid of unit density with a closed surface.

@@ -16,6 +16,7 @@
 #include "geometry/weld.h"
 #include "io/input_text.h"
 #include "io/text_lines.h"
+#include "io/vtk_file.h"
 
 namespace furrow {
 
@@ -24,16 +25,9 @@ namespace {
 constexpr std::uintmax_t largest_file = 200'000'000;  // [bytes]
 constexpr std::size_t most_facets = 300'000;          // which take seconds to check
 constexpr double largest_coordinate = 1e9;            // in any unit
-constexpr const char* kind = "a mesh file, STL or OBJ";
+constexpr const char* kind = "a mesh file, STL, OBJ or VTP";
 
 bool is_coordinate(double x) { return std::abs(x) <= largest_coordinate; }
-
-/// Corners of the facets as the file has them.
-struct Facets {
-  std::vector<Vector3> points;
-  std::vector<Vector3i> triangles;  // numbers of points
-  std::vector<int> facets;          // of each triangle, from 1
-};
 
 class MeshLines : public TextLines {
  public:
@@ -56,8 +50,8 @@ class MeshLines : public TextLines {
   }
 };
 
-Facets read_ascii_stl(const std::string& path, const std::string& text) {
-  Facets read;
+MeshFacets read_ascii_stl(const std::string& path, const std::string& text) {
+  MeshFacets read;
   MeshLines lines(path, text);
   int corners = -1;  // of the facet so far; -1 outside of one
   while (lines.next()) {
@@ -102,8 +96,8 @@ bool is_binary_stl(const std::string& bytes) {
          bytes.size() == stl_head + stl_facet * std::size_t(number_at<std::uint32_t>(bytes, 80));
 }
 
-Facets read_binary_stl(const std::string& path, const std::string& bytes) {
-  Facets read;
+MeshFacets read_binary_stl(const std::string& path, const std::string& bytes) {
+  MeshFacets read;
   const int count = static_cast<int>((bytes.size() - stl_head) / stl_facet);
   for (int facet = 0; facet < count; ++facet) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -138,8 +132,8 @@ int obj_point(const MeshLines& lines, std::string_view word, std::size_t points)
   return static_cast<int>(index);
 }
 
-Facets read_obj(const std::string& path, const std::string& text) {
-  Facets read;
+MeshFacets read_obj(const std::string& path, const std::string& text) {
+  MeshFacets read;
   MeshLines lines(path, text);
   for (int facet = 0; lines.next();) {
     const std::vector<std::string_view>& words = lines.words();
@@ -147,19 +141,16 @@ Facets read_obj(const std::string& path, const std::string& text) {
     if (words[0] != "f") continue;
     if (words.size() < 4) lines.refuse("has a facet of fewer than three corners", "three or more");
     ++facet;
-    const auto corner = [&](std::size_t n) {
-      return obj_point(lines, words[n], read.points.size());
-    };
-    for (std::size_t n = 3; n < words.size(); ++n) {
-      read.triangles.emplace_back(corner(1), corner(n - 1), corner(n));
-      read.facets.push_back(facet);
-    }
+    std::vector<int> corners;
+    for (std::size_t n = 1; n < words.size(); ++n)
+      corners.push_back(obj_point(lines, words[n], read.points.size()));
+    read.add_polygon(corners, facet);
   }
   return read;
 }
 
 /// Points that are equal to the last digit first: a file has each about six times.
-SolidMesh welded(const std::string& path, const Facets& read) {
+SolidMesh welded(const std::string& path, const MeshFacets& read) {
   const auto less = [&](int a, int b) {
     const Vector3 &p = read.points[static_cast<std::size_t>(a)],
                   &q = read.points[static_cast<std::size_t>(b)];
@@ -202,15 +193,35 @@ SolidMesh welded(const std::string& path, const Facets& read) {
 
 }  // namespace
 
+void MeshFacets::add_polygon(const std::vector<int>& corners, int facet) {
+  for (std::size_t n = 2; n < corners.size(); ++n) {
+    triangles.emplace_back(corners[0], corners[n - 1], corners[n]);
+    facets.push_back(facet);
+  }
+}
+
+SolidMesh mesh_of_facets(const std::string& path, const MeshFacets& read) {
+  if (read.triangles.empty())
+    throw InputError(path, "has no facets", "the mesh of a solid", "export the mesh again");
+  if (read.triangles.size() > most_facets)
+    throw InputError(path, fmt::format("has {} facets", read.triangles.size()),
+                     fmt::format("at most {}", most_facets), "export a coarser mesh");
+  return welded(path, read);
+}
+
 SolidMesh read_mesh_file(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending != ".stl" && ending != ".obj")
-    throw InputError(path, "is no mesh file by its name", "names that end in .stl or .obj",
-                     "export the mesh in one of these formats");
-  Facets read;
-  if (ending == ".obj") {
+  if (ending != ".stl" && ending != ".obj" && ending != ".vtp")
+    throw InputError(path, "is no mesh file by its name", "names that end in .stl, .obj or .vtp",
+                     "export the mesh in one of these formats; 'furrow-tyre mesh FILE' converts "
+                     "others, such as PLY and DAE");
+  MeshFacets read;
+  if (ending == ".vtp") {
+    read_input_bytes(path, kind, largest_file);  // refuses what is no file
+    read = read_vtp(path);
+  } else if (ending == ".obj") {
     read = read_obj(path, read_input_text(path, kind, largest_file));
   } else {
     std::string bytes = read_input_bytes(path, kind, largest_file);
@@ -226,12 +237,7 @@ SolidMesh read_mesh_file(const std::string& path) {
                        "the file may be cut short: export the mesh again");
     }
   }
-  if (read.triangles.empty())
-    throw InputError(path, "has no facets", "the mesh of a solid", "export the mesh again");
-  if (read.triangles.size() > most_facets)
-    throw InputError(path, fmt::format("has {} facets", read.triangles.size()),
-                     fmt::format("at most {}", most_facets), "export a coarser mesh");
-  return welded(path, read);
+  return mesh_of_facets(path, read);
 }
 
 }  // namespace furrow

@@ -6,12 +6,14 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkXMLDataElement.h>
+#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUtilities.h>
 
@@ -20,6 +22,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "io/mesh_file.h"
 #include "io/replace_file.h"
 #include "io/terrain_fields.h"
 
@@ -71,6 +74,30 @@ void write_poly_data(const std::string& path, vtkPolyData* data) {
 }
 
 }  // namespace
+
+MeshFacets read_vtp(const std::string& path) {
+  vtkNew<vtkXMLPolyDataReader> reader;
+  MeshFacets read;
+  if (!reader->CanReadFile(path.c_str()))
+    throw InputError(path, "is no VTP file", "PolyData of VTK in XML", "export the mesh again");
+  reader->SetFileName(path.c_str());
+  reader->GlobalWarningDisplayOff();
+  reader->Update();
+  const bool failed = reader->GetErrorCode() != 0;
+  reader->GlobalWarningDisplayOn();
+  if (failed)
+    throw InputError(path, "cannot be read as a VTP file", "PolyData of VTK in XML",
+                     "the file may be cut short: export the mesh again");
+  vtkPolyData* data = reader->GetOutput();
+  for (vtkIdType n = 0; n < data->GetNumberOfPoints(); ++n)
+    read.points.emplace_back(data->GetPoint(n)[0], data->GetPoint(n)[1], data->GetPoint(n)[2]);
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType n = 0; n < data->GetNumberOfPolys(); ++n) {
+    data->GetPolys()->GetCellAtId(n, corners);
+    read.add_polygon({corners->begin(), corners->end()}, static_cast<int>(n) + 1);
+  }
+  return read;
+}
 
 void write_vtp(const std::string& path, const Surface& surface) {
   write_vtp(path, surface, {{"velocity", surface.v}, {"force", surface.f}});

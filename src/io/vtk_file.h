@@ -11,7 +11,11 @@
 
 namespace furrow {
 
+struct MeshFacets;
 struct TerrainSnapshot;
+
+/// Polygons of a file. @throws InputError
+MeshFacets read_vtp(const std::string& path);
 
 /// Triangles with point data velocity [m/s] and force [N]. Written beside and renamed: never half a
 /// file. @throws Error

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // furrow-tyre: a tyre at rest, inflated and pressed on a rigid plane: deflection, footprint,
 // section, forces, natural modes. furrow-tyre fit: a tyre file from a catalogue, by furrow-post.
+// furrow-tyre mesh: a repaired mesh of a wheel.
 
 #include <array>
 #include <cstdio>
@@ -21,6 +22,7 @@
 #include "io/tyre_file.h"
 #include "io/version.h"
 #include "io/vtk_file.h"
+#include "mesh_command.h"
 #include "number_option.h"
 #include "parse_options.h"
 #include "tyre/brick_tyre.h"
@@ -62,7 +64,8 @@ void declare(CLI::App& app, Request& request) {
       "  furrow-tyre inputs/tyres/p235_75r15.yaml --mesh 4 36 --half --load 6227\n"
       "  furrow-tyre inputs/tyres/p235_75r15.yaml --mesh 4 36 --pressure 20 --folder results/modes "
       "--modes 10\n"
-      "  furrow-tyre fit --help");
+      "  furrow-tyre fit --help\n"
+      "  furrow-tyre mesh wheel.dae");
   app.add_option("file", request.file, "tyre file (inputs/tyres/*.yaml)")->required();
   app.add_option("--pressure", request.pressures,
                  "inflation pressures [kPa]; by default that of the tyre file")
@@ -293,7 +296,9 @@ int main(int argc, char** argv) {
       "furrow-tyre");
   Request request;
   declare(app, request);
-  const bool fit = argc > 1 && std::string(argv[1]) == "fit";
+  const std::string command = argc > 1 ? argv[1] : "";
+  const bool fit = command == "fit";
+  if (command == "mesh") return run_mesh_command(argc - 1, argv + 1);
   if (!fit)
     if (const auto status = parse_options(app, argc, argv)) return *status;
   try {

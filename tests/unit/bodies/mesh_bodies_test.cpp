@@ -110,17 +110,17 @@ TEST(MeshWheel, BadMeshesAndKeysAreRefusedWithTheRemedy) {
   } cases[] = {
       {drawn(wheel), "mass 5",
        "fix wheel/mesh, keyword 'scale' is 1 m, and wheel.stl spans 300.2 m with it; allowed: a "
-       "size of 0.001 to 5 m; write 'scale 0.001' for a mesh in millimetres"},
-      {wheel, "mass 5 scale 0.001", "wheel.stl spans 0.0003002 m with it"},
+       "size of 0.001 to 5 m; write 'scale 0.001 origin 100 200 -50 axis 0 0 1'"},
+      {wheel, "mass 5 scale 0.001", "write 'scale 1 origin 0 0 0 axis 0 1 0'"},
       {open, "mass 5", "has an edge without a neighbour: the surface is open there"},
       {shifted, "mass 5",
        "fix wheel/mesh, keyword 'origin' puts the axle 0.05 m from the centre of mass; allowed: at "
        "most 0.004"},
-      {shifted, "mass 5", "write 'origin 0.05 "},
+      {shifted, "mass 5", "write 'scale 1 origin 0.05 0 0 axis 0 1 0', or give"},
       {drawn(wheel), "mass 5 scale 0.001 origin 100 200 -50",
        "fix wheel/mesh, keyword 'axis' is no axis of revolution of the mesh"},
       {drawn(wheel), "mass 5 scale 0.001 origin 100 200 -50",
-       "write 'axis 0 0 1', or give mass and inertia"},
+       "write 'scale 0.001 origin 100 200 -50 axis 0 0 1', or give mass and inertia"},
       {wheel, "mass 5 axis 0 0 0", "keyword 'axis' is 0 0 0; allowed: a direction"},
       {wheel, "",
        "fix wheel/mesh, keyword 'mass' is missing; allowed: either mass or density; the volume of "

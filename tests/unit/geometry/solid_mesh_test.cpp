@@ -161,5 +161,17 @@ INSTANTIATE_TEST_SUITE_P(
                 "is folded onto facet 4; allowed: a surface that encloses a volume"}),
     [](const auto& mesh) { return mesh.param.name; });
 
+TEST(SolidMesh, AllFaultsAreCounted) {
+  Surface surface = joined(cube, box(Vector3(0.5, 0.3, 0.3), Vector3(1.5, 0.7, 0.7)));
+  surface.triangles.push_back({0, 0, 1});
+  surface.triangles.erase(surface.triangles.begin() + 4);
+  const std::string message = error_of<InputError>([&] { check_solid(solid(surface)); });
+  EXPECT_THAT(message, HasSubstr("facet 24 at 0.3333 0 0 is degenerate"));
+  EXPECT_THAT(message, HasSubstr("or write a repaired mesh with 'furrow-tyre mesh part.stl'; all "
+                                 "faults: 1 facets without area, "));
+  EXPECT_THAT(message, HasSubstr("edges without a neighbour"));
+  EXPECT_THAT(message, HasSubstr("facets that meet others"));
+}
+
 }  // namespace
 }  // namespace furrow::solid_mesh_test

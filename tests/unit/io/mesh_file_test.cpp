@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "io/replace_file.h"
+#include "io/vtk_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 #include "tests/support/meshes.h"
@@ -64,6 +65,9 @@ TEST(MeshFile, EveryFormatGivesTheSameSurface) {
   for (const Vector3i& t : brick.triangles)
     text += fmt::format("f {}/1/1 {}//2 {}\r\n", t[0] + 1, t[1] - 8, t[2] + 1);
   expect_brick(read_mesh_file(scratch.file("c.obj", text)));
+
+  write_vtp(scratch.path("d.vtp"), brick);
+  expect_brick(read_mesh_file(scratch.path("d.vtp")));
 }
 
 TEST(MeshFile, PolygonsOfAnObjFileAreDividedAndKeepTheirNumber) {
@@ -103,7 +107,8 @@ TEST(MeshFile, BadFilesAreRefusedWithPlaceAndRemedy) {
     std::string content;
     const char* message;
   } cases[] = {
-      {"a.step", "", "a.step is no mesh file by its name; allowed: names that end in .stl or .obj"},
+      {"a.step", "",
+       "a.step is no mesh file by its name; allowed: names that end in .stl, .obj or .vtp"},
       {"a.stl", "", "is no STL file; allowed: text that begins with 'solid', or 84 bytes and 50"},
       {"a.stl", binary.substr(0, 300), "is no STL file"},
       {"a.stl", not_finite, "a.stl, facet 2 has a corner at inf"},
@@ -125,13 +130,14 @@ TEST(MeshFile, BadFilesAreRefusedWithPlaceAndRemedy) {
       {"a.obj", "v 0 0 0\nf 1 2\n", "line 2 has a facet of fewer than three corners"},
       {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", "has '0' as a corner"},
       {"a.obj", "v 0 0 0\n", "has no facets"},
+      {"a.vtp", "<VTKFile type=\"ImageData\"/>", "is no VTP file"},
   };
   for (const auto& one : cases) {
     const std::string file = scratch.file(one.name, one.content);
     EXPECT_THAT(error_of<InputError>([&] { read_mesh_file(file); }), HasSubstr(one.message));
   }
   EXPECT_THAT(error_of<InputError>([&] { read_mesh_file(scratch.path("absent.stl")); }),
-              HasSubstr("absent.stl does not exist; allowed: a mesh file, STL or OBJ"));
+              HasSubstr("absent.stl does not exist; allowed: a mesh file, STL, OBJ or VTP"));
 }
 
 }  // namespace
