@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/base/fix_scm.h"
 
+#include <cmath>
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include "coupling/liggghts/script.h"
+#include "core/check_number.h"
 #include "io/heightmap_file.h"
+#include "io/patch_input.h"
 
 namespace furrow::coupling {
 
@@ -13,6 +18,24 @@ namespace {
 std::optional<SoilCard> card_of(const Options& options, const std::string& folder) {
   if (!options.given("card")) return {};
   return read_soil_card((std::filesystem::path(folder) / options.text("card")).string());
+}
+
+/// Of the line, and of the cards of its patches with the stiffness, damping and flow of the line.
+SoilPatches soils_of(const Options& options, const std::optional<SoilCard>& card,
+                     const HeightFieldParameters& field, const std::string& folder) {
+  using Values = std::map<std::string, double>;
+  SoilPatches soils(soil_from(options, card ? card->values : Values()));
+  const PatchesInput patches = read_patches(options);
+  const double middle = field.centre[patches.axis],
+               half = 0.5 * (patches.axis == 0 ? field.length : field.width);
+  for (const PatchInput& patch : patches.list) {
+    need(std::abs(patch.begin - middle) < half, options.where("patches"),
+         fmt::format("begins a patch at {:g} m", patch.begin),
+         fmt::format("a place on the ground, {:g} to {:g} m", middle - half, middle + half));
+    const SoilCard of_patch = read_soil_card((std::filesystem::path(folder) / patch.soil).string());
+    soils.add(patches.axis, patch.begin, soil_of_card(options, of_patch.values));
+  }
+  return soils;
 }
 
 HeightFieldParameters field_of(const Options& options, const std::string& folder) {
@@ -38,8 +61,10 @@ const Outputs<FixScm>& FixScm::outputs() {
 FixScm::FixScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
     : FurrowFix(lammps, narg, arg, schema),
       card_(card_of(options(), script_folder(*lammps))),
-      soil_(soil_from(options(), card_ ? card_->values : std::map<std::string, double>())),
+      soils_(soils_of(options(), card_, height_field_from(options()), script_folder(*lammps))),
       field_(field_of(options(), script_folder(*lammps)), options().subject()) {
+  if (const std::string note = field_.parameters().relief.note(); !note.empty())
+    warn(*lmp, fmt::format("{}: {}", options().where("heightmap"), note));
   keep_state();
   provide(outputs());
 }

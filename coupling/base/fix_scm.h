@@ -17,19 +17,20 @@ class FixScm : public FurrowFix {
   static const Outputs<FixScm>& outputs();
   HeightField& field() { return field_; }
   const HeightField& field() const { return field_; }
-  const Soil& soil() const { return soil_; }
+  /// Of the line, and of its patches.
+  const SoilPatches& soils() const { return soils_; }
   const std::optional<SoilCard>& card() const { return card_; }
 
  protected:
   FixScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema);
   void checkpoint(Checkpoint& state) override {
-    soil_.match(state);
+    soils_.match(state);
     field_.checkpoint(state);
   }
 
  private:
   std::optional<SoilCard> card_;
-  Soil soil_;
+  SoilPatches soils_;
   HeightField field_;
 };
 

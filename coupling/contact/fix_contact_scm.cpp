@@ -127,7 +127,7 @@ ScmContact::Settings FixContactScm::settings_of_contact() {
   if (material == soil) return settings;
   BodyContact as_soil;
   as_soil.friction = settings.friction;
-  as_soil.slip_length = terrain_fix_.soil().shear_length;
+  as_soil.slip_length = terrain_fix_.soils().all().front().shear_length;
   const auto& card = terrain_fix_.card();
   const BodyContact contact =
       contact_with(*lmp, options(), body_fix(), material,
@@ -144,7 +144,7 @@ ScmContact::Settings FixContactScm::settings_of_contact() {
 std::vector<std::pair<std::string, std::string>> FixContactScm::settings() const {
   auto list = FixContact::settings();
   put_effective(list, settings_.friction,
-                settings_.slip_length.value_or(terrain_fix_.soil().shear_length));
+                settings_.slip_length.value_or(terrain_fix_.soils().all().front().shear_length));
   return list;
 }
 
@@ -152,7 +152,7 @@ FixContactScm::FixContactScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixContact(lammps, narg, arg, schema()),
       terrain_fix_(find_terrain()),
       settings_(settings_of_contact()),
-      contact_(body(), terrain_fix_.field(), terrain_fix_.soil(), settings_) {
+      contact_(body(), terrain_fix_.field(), terrain_fix_.soils(), settings_) {
   contribute(static_cast<Contact&>(contact_));
   provide(outputs());
 }
@@ -187,9 +187,10 @@ void FixContactScm::check_stability() {
           fmt::format("at most {:.2g} {} under '{}'", limit, unit, body_fix().id),
           fmt::format("the body has {:.3g} kg/m^2 of contact and steps of {:.2g} s", mass, step));
   };
-  const Soil& soil = terrain_fix_.soil();
-  refuse_above("stiffness", soil.stiffness, 4.0 * mass / (step * step), "Pa/m");
-  refuse_above("damping", soil.damping, mass / step, "Pa s/m");
+  for (const Soil& soil : terrain_fix_.soils().all()) {
+    refuse_above("stiffness", soil.stiffness, 4.0 * mass / (step * step), "Pa/m");
+    refuse_above("damping", soil.damping, mass / step, "Pa s/m");
+  }
 }
 
 }  // namespace furrow::coupling

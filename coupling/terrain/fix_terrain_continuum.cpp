@@ -92,6 +92,8 @@ std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& opt
   for (const std::string& doubt : parameters.relief.doubts(
            options.number("length"), options.number("cell"), options.given("follow")))
     warn(lammps, fmt::format("{}: {}", options.subject(), doubt));
+  if (const std::string note = parameters.relief.note(); !note.empty())
+    warn(lammps, fmt::format("{}: {}", options.where("heightmap"), note));
   if (const double particles = size_of(parameters).particles; particles > many_particles)
     warn(lammps,
          fmt::format("{} has about {:.2g} particles: a step takes about {:.1g} s on one core; if "

@@ -9,7 +9,10 @@
 #include "core/error.h"
 #include "core/gravity.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/base/require_unique.h"
 #include "coupling/liggghts/style_registry.h"
+#include "io/patch_input.h"
+#include "modify.h"
 
 namespace furrow::coupling {
 
@@ -22,17 +25,17 @@ constexpr double largest_change = 0.02;
 /// @throws InputError for a card of tests in another gravity
 void refuse_other_gravity(const Options& options, const SoilCard& card) {
   const double gravity = options.number("gravity");
-  if (std::abs(gravity / card.gravity - 1.0) <= largest_change) return;
+  if (!card.gravity || std::abs(gravity / *card.gravity - 1.0) <= largest_change) return;
   throw InputError(
       options.where("gravity"),
       fmt::format("is {:.4g} m/s^2, and the soil card holds at {:.4g} m/s^2", gravity,
-                  card.gravity),
+                  *card.gravity),
       fmt::format("a difference of at most {:g} %, because k_phi of sand grows with gravity",
                   100.0 * largest_change),
       fmt::format("make a card with 'furrow-post card make GROUND --gravity {:.6g}', or write "
                   "'gravity {:.6g}' if the run takes place there; give k_c to K in the line and no "
                   "card to use them in any gravity",
-                  gravity, card.gravity));
+                  gravity, *card.gravity));
 }
 
 }  // namespace
@@ -44,27 +47,50 @@ Schema FixTerrainScm::schema() {
   Schema schema("fix terrain/scm");
   declare_height_field(schema);
   declare_relief(schema);
-  schema.text("card", "soil card that gives the parameters which the line does not").optional();
+  schema
+      .text("card",
+            "soil card (YAML), or terrain file of Chrono's SCM (JSON), that gives the parameters "
+            "which the line does not")
+      .optional();
   schema
       .number("gravity", "m/s^2", admissible_gravity(),
               "of the place; the card must come from tests in the same gravity")
       .by_default(standard_gravity);
   declare_soil(schema);
+  declare_patches(schema, "card");
   return schema;
 }
 
 FixTerrainScm::FixTerrainScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixScm(lammps, narg, arg, schema()) {
   if (card()) refuse_other_gravity(options(), *card());
-  std::vector<std::string> all = doubts(soil());
-  for (const std::string& doubt :
-       field().parameters().relief.doubts(options().number("length"), field().cell(), false))
-    all.push_back(doubt);
+  if (card() && !card()->gravity)
+    warn(*lmp, fmt::format("{} states no gravity: Furrow takes its values as they are",
+                           options().where("card")));
+  std::vector<std::string> all =
+      field().parameters().relief.doubts(options().number("length"), field().cell(), false);
+  for (const Soil& soil : soils().all())
+    for (const std::string& doubt : doubts(soil)) all.push_back(doubt);
   for (const std::string& doubt : all)
     warn(*lmp, fmt::format("{}: {}", options().subject(), doubt));
+  refuse_overlap();
   if (comm->me == 0 && screen)
     fmt::print(screen, "Height field: {} x {} cells of {:.4g} m, z = {:.4g} m\n", field().columns(),
                field().rows(), field().cell(), field().parameters().level);
+}
+
+/// Both fields would carry a body. Two of them side by side share an edge.
+void FixTerrainScm::refuse_overlap() {
+  constexpr double shared = 1e-6;  // of a cell
+  const auto overlaps = [this](FixTerrainScm& other) {
+    const Vector2 common = field().upper().cwiseMin(other.field().upper()) -
+                           field().lower().cwiseMax(other.field().lower());
+    return common.minCoeff() > shared * field().cell();
+  };
+  require_unique<FixTerrainScm>(*modify, options().subject(), "covers ground with a height field",
+                                "height fields that do not overlap; soils side by side are in the "
+                                "keyword 'patches' of one field",
+                                overlaps);
 }
 
 }  // namespace furrow::coupling

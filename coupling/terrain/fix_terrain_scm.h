@@ -10,6 +10,9 @@ class FixTerrainScm : public FixScm {
  public:
   FixTerrainScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
+
+ private:
+  void refuse_overlap();
 };
 
 }  // namespace furrow::coupling

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Soil cards, as furrow-post card make writes them: parameters of the soil contact model.
+/// Soil cards: parameters of the soil contact model, as furrow-post card make writes them, as a person
+/// writes them in other units, or as Chrono's SCM has them in JSON.
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "material/ground_contact.h"
@@ -11,10 +13,10 @@
 namespace furrow {
 
 struct SoilCard {
-  /// By the names k_c, k_phi, n, c, phi [degrees], K and stiffness; SI units.
+  /// By the names k_c, k_phi, n, c, phi [degrees], K, stiffness and damping; SI units.
   std::map<std::string, double> values;
   GroundContact contact;
-  double gravity = 0.0;  ///< [m/s^2] of the tests, where alone the values hold
+  std::optional<double> gravity;  ///< [m/s^2] of the tests, where alone the values hold
   // where the plates were tested; without limits where the card has none
   double deepest = std::numeric_limits<double>::infinity();           ///< sinkage [m]
   double largest_pressure = std::numeric_limits<double>::infinity();  ///< [Pa]

@@ -13,6 +13,7 @@
 #include "core/gravity.h"
 #include "io/heightmap_file.h"
 #include "io/material_file.h"
+#include "io/patch_input.h"
 #include "io/slide_input.h"
 #include "material/plausibility.h"
 
@@ -94,10 +95,13 @@ void check_thicknesses(const std::vector<TerrainLayer>& layers, bool all_have_on
 }
 
 /// "crust.yaml:0.03,snow.yaml": from the top, each but the last with its thickness.
-std::vector<TerrainLayer> read_layers(const Options& options, const std::filesystem::path& folder) {
+/// @param key  that has them
+std::vector<TerrainLayer> read_layers(const Options& options, const std::string& key,
+                                      const std::string& text,
+                                      const std::filesystem::path& folder) {
   std::vector<TerrainLayer> layers;
-  const std::string where = options.where("material");
-  const std::vector<std::string> parts = split(options.text("material"), ',');
+  const std::string where = options.where(key);
+  const std::vector<std::string> parts = split(text, ',');
   for (std::size_t n = 0; n < parts.size(); ++n) {
     const std::vector<std::string> words = split(parts[n], ':');
     const bool last = n + 1 == parts.size();
@@ -119,6 +123,36 @@ std::vector<TerrainLayer> read_layers(const Options& options, const std::filesys
   const bool all_have_one = parts.back().find(':') != std::string::npos;
   check_thicknesses(layers, all_have_one, options);
   return layers;
+}
+
+/// Appends the layers of the patches. @throws InputError for a patch beyond the ground, and for
+/// what knows one ground only
+void read_patches_of(const Options& options, const std::string& folder, TerrainParameters& ground) {
+  const PatchesInput patches = read_patches(options);
+  if (patches.list.empty()) return;
+  const std::string where = options.where("patches");
+  ground.patch_axis = patches.axis;
+  const AxisLayout& axis = patches.axis == 0 ? ground.x : ground.y;
+  for (const PatchInput& patch : patches.list) {
+    if ((patches.axis == 1 || !options.given("follow")) &&
+        !(patch.begin > axis.lower && patch.begin < axis.upper))
+      throw InputError(where, fmt::format("begins a patch at {:g} m", patch.begin),
+                       fmt::format("a place on the ground, {:g} to {:g} m", axis.lower, axis.upper),
+                       options.flag("symmetry") ? "a half model has patches along only" : "");
+    ground.patches.push_back({patch.begin, ground.layers.size()});
+    for (TerrainLayer& layer : read_layers(options, "patches", patch.soil, folder))
+      ground.layers.push_back(std::move(layer));
+  }
+  if (options.flag("symmetry") && patches.axis == 1)
+    throw InputError(where, "has patches across a half model", "patches along x",
+                     "both halves of a half model have the same soil");
+  for (const char* key : {"surface_mesh", "trough"})
+    if (key == std::string("trough") ? options.given(key) : options.flag(key))
+      throw InputError(where, fmt::format("is given with '{}'", key), "ground without grains");
+  for (const char* key : {"ends", "sides", "base"})
+    if (options.text(key) == "absorbing")
+      throw InputError(where, fmt::format("is given with '{} absorbing'", key),
+                       "boundaries that do not depend on the soil", "write smooth or rough");
 }
 
 /// Fine stretches of less than a cell would make cells smaller than `cell`; what is shorter than a
@@ -235,6 +269,7 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
             "material file, or layers from the top down, `file:thickness,...,file`; paths relative "
             "to the script")
       .may_change();  // of place and name: checkpoints compare what is in it
+  declare_patches(schema, "material");
   schema
       .number("length", "m", Range::positive(),
               "length along x; by default from the wheel's radius and the depth, with `follow`")
@@ -354,7 +389,7 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
                        "only ground that follows one wheel can do without");
   TerrainParameters ground;
   check_cells(options);
-  ground.layers = read_layers(options, folder);
+  ground.layers = read_layers(options, "material", options.text("material"), folder);
   ground.surface = options.number("surface");
   ground.relief = read_relief(options, folder);
   const double x = options.numbers("centre")[0], y = options.numbers("centre")[1];
@@ -366,6 +401,7 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
   ground.x = layout(options, x - half_length, x + half_length, x, "fine_length");
   ground.y = layout(options, half_model ? y : y - half_width, y + half_width, y, "fine_width");
   ground.z = vertical_layout(options);
+  read_patches_of(options, folder, ground);
   check_depth(ground, options);
   const BoundaryKind ends = boundary_kind(options.text("ends")),
                      sides = boundary_kind(options.text("sides")),

@@ -15,11 +15,12 @@ namespace {
 constexpr double max_strain = 1.0;
 constexpr int bisections = 60;
 
-std::size_t layer_at(const TerrainParameters& parameters, double z) {
+std::size_t layer_at(const TerrainParameters& parameters, double z, std::size_t patch) {
   double bottom = parameters.surface;
-  for (std::size_t n = 0; n + 1 < parameters.layers.size(); ++n)
+  const auto [first, last] = parameters.layers_of(patch);
+  for (std::size_t n = first; n < last; ++n)
     if (z > (bottom -= parameters.layers[n].thickness)) return n;
-  return parameters.layers.size() - 1;
+  return last;
 }
 
 VectorX compressed(const Material& material, VectorX state, double strain) {
@@ -57,11 +58,11 @@ VectorX loaded(const Material& material, const VectorX& state, double stress) {
 }  // namespace
 
 void find_overburden(const TerrainParameters& parameters, double surcharge,
-                     std::vector<ParticleLevel>& levels) {
+                     std::vector<ParticleLevel>& levels, std::size_t patch) {
   double weight = surcharge;  // and of all that lies above [Pa]
   for (std::size_t n = 0; n < levels.size(); ++n) {
     ParticleLevel& level = levels[n];
-    level.layer = layer_at(parameters, level.z);
+    level.layer = layer_at(parameters, level.z, patch);
     const Material& material = *parameters.layers[level.layer].material;
     const bool continues = n > 0 && levels[n - 1].layer == level.layer;
     level.state = continues ? levels[n - 1].state : material.initial_state();

@@ -22,8 +22,9 @@ struct ParticleLevel {
 /// the initial state.
 /// @param surcharge  weight on the uppermost level [Pa]
 /// @param levels  z and half, from the surface down; layer and state are filled in
+/// @param patch  0: the ground before all patches
 /// @throws InputError when a material cannot carry the weight
 void find_overburden(const TerrainParameters& parameters, double surcharge,
-                     std::vector<ParticleLevel>& levels);
+                     std::vector<ParticleLevel>& levels, std::size_t patch = 0);
 
 }  // namespace furrow

@@ -39,6 +39,23 @@ std::vector<ParticleLevel> make_levels(const TerrainParameters& parameters, cons
   return levels;
 }
 
+/// The same levels in the layers of each patch.
+std::vector<std::vector<ParticleLevel>> make_patch_levels(
+    const TerrainParameters& parameters, const std::vector<ParticleLevel>& levels) {
+  std::vector<std::vector<ParticleLevel>> of_patches;
+  for (std::size_t patch = 1; patch <= parameters.patches.size(); ++patch) {
+    of_patches.push_back(levels);
+    find_overburden(parameters, parameters.surcharge, of_patches.back(), patch);
+  }
+  return of_patches;
+}
+
+std::vector<double> begins_of(const std::vector<TerrainPatch>& patches) {
+  std::vector<double> begins;
+  for (const TerrainPatch& patch : patches) begins.push_back(patch.begin);
+  return begins;
+}
+
 /// Likewise from the bottom of a trough down; none without one.
 std::vector<ParticleLevel> make_levels_below(const TroughPlace& trough,
                                              const TerrainParameters& parameters,
@@ -52,8 +69,9 @@ std::vector<ParticleLevel> make_levels_below(const TroughPlace& trough,
 
 /// A layer thinner than the particles are apart may fall between them.
 void check_layers(const TerrainParameters& parameters, const std::vector<ParticleLevel>& levels,
-                  const std::string& where) {
-  for (std::size_t n = 0; n < parameters.layers.size(); ++n) {
+                  std::size_t patch, const std::string& where) {
+  const auto [first, last] = parameters.layers_of(patch);
+  for (std::size_t n = first; n <= last; ++n) {
     const auto in_layer = [n](const ParticleLevel& level) { return level.layer == n; };
     if (std::any_of(levels.begin(), levels.end(), in_layer)) continue;
     const double spacing = levels.empty() ? 0.0 : 2.0 * levels.front().half;
@@ -61,7 +79,7 @@ void check_layers(const TerrainParameters& parameters, const std::vector<Particl
         where,
         fmt::format("has no particles in layer {} from the top, {:.4g} m thick: particles are "
                     "{:.4g} m apart",
-                    n + 1, parameters.layers[n].thickness, spacing),
+                    n - first + 1, parameters.layers[n].thickness, spacing),
         "layers thicker than the spacing of the particles",
         fmt::format("make the layer at least {:.4g} m thick within the depth, or the cells "
                     "smaller",
@@ -101,9 +119,14 @@ TerrainFill::TerrainFill(const TerrainParameters& parameters, const Grid& grid,
       slide_(parameters.slide),
       particles_per_cell_(parameters.particles_per_cell),
       levels_(make_levels(parameters, grid)),
+      patch_axis_(parameters.patch_axis),
+      patch_begins_(begins_of(parameters.patches)),
+      patch_levels_(make_patch_levels(parameters, levels_)),
       trough_(place_trough(parameters, grid.axis(1), levels_, where)),
       levels_below_trough_(make_levels_below(trough_, parameters, levels_)) {
-  check_layers(parameters, levels_, where);
+  check_layers(parameters, levels_, 0, where);
+  for (std::size_t patch = 0; patch < patch_levels_.size(); ++patch)
+    check_layers(parameters, patch_levels_[patch], patch + 1, where);
 }
 
 std::vector<WaveSpeeds> TerrainFill::wave_speeds(const Grid& grid) const {
@@ -144,6 +167,13 @@ void TerrainFill::add_cells(int x_cell, Discretisation& discretisation) {
     }
 }
 
+const std::vector<ParticleLevel>& TerrainFill::levels_at(const std::array<double, 2>& place) const {
+  const double along = place[static_cast<std::size_t>(patch_axis_)];
+  const auto next = std::upper_bound(patch_begins_.begin(), patch_begins_.end(), along);
+  if (next == patch_begins_.begin()) return levels_;
+  return patch_levels_[static_cast<std::size_t>(next - patch_begins_.begin()) - 1];
+}
+
 /// Of the relief [m]. Every rank asks for every place, so that all of them throw.
 double TerrainFill::height_at(const std::array<double, 2>& place) const {
   const double height = relief_.height(place[0], place[1]);
@@ -165,7 +195,7 @@ void TerrainFill::add_stack(const std::array<double, 2>& place,
                             const std::array<double, 2>& half_spacing, double height,
                             std::size_t row, Discretisation& discretisation) {
   const std::size_t first = first_level(row);
-  const std::vector<ParticleLevel>& levels = first > 0 ? levels_below_trough_ : levels_;
+  const std::vector<ParticleLevel>& levels = first > 0 ? levels_below_trough_ : levels_at(place);
   bool lowest = false;
   for (std::size_t n = 0; n < levels.size() && !lowest; ++n) {
     const ParticleLevel& level = levels[n];
@@ -217,6 +247,7 @@ std::size_t TerrainFill::column_of(const Grid& grid, double id) const {
 
 void TerrainFill::checkpoint(Checkpoint& state) {
   relief_.match(state);
+  for (const double begin : patch_begins_) state.match("begin of a patch", begin);
   state.value("next_id", next_id_);
 }
 

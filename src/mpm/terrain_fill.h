@@ -46,6 +46,7 @@ class TerrainFill {
   void checkpoint(Checkpoint& state);
 
  private:
+  const std::vector<ParticleLevel>& levels_at(const std::array<double, 2>& place) const;
   double height_at(const std::array<double, 2>& place) const;
   void add_stack(const std::array<double, 2>& place, const std::array<double, 2>& half_spacing,
                  double height, std::size_t row, Discretisation& discretisation);
@@ -57,7 +58,10 @@ class TerrainFill {
   double shortest_cell_;             // along z [m]
   std::optional<SlideSurface> slide_;
   std::array<int, 3> particles_per_cell_;
-  std::vector<ParticleLevel> levels_;  // from the surface down
+  std::vector<ParticleLevel> levels_;  // from the surface down; before all patches
+  int patch_axis_;
+  std::vector<double> patch_begins_;                      // [m]
+  std::vector<std::vector<ParticleLevel>> patch_levels_;  // of each patch, as many
   TroughPlace trough_;
   std::vector<ParticleLevel> levels_below_trough_;  // from its bottom down
   double next_id_ = 0.0;

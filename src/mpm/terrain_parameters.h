@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/options.h"
@@ -30,6 +31,12 @@ struct TerrainLayer {
   GroundContact contact = {};              ///< with bodies
 };
 
+/// Ground with other layers from a place on.
+struct TerrainPatch {
+  double begin = 0.0;           ///< [m] on the axis of the patches
+  std::size_t first_layer = 0;  ///< of its layers, which reach to those of the next patch
+};
+
 /// A channel along x in the surface, as long as the ground, that grains fill; its middle is that of
 /// the y axis.
 struct Trough {
@@ -47,10 +54,12 @@ struct TransferScheme {
 struct TerrainParameters {
   AxisLayout x;  ///< of the grid
   AxisLayout y;
-  AxisLayout z;              ///< reaches above the surface, for ground that is pushed up
-  double surface = 0.0;      ///< z of the undisturbed surface [m]; a knot of the z axis
-  GroundRelief relief = {};  ///< of that surface
-  std::vector<TerrainLayer> layers;
+  AxisLayout z;                      ///< reaches above the surface, for ground that is pushed up
+  double surface = 0.0;              ///< z of the undisturbed surface [m]; a knot of the z axis
+  GroundRelief relief = {};          ///< of that surface
+  std::vector<TerrainLayer> layers;  ///< of the ground without patches, then of each patch
+  int patch_axis = 0;                ///< 0: patches along x, 1: along y
+  std::vector<TerrainPatch> patches = {};
   /// in the order of Face: both ends and both sides smooth, a rough base, a free top
   FaceArray<BoundaryKind> boundary = {BoundaryKind::smooth, BoundaryKind::smooth,
                                       BoundaryKind::smooth, BoundaryKind::smooth,
@@ -80,6 +89,11 @@ struct TerrainParameters {
   /// how the ranks share the ground; without it choose_layout()
   std::optional<BlockLayout> blocks = {};
 
+  /// First and last layer of a patch; of the ground before all patches for 0.
+  std::pair<std::size_t, std::size_t> layers_of(std::size_t patch) const {
+    return {patch == 0 ? 0 : patches[patch - 1].first_layer,
+            (patch < patches.size() ? patches[patch].first_layer : layers.size()) - 1};
+  }
   int velocity_fields() const { return slide ? 2 : 1; }
 };
 

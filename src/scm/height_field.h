@@ -49,6 +49,12 @@ class HeightField {
            static_cast<std::size_t>(column);
   }
 
+  Vector2 centre(std::size_t cell) const {
+    const auto columns = static_cast<std::size_t>(columns_);
+    return lower_ + this->cell() * Vector2(static_cast<double>(cell % columns) + 0.5,
+                                           static_cast<double>(cell / columns) + 0.5);
+  }
+
   double surface(std::size_t cell) const { return surface_[cell]; }      ///< [m]
   double reference(std::size_t cell) const { return reference_[cell]; }  ///< [m]
   /// Presses the surface of a cell down to a height [m].

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "scm/contact_width.h"
 
@@ -13,10 +14,15 @@ namespace {
 
 constexpr double full = 1.0 - 1e-9;  // of the area of a cell
 
+template <class Test>
+bool any_of(const SoilPatches& soils, Test test) {
+  return std::any_of(soils.all().begin(), soils.all().end(), test);
+}
+
 }  // namespace
 
-ScmContact::ScmContact(Body& body, HeightField& field, const Soil& soil, const Settings& settings)
-    : body_(body), field_(field), soil_(soil), settings_(settings) {
+ScmContact::ScmContact(Body& body, HeightField& field, SoilPatches soils, const Settings& settings)
+    : body_(body), field_(field), soils_(std::move(soils)), settings_(settings) {
   const auto triangles = static_cast<Eigen::Index>(body.surface().triangle_count());
   mobilised_ = Eigen::Matrix2Xd::Zero(2, triangles);
   sheared_area_ = next_area_ = VectorX::Zero(triangles);
@@ -29,7 +35,7 @@ void ScmContact::apply(double dt) {
   find_descent();
   press(dt);
   shear(dt);
-  if (soil_.flow > 0.0) move_soil();
+  if (any_of(soils_, [](const Soil& soil) { return soil.flow > 0.0; })) move_soil();
 }
 
 void ScmContact::find_contacts() {
@@ -49,7 +55,7 @@ void ScmContact::find_descent() {
   const Footprint::Pieces& pieces = footprint_.pieces();
   const Surface& surface = body_.surface();
   descent_.assign(cells.size(), 0.0);
-  if (soil_.damping == 0.0) return;
+  if (!any_of(soils_, [](const Soil& soil) { return soil.damping > 0.0; })) return;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const auto s = static_cast<std::size_t>(pieces.slot[p]);
     if (!touches_[s]) continue;
@@ -64,14 +70,16 @@ void ScmContact::press(double dt) {
   pressure_.assign(cells.size(), 0.0);
   pressed_.assign(cells.size(), 0.0);
   if (step_.area == 0.0) return;
-  if (soil_.k_c != 0.0) step_.width = settings_.width ? *settings_.width : patch_width();
-  const double modulus = soil_.modulus(step_.width), stiffness = soil_.stiffness;
+  if (any_of(soils_, [](const Soil& soil) { return soil.k_c != 0.0; }))
+    step_.width = settings_.width ? *settings_.width : patch_width();
   for (std::size_t s = 0; s < cells.size(); ++s) {
     if (!touches_[s]) continue;
     const std::size_t cell = cells.cell[s];
+    const Soil& soil = soil_below(s);
+    const double modulus = soil.modulus(step_.width), stiffness = soil.stiffness;
     const double sinkage = field_.reference(cell) - cells.height[s];
     double pressure = stiffness * (field_.surface(cell) - cells.height[s]);
-    const double yield = modulus * std::pow(sinkage, soil_.n);
+    const double yield = modulus * std::pow(sinkage, soil.n);
     if (pressure > yield) {
       pressure = yield;
       const double height = cells.height[s] + pressure / stiffness;
@@ -80,7 +88,7 @@ void ScmContact::press(double dt) {
       losses_.compaction += cells.area[s] * pressure * pressed_[s];
     }
     step_.stored += 0.5 * cells.area[s] * pressure * pressure / stiffness;
-    pressure_[s] = std::max(0.0, pressure + soil_.damping * descent_[s]);
+    pressure_[s] = std::max(0.0, pressure + soil.damping * descent_[s]);
     losses_.damping += cells.area[s] * (pressure_[s] - pressure) * descent_[s] * dt;
     step_.pressure = std::max(step_.pressure, pressure_[s]);
     step_.sinkage = std::max(step_.sinkage, sinkage);
@@ -126,6 +134,20 @@ Vector3 ScmContact::place_of(std::size_t piece, const Matrix3X& nodal) const {
   return (1.0 - b - c) * nodal.col(nodes[0]) + b * nodal.col(nodes[1]) + c * nodal.col(nodes[2]);
 }
 
+/// Of the soils below a triangle, weighted by their area.
+double ScmContact::shear_length(std::size_t first, std::size_t end) const {
+  if (soils_.all().size() == 1) return soils_.all().front().shear_length;
+  const Footprint::Pieces& pieces = footprint_.pieces();
+  double area = 0.0, sum = 0.0;
+  for (std::size_t p = first; p < end; ++p) {
+    const auto s = static_cast<std::size_t>(pieces.slot[p]);
+    if (!touches_[s]) continue;
+    area += pieces.area[p];
+    sum += pieces.area[p] * soil_below(s).shear_length;
+  }
+  return sum / area;
+}
+
 /// Forces of pressure and shear, triangle by triangle.
 void ScmContact::shear(double dt) {
   const Footprint::Pieces& pieces = footprint_.pieces();
@@ -167,18 +189,24 @@ void ScmContact::shear_triangle(std::size_t first, std::size_t end, double dt) {
   mobilised *= std::min(1.0, sheared_area_[triangle] / area);
   if (const double speed = sliding.norm(); speed > 0.0) {
     const Vector2 limit = -sliding / speed;
-    const double length = settings_.slip_length.value_or(soil_.shear_length);
+    const double length =
+        settings_.slip_length ? *settings_.slip_length : shear_length(first, end);
     mobilised = length > 0.0 ? limit + std::exp(-speed * dt / length) * (mobilised - limit) : limit;
   }
   next_area_[triangle] = area;
   const Vector3 direction = mobilised[0] * along + mobilised[1] * across;
-  const double slope_of_strength = std::tan(soil_.friction_angle);
+  const Soil* soil = nullptr;  // of the last piece
+  double slope_of_strength = 0.0;
   ContactRecord* const record = settings_.records ? body_.contact_record() : nullptr;
   for (std::size_t p = first; p < end; ++p) {
     const auto s = static_cast<std::size_t>(pieces.slot[p]);
     if (!touches_[s]) continue;
     const double of_piece = slope * pieces.area[p];
-    double strength = soil_.cohesion + pressure_[s] * slope_of_strength;
+    if (const Soil& below = soil_below(s); &below != soil) {
+      soil = &below;
+      slope_of_strength = std::tan(below.friction_angle);
+    }
+    double strength = soil->cohesion + pressure_[s] * slope_of_strength;
     if (const double friction = pressure_[s] * settings_.friction; friction < strength)
       strength = friction;
     const Vector3 shear_force = of_piece * strength * direction;
@@ -210,18 +238,19 @@ void ScmContact::move_soil() {
     const int row = static_cast<int>(cells.cell[s] / columns);
     Column& flow = flow_[static_cast<std::size_t>(column)];
     if (flow.highest < 0) flow = {0.0, row, row};
-    flow.volume += soil_.flow * pressed_[s] * field_.cell_area();
+    flow.volume += soil_below(s).flow * pressed_[s] * field_.cell_area();
     flow.lowest = std::min(flow.lowest, row);
     flow.highest = std::max(flow.highest, row);
     first = std::min(first, column);
     last = std::max(last, column);
   }
-  const double slope = std::tan(soil_.friction_angle);
   const bool half = body_.half_model();
   for (int column = first; column <= last; ++column) {
     Column& flow = flow_[static_cast<std::size_t>(column)];
     const double height = (half ? 1.0 : 0.5) * flow.volume / field_.cell_area();
     if (height > 0.0) {
+      const std::size_t cell = field_.index(column, flow.lowest);
+      const double slope = std::tan(soils_.at(field_.centre(cell)).friction_angle);
       field_.deposit(column, std::min(flow.highest + 1, field_.rows() - 1), 1, height, slope);
       if (!half) field_.deposit(column, std::max(flow.lowest - 1, 0), -1, height, slope);
     }

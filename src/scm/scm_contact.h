@@ -42,8 +42,8 @@ class ScmContact : public Contact {
     double damping = 0.0;     ///< work of the damping
   };
 
-  /// Body, field and soil must outlive the contact.
-  ScmContact(Body& body, HeightField& field, const Soil& soil, const Settings& settings);
+  /// Body and field must outlive the contact.
+  ScmContact(Body& body, HeightField& field, SoilPatches soils, const Settings& settings);
 
   /// @throws StateError when the body presses next to the field
   void apply(double dt) override;
@@ -55,6 +55,10 @@ class ScmContact : public Contact {
   void find_contacts();
   double patch_width();
   bool is_inside(std::size_t slot) const;
+  const Soil& soil_below(std::size_t slot) const {
+    return soils_.at(field_.centre(footprint_.cells().cell[slot]));
+  }
+  double shear_length(std::size_t first, std::size_t end) const;
   void press(double dt);
   void find_descent();
   void shear(double dt);
@@ -64,7 +68,7 @@ class ScmContact : public Contact {
 
   Body& body_;
   HeightField& field_;
-  const Soil& soil_;
+  SoilPatches soils_;
   Settings settings_;
   Footprint footprint_;
   Step step_;

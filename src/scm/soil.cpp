@@ -51,6 +51,24 @@ void Soil::match(Checkpoint& state) const {
   state.match("flow", flow);
 }
 
+void SoilPatches::add(int axis, double begin, const Soil& soil) {
+  axis_ = axis;
+  begins_.push_back(begin);
+  soils_.push_back(soil);
+}
+
+const Soil& SoilPatches::at(const Vector2& place) const {
+  std::size_t patch = 0;
+  while (patch < begins_.size() && place[axis_] >= begins_[patch]) ++patch;
+  return soils_[patch];
+}
+
+void SoilPatches::match(Checkpoint& state) const {
+  state.match("soils", soils_.size());
+  for (const double begin : begins_) state.match("begin of a soil", begin);
+  for (const Soil& soil : soils_) soil.match(state);
+}
+
 void declare_soil(Schema& schema) {
   schema.number("k_c", "N/m^(n+1)", Range::any(), "Bekker's cohesive modulus").by_default(0.0);
   schema.number("k_phi", "N/m^(n+2)", Range::any(), "Bekker's frictional modulus").optional();
@@ -114,10 +132,13 @@ void check_plausible(const Soil& soil, Where where) {
 
 }  // namespace
 
-Soil soil_from(const Options& options, const std::map<std::string, double>& card) {
+namespace {
+
+/// @param line_first  a key of the line takes the place of that of the card
+Soil soil_of(const Options& options, const std::map<std::string, double>& card, bool line_first) {
   const auto value = [&](const char* key) {
     const auto of_card = card.find(key);
-    if (of_card != card.end() && !options.given(key)) return of_card->second;
+    if (of_card != card.end() && !(line_first && options.given(key))) return of_card->second;
     need(options.has(key), options.where(key), "is missing", "a number",
          "give it, or a soil card with 'card'");
     return options.number(key);
@@ -134,10 +155,21 @@ Soil soil_from(const Options& options, const std::map<std::string, double>& card
   soil.flow = value("flow");
   check(soil, options.subject());
   check_plausible(soil, [&](const char* key) {
-    return options.given(key) || !card.count(key) ? options.where(key)
-                                                  : fmt::format("soil card, {}", key);
+    return (line_first && options.given(key)) || !card.count(key)
+               ? options.where(key)
+               : fmt::format("soil card, {}", key);
   });
   return soil;
+}
+
+}  // namespace
+
+Soil soil_from(const Options& options, const std::map<std::string, double>& card) {
+  return soil_of(options, card, true);
+}
+
+Soil soil_of_card(const Options& options, const std::map<std::string, double>& card) {
+  return soil_of(options, card, false);
 }
 
 void check(const Soil& soil, const std::string& where) {

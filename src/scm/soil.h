@@ -8,6 +8,7 @@
 
 #include "core/checkpoint.h"
 #include "core/options.h"
+#include "core/types.h"
 
 namespace furrow {
 
@@ -29,11 +30,31 @@ struct Soil {
   void match(Checkpoint& state) const;
 };
 
+/// Soils side by side: each from a place on, along x or along y.
+class SoilPatches {
+ public:
+  SoilPatches(const Soil& soil) : soils_{soil} {}  // NOLINT(google-explicit-constructor): one soil
+  /// @param begin [m] on the axis, larger than those before
+  void add(int axis, double begin, const Soil& soil);
+
+  const Soil& at(const Vector2& place) const;
+  const std::vector<Soil>& all() const { return soils_; }
+  /// Compares all parameters and places with the saved ones. @throws Error
+  void match(Checkpoint& state) const;
+
+ private:
+  int axis_ = 0;
+  std::vector<double> begins_;  // of all soils but the first [m]
+  std::vector<Soil> soils_;
+};
+
 /// The keys of a soil; angles in degrees.
 void declare_soil(Schema& schema);
 /// @param card  values by the same keys, for those that are not given
 /// @throws InputError for a key that neither has, and for values that no soil has
 Soil soil_from(const Options& options, const std::map<std::string, double>& card = {});
+/// A soil of a card alone; stiffness, damping and flow of the line where the card has none.
+Soil soil_of_card(const Options& options, const std::map<std::string, double>& card);
 /// @throws InputError for values out of range @param where names the soil
 void check(const Soil& soil, const std::string& where);
 /// Warnings of values that are unusual for soils, a sentence each.

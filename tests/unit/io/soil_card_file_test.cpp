@@ -91,12 +91,51 @@ TEST_F(SoilCardFile, RefusesOneNumberForARange) {
 
 TEST_F(SoilCardFile, RefusalsNameFileLineAndKey) {
   EXPECT_THAT(refusal("shear:", "sheer:"), HasSubstr("shear"));
-  EXPECT_THAT(refusal("{value: 29.7, error: 0.6, unit: degree}", "29.7"), HasSubstr("phi"));
+  EXPECT_THAT(refusal("{value: 29.7, error: 0.6, unit: degree}", "{angle: 29.7}"),
+              HasSubstr("angle"));
   EXPECT_THAT(refusal("value: 1.23", "value: -1"), HasSubstr("card.yaml, line 9"));
   EXPECT_THAT(
       refusal("  c: {value: 3695.0, error: 134.0, unit: Pa}", "  failed: the ring sank through"),
       HasSubstr("card.yaml, line 13 has no values, because the test failed: the ring sank"));
   EXPECT_THAT(refusal("stiffness: 1.8e8", "stiffness: soft"), HasSubstr("stiffness"));
+}
+
+TEST_F(SoilCardFile, NumbersAloneAndOtherUnitsAreConverted) {
+  const auto value = [&](const char* old, const char* now, const char* key) {
+    return read_soil_card(written(old, now)).values.at(key);
+  };
+  EXPECT_EQ(value("{value: 29.7, error: 0.6, unit: degree}", "29.7", "phi"), 29.7);
+  EXPECT_NEAR(value("value: 29.7, error: 0.6, unit: degree", "value: 0.5, unit: rad", "phi"),
+              28.6479, 1e-4);
+  EXPECT_EQ(value("value: 3695.0, error: 134.0, unit: Pa", "value: 3.695, unit: kPa", "c"), 3695.0);
+  EXPECT_EQ(value("value: 0.0064, error: 0.0002, unit: m", "value: 0.64, unit: cm", "K"), 0.0064);
+  EXPECT_EQ(value("value: 1950915.0, error: 700.0, unit: N/m^(n+2)",
+                  "value: 1950.915, unit: kN/m^(n+2)", "k_phi"),
+            1950915.0);
+  EXPECT_THAT(refusal("unit: degree", "unit: gon"), HasSubstr("is 'gon'; allowed: deg"));
+  EXPECT_THAT(refusal("notes: []", "c_1: 0.4"), HasSubstr("c_1"));
+}
+
+/// Sample values of Project Chrono in its keys, with a comment as its files have them.
+TEST_F(SoilCardFile, TheTerrainFileOfChronoIsACard) {
+  const char json[] = R"(// terrain
+{"Type": "SCM", "Soil parameters": {"Bekker Kphi": 2e6, "Bekker Kc": 0, "Bekker n exponent": 1.1,
+ "Mohr cohesive limit": 0, "Mohr friction limit": 30, "Janosi shear coefficient": 0.01,
+ "Elastic stiffness": 4e7, "Damping": 3e4}})";
+  const auto read = [&](const std::string& text) {
+    return read_soil_card(scratch_.file("scm.json", text));
+  };
+  const SoilCard found = read(json);
+  const std::map<std::string, double> expected = {{"k_c", 0.0},       {"k_phi", 2e6},  {"n", 1.1},
+                                                  {"c", 0.0},         {"phi", 30.0},   {"K", 0.01},
+                                                  {"stiffness", 4e7}, {"damping", 3e4}};
+  EXPECT_EQ(found.values, expected);
+  EXPECT_FALSE(found.gravity);
+  EXPECT_THAT(test::error_of([&] { read(with(json, "Bekker n exponent", "Bekker n")); }),
+              HasSubstr("has \"Bekker n\": 1.1"));
+  EXPECT_THAT(test::error_of([&] { read(with(json, "\"Bekker Kc\": 0, ", "")); }),
+              HasSubstr("has no \"Bekker Kc\""));
+  EXPECT_THAT(test::error_of([&] { read("{"); }), HasSubstr("is no JSON"));
 }
 
 }  // namespace

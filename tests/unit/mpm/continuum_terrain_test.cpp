@@ -225,6 +225,26 @@ TEST(Terrain, LayersAreFilledWithTheirLaws) {
   EXPECT_NEAR(sums_of(ground).mass, 0.01 * (0.05 * 200 + 0.15 * 1800), 1e-9);
 }
 
+/// Along x and across: 0.06 m of snow, and 0.04 m with a crust on the other material.
+TEST(Terrain, PatchesAreFilledWithTheirLayers) {
+  for (const int axis : {0, 1}) {
+    TerrainParameters parameters = box(material_of(snow()), {0, 0, 0}, {0.1, 0.1, 0.2}, 0.01);
+    parameters.layers = {{material_of(snow()), 0.2},
+                         {material_of(elastic(1e7, 0.3, 900)), 0.05},
+                         {material_of(elastic(1e7, 0.3, 1800)), 0.0}};
+    parameters.patch_axis = axis;
+    parameters.patches = {{0.06, 1}};
+    ContinuumTerrain ground(parameters, Communicator());
+    ASSERT_EQ(ground.groups().size(), 3u);
+    EXPECT_EQ(ground.groups()[0].particles.size(), 6u * 10u * 20u * 8u);
+    EXPECT_EQ(ground.groups()[1].particles.size(), 4u * 10u * 5u * 8u);
+    EXPECT_NEAR(sums_of(ground).mass, 0.006 * 0.2 * 200 + 0.004 * (0.05 * 900 + 0.15 * 1800), 1e-9);
+    EXPECT_LT(ground.groups()[0].particles.position(0)[axis], 0.06);
+    for (std::size_t p = 0; p < ground.groups()[2].particles.size(); ++p)
+      ASSERT_GT(ground.groups()[2].particles.position(p)[axis], 0.06);
+  }
+}
+
 /// Which particle a law refuses, not which block it was in.
 TEST(Terrain, ALawsRefusalNamesTheParticle) {
   TerrainParameters parameters = box(material_of(snow()), {-0.1, -0.1, 0}, {0.1, 0.1, depth}, cell);

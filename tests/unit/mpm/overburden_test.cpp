@@ -89,6 +89,25 @@ TEST(Overburden, LayersLieOnOneAnother) {
   }
 }
 
+/// A patch has its own layers and their weight.
+TEST(Overburden, PatchesHaveTheirOwnLayers) {
+  const auto light = material_of(elastic(1e8, 0.3, 200)),
+             heavy = material_of(elastic(1e9, 0.2, 2000));
+  auto ground = deep({{light, 1.0}, {heavy, 0.3}, {light, 0.7}});
+  ground.patches = {{0.5, 1}};
+  auto levels = levels_down(1.0, 10);
+  find_overburden(ground, 0.0, levels);
+  for (const ParticleLevel& level : levels) EXPECT_EQ(level.layer, 0u);
+  find_overburden(ground, 0.0, levels, 1);
+  for (const ParticleLevel& level : levels) {
+    const double depth = -level.z;
+    EXPECT_EQ(level.layer, depth < 0.3 ? 1u : 2u) << depth;
+    const double stress =
+        standard_gravity * (depth < 0.3 ? 2000 * depth : 2000 * 0.3 + 200 * (depth - 0.3));
+    EXPECT_NEAR(-level.state[field::stress + 2] / stress, 1.0, 1e-3) << depth;
+  }
+}
+
 TEST(Overburden, NothingWithoutInitialStress) {
   const auto material = material_of(snow());
   auto ground = deep({{material, 1.0}});

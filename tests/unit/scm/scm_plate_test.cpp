@@ -55,6 +55,35 @@ struct Pressing {
   ScmContact contact;
 };
 
+/// Each half of a plate over two soils carries what it would carry on its soil alone, with the
+/// width of the whole plate.
+TEST(ScmPlate, TwoSoilsSideBySideCarryTheirParts) {
+  Soil firm = loam(), soft = loam();
+  soft.k_phi = 2e5;
+  soft.n = 1.0;
+  for (const int axis : {0, 1}) {
+    const auto force = [&](const SoilPatches& soils) {
+      RigidPlate plate({PlateShape::square, side, 0.02, 20}, Vector3::Zero());
+      HeightField field({0.6, 0.6, Vector2::Zero(), 0.0, 0.01});
+      ScmContact contact(plate, field, soils, {});
+      plate.surface().clear_forces();
+      plate.prescribe(-0.01);
+      plate.advance(1.0);
+      contact.apply(1.0);
+      return plate.surface().total_force().z();
+    };
+    const auto both = [&](double begin) {
+      SoilPatches soils(firm);
+      soils.add(axis, begin, soft);
+      return force(soils);
+    };
+    const double on_firm = force(firm), on_soft = force(soft);
+    EXPECT_EQ(both(0.2), on_firm);
+    EXPECT_EQ(both(-0.2), on_soft);
+    EXPECT_NEAR(both(0.0), 0.5 * (on_firm + on_soft), 1e-9 * on_firm);
+  }
+}
+
 TEST(ScmPlate, PressureIsBekkersAndUnloadingIsElastic) {
   Pressing pressing(loam());
   double force = 0.0;
