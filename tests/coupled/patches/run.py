@@ -27,7 +27,7 @@ CHANNELS = ("hub_drop", "force_x", "force_z", "drive_torque")
 
 def roll(furrow, folder, name, ground, soil, steps):
     """Wheel -> channel -> its values."""
-    words = [furrow, "-in", HERE / "wheels.lig", "-log", "none", "-var", "ground", ground, "-var", "soil", soil,
+    words = [furrow, "-in", HERE / "wheels.lig", "-log", "none", "-var", "continuum", str(int(ground == "continuum")), "-var", "soil", soil,
              "-var", "results", folder / name, "-var", "steps", str(steps)]
     done = subprocess.run(words, cwd=folder, text=True, stdin=subprocess.DEVNULL, timeout=500, env=os.environ,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
