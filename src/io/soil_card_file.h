@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Soil cards: parameters of the soil contact model, as furrow-post card make writes them, as a person
-/// writes them in other units, or as Chrono's SCM has them in JSON.
+/// Soil cards: parameters of the soil contact model, as furrow-post card make writes them, as a
+/// person writes them in other units, or as Chrono's SCM has them in JSON.
 
 #include <limits>
 #include <map>

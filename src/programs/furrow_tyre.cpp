@@ -65,7 +65,7 @@ void declare(CLI::App& app, Request& request) {
       "  furrow-tyre inputs/tyres/p235_75r15.yaml --mesh 4 36 --pressure 20 --folder results/modes "
       "--modes 10\n"
       "  furrow-tyre fit --help\n"
-      "  furrow-tyre mesh wheel.dae");
+      "  furrow-tyre mesh --help");
   app.add_option("file", request.file, "tyre file (inputs/tyres/*.yaml)")->required();
   app.add_option("--pressure", request.pressures,
                  "inflation pressures [kPa]; by default that of the tyre file")

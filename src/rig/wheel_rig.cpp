@@ -155,9 +155,9 @@ void WheelRig::drive_vertical(double time, double dt) {
 
 /// During the settling: a smooth way down to ground_level, then a creep until the ground bears the
 /// wheel. While the load grows, the rig holds the wheel whenever the ground bears more than the
-/// load, so that it does not swing. What the ground bears shows where the wheel is, so nothing
-/// needs to be remembered. The sprung mass of a suspension comes down with the wheel, and then
-/// swings freely.
+/// load, so that it does not swing. A wheel that meets no ground falls freely in the end. What the
+/// ground bears shows where the wheel is, so nothing needs to be remembered. The sprung mass of a
+/// suspension comes down with the wheel, and then swings freely.
 /// @return whether the rig holds or moves the wheel
 bool WheelRig::lower(double time, double dt) {
   const double middle = time + 0.5 * dt;
@@ -166,6 +166,7 @@ bool WheelRig::lower(double time, double dt) {
   const bool touches = force > touching_share * load_ * std::max(share, least_share);
   const bool loads = middle >= load_ramp_.start && force <= -share * load_ * down().z();
   if (touches && loads) return false;
+  if (!touches && middle >= creep_end_) return false;
   wheel_.set_load(Vector3::Zero());
   if (touches)
     wheel_.hold(Coordinate::z);

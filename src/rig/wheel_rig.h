@@ -172,6 +172,7 @@ class WheelRig {
   Ramp lowering_ramp_;        // begins with the settling
   double touching_z_ = 0.0;   // [m] of the axle when the wheel has come to the ground
   double creep_speed_ = 0.0;  // [m/s] of a wheel that does not touch there
+  double creep_end_ = 0.0;    // [s]
   Ramp load_ramp_;            // begins when the wheel is lowered
   Ramp speed_ramp_;           // begins with the acceleration
   PassSchedule passes_;

@@ -26,11 +26,13 @@ constexpr double largest_speed = 1000.0;     // [m/s] of axle and rim
 constexpr double largest_slip_radius = 2.0;  // of the nominal radius
 // [m/s] while the wheel is brought back for another pass
 constexpr double largest_return_speed = 100.0, largest_lowering_speed = 10.0;
-// Of settle_time, for the lowering; its largest acceleration [m/s^2]; largest second derivative of
-// a smooth step over its range
-constexpr double largest_lowering_share = 0.25, lowering_acceleration = 5.0,
+// Of settle_time, for the lowering; its largest acceleration, of that which the load gives the
+// mass; largest second derivative of a smooth step over its range
+constexpr double largest_lowering_share = 0.25, lowering_acceleration = 0.5,
                  smooth_step_acceleration = 5.78;
-constexpr double creep_energy = 0.01;
+// Kinetic energy of the creep, of the work of the load over a hundredth of the radius; end of the
+// creep, of settle_time
+constexpr double creep_energy = 0.01, creep_share = 0.5;
 
 /// @throws InputError when key is missing (needed) or given (not needed)
 void expect_key(const Options& options, const std::string& key, bool needed,
@@ -373,12 +375,13 @@ void WheelRig::read_vertical(const Options& options) {
 
 /// The load grows once the wheel is down.
 void WheelRig::plan_lowering(double settle_time) {
-  const double gap = std::max(0.0, wheel_.lowest_point() - ground_level_);
+  const double gap = std::max(0.0, wheel_.lowest_point() - ground_level_),
+               acceleration = lowering_acceleration * load_ / wheel_.total_mass();
   touching_z_ = wheel_.position(Coordinate::z) - gap;
-  lowering_ramp_ = {start_,
-                    std::min(largest_lowering_share * settle_time,
-                             std::sqrt(smooth_step_acceleration * gap / lowering_acceleration))};
+  lowering_ramp_ = {start_, std::min(largest_lowering_share * settle_time,
+                                     std::sqrt(smooth_step_acceleration * gap / acceleration))};
   load_ramp_.start = lowering_ramp_.end();
+  creep_end_ = start_ + creep_share * settle_time;
   load_ramp_.duration = std::min(load_ramp_.duration, speed_ramp_.start - load_ramp_.start);
   // kinetic energy over the work of the load on a hundredth of the radius
   creep_speed_ =

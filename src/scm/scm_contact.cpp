@@ -189,8 +189,7 @@ void ScmContact::shear_triangle(std::size_t first, std::size_t end, double dt) {
   mobilised *= std::min(1.0, sheared_area_[triangle] / area);
   if (const double speed = sliding.norm(); speed > 0.0) {
     const Vector2 limit = -sliding / speed;
-    const double length =
-        settings_.slip_length ? *settings_.slip_length : shear_length(first, end);
+    const double length = settings_.slip_length ? *settings_.slip_length : shear_length(first, end);
     mobilised = length > 0.0 ? limit + std::exp(-speed * dt / length) * (mobilised - limit) : limit;
   }
   next_area_[triangle] = area;

@@ -34,7 +34,7 @@ TEST(BrickTyreOnBed, KeepsMomentumOnGrainsInItsGrooves) {
       FURROW_SOURCE_DIR));
   scene.command(fmt::format(
       "fix rig all wheel/rig wheel tyre load_force {} speed 0.4 mode towed settle_time 0.3 "
-      "load_ramp_time 0.001 accelerate_time 0.1 ground_level 0.0115 damping 0",
+      "load_ramp_time 0.001 accelerate_time 0.1 ground_level 0.0115 damping 0 release in_air",
       load));
   scene.wall_of_body("tyre", hertz, "tread");
   BrickTyre& tyre =

@@ -32,7 +32,7 @@ void make_tyre(Scene& scene, bool half) {
   scene.command(
       "fix rig all wheel/rig wheel tyre load_force 1500 speed 1 mode towed settle_time 0.1 "
       "accelerate_time 0.05 "
-      "ground_level 0.15 damping 2000");
+      "ground_level 0.15 damping 2000 release in_air");
 }
 
 void make_terrain(Scene& scene, bool half) {

@@ -42,7 +42,7 @@ TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
   scene.command(
       fmt::format("fix rig all wheel/rig wheel tyre load_force {} speed 0.4 mode towed settle_time "
                   "0.3 load_ramp_time 0.15 "
-                  "accelerate_time 0.1 ground_level {:.9f} damping {}",
+                  "accelerate_time 0.1 ground_level {:.9f} damping {} release in_air",
                   load, level, damping));
   scene.wall_of_body("tyre", hertz, "tread");
   DarnellTyre& tyre =

@@ -27,7 +27,7 @@ void add_wheel(Scene& scene, double level) {
       "180 "
       "axle -0.05 0 {:.9f}\n"
       "fix rig all wheel/rig wheel wheel load_force 8 speed {} mode slip slip {} settle_time 0.1 "
-      "accelerate_time 0.05 ground_level {:.9f} damping 10",
+      "accelerate_time 0.05 ground_level {:.9f} damping 10 release in_air",
       2.0 * radius, width, level + radius + 0.001, speed, slip, level));
 }
 

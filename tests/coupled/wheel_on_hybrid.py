@@ -25,7 +25,7 @@ FOLDER = Path(__file__).resolve().parents[2] / "inputs" / "crosscheck"
 
 def run(results: Path, script: str, **variables: object) -> float:
     """@return sinkage at rest [m]"""
-    given = {"diameter": 0.05, "distance": 0.05, "here": FOLDER, "results": results, **variables}
+    given = {"diameter": 0.05, "distance": 0.05, "settle": 0.6, "here": FOLDER, "results": results, **variables}
     words = [str(word) for pair in given.items() for word in ("-var", *pair)]
     done = subprocess.run([sys.argv[1], "-in", FOLDER / f"{script}.lig", "-log", "none", *words],
                           capture_output=True, text=True, timeout=500)
@@ -34,7 +34,7 @@ def run(results: Path, script: str, **variables: object) -> float:
     with h5py.File(results / "history.h5") as content:
         history = content["history"]
         time, sinkage = history["time"][:], history["hub_drop"][:]
-    return float(sinkage[(time > 0.3) & (time < 0.4)].mean())
+    return float(sinkage[(time > 0.5) & (time < 0.6)].mean())
 
 
 def check_momentum(results: Path) -> None:

@@ -287,7 +287,7 @@ def main(furrow, liggghts, *mpirun):
                 "dump 'd', file frame.*: No space left on device")
     full_disk(furrow, table, mpirun)
     one_run_for_a_name(furrow, table)
-    table.check("folder in its place", write(".", lambda: None), 1, "Is a directory")
+    table.check("folder in its place", write(".", lambda: None), 1, "is a folder; allowed: a file")
     table.check("folder cannot be made", write("/proc/no/ck"), 1, "its folder '/proc/no' cannot be made")
     table.check("file for each rank", write("ck.%"), 1, "one file per rank")
     table.check("new folder", write("new/deep/ck"), 0)

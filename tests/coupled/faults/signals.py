@@ -93,7 +93,7 @@ def one_rank_of_two(furrow, table, launcher):
     continues(furrow, table, "SIGTERM of one rank of two", signal.SIGTERM, 143, launcher)
     for number, status in ENDS:
         said = interrupted(furrow, table, ENDLESS, [number], launcher)
-        table.check(f"signal {number} in a loop, of one rank of two", said, status, "without a checkpoint")
+        table.check(f"signal {number} in a loop, of one rank of two", said, status, "before its first run")
 
 
 def one_process(furrow, table):
@@ -114,8 +114,12 @@ def one_process(furrow, table):
     table.check("SIGPIPE is ignored", said, 0)
     for number, status in ENDS:
         said = interrupted(furrow, table, ENDLESS, [number])
-        table.check(f"signal {number} in a loop without a run", said, status, "without a checkpoint")
-    table.check("second signal", interrupted(furrow, table, ENDLESS, [signal.SIGTERM, signal.SIGTERM]), 143, "ends at once")
+        table.check(f"signal {number} in a loop without a run", said, status, "before its first run")
+    said = interrupted(furrow, table, GRAINS + "run 0\n" + ENDLESS, [signal.SIGTERM])
+    table.check("SIGTERM in a loop after a run", said, 143, "without a checkpoint")
+    twice = [signal.SIGTERM, signal.SIGTERM]
+    said = interrupted(furrow, table, GRAINS + "run 0\n" + ENDLESS, twice)
+    table.check("second signal", said, 143, "ends at once")
 
 
 def main(furrow, *mpirun):

@@ -68,7 +68,7 @@ class Stepping(Case):
                 run.terrains["soil"].particles()
             self.assertTrue(run.ended)
             self.assertEqual((run.step_number, run.step(), run.run()), (500, 0, 0))
-            self.assertGreater(run.summary()["quantities"]["hub_drop"]["mean"], 0.02)
+            self.assertGreater(run.summary()["quantities"]["hub_drop"]["mean"], 0.015)
             self.assertEqual(run.summary("out"), run.summary())
         self.assert_same("alone", "driven")
 

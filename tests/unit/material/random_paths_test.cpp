@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "material/models/norsand/norsand.h"
 #include "tests/support/max_error.h"
 #include "tests/support/paths.h"
 
@@ -144,6 +147,18 @@ struct Tally {
   std::size_t steps = 0;
 };
 
+/// Largest excess over the surface that a step of NorSand may leave: its cone of least dilatancy is
+/// that of the image pressure at the start of the step.
+double excess_of_cone(const Material& material, const VectorX& before, const VectorX& after) {
+  const auto* sand = dynamic_cast<const NorSand*>(&material);
+  if (!sand) return 0.0;
+  const NorSandParameters& p = sand->parameters();
+  const double change = sand->critical_void_ratio(before[NorSand::image_pressure]) -
+                        sand->critical_void_ratio(after[NorSand::image_pressure]);
+  const double P = std::max(0.0, invariants(stress_of(after)).p + p.pt);
+  return (1.0 - p.N) * p.chi_i * std::abs(change) * P / material.stress_scale(after);
+}
+
 /// One path of mixed steps, from 1e-6 to jumps of 0.5 of strain, each turned at random.
 void expect_sound_path(Dice& dice, const std::string& text, Tally& tally) {
   const auto material = material_of(text);
@@ -160,7 +175,7 @@ void expect_sound_path(Dice& dice, const std::string& text, Tally& tally) {
     const double angle = dice.chance(0.3) ? dice.between(0, 0.3) : 0.0;
     const Matrix3 turn = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
     const Matrix3 gradient = turn * (Matrix3::Identity() + stretch(strain)) - Matrix3::Identity();
-    const double dissipated = state[field::dissipated_energy];
+    const VectorX before = state;
     UpdateReport report;
     ASSERT_NO_THROW(report = material->update_point(gradient, state))
         << text << "\nstep " << step << " strain " << strain.transpose();
@@ -170,9 +185,10 @@ void expect_sound_path(Dice& dice, const std::string& text, Tally& tally) {
     const double scale = material->stress_scale(state);
     const double excess = material->yield_function(state) / scale;
     tally.yield.add(excess);
-    ASSERT_LE(excess, 1e-8) << text << "\nstep " << step << " strain " << strain.transpose()
-                            << "\nstate " << state.transpose();
-    const double heat = state[field::dissipated_energy] - dissipated;
+    ASSERT_LE(excess, 1e-8 + excess_of_cone(*material, before, state))
+        << text << "\nstep " << step << " strain " << strain.transpose() << "\nstate "
+        << state.transpose();
+    const double heat = state[field::dissipated_energy] - before[field::dissipated_energy];
     tally.heat.add(heat / scale);
     ASSERT_GE(heat, -1e-14 * scale) << text << "\nstep " << step << " strain " << strain.transpose()
                                     << "\nstate " << state.transpose();

@@ -120,7 +120,9 @@ TEST(PointCommand, FailuresHaveTheirMessageAndStatus) {
   };
   const std::string snow =
       "material: " + std::string(FURROW_SOURCE_DIR) + "/inputs/materials/fresh_snow.yaml\n";
-  expect_failure("", "needs one of the commands run, fit, curves, channels, table, laws, show, usual or paths");
+  expect_failure(
+      "",
+      "needs one of the commands run, fit, curves, channels, table, laws, show, usual or paths");
   expect_failure("run", "file is required");
   expect_failure("run absent.yaml", "furrow-point: absent.yaml does not exist");
   expect_failure("run " + file("") + out, "bad.yaml is empty");

@@ -65,6 +65,7 @@ TEST(Presets, AllAreRead) {
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(inputs + "/materials")) {
     if (entry.path().extension() != ".yaml") continue;
+    if (entry.path().parent_path().filename() == "contact") continue;  // parts of materials
     const MaterialFile file = read_material_file(entry.path().string());
     EXPECT_EQ(material_file_text(file.title, file.model, file.sections).find("title: "), 0u);
     EXPECT_GT(file.make()->density(), 0.0);

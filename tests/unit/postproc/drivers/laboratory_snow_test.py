@@ -168,6 +168,7 @@ class FitTest(FolderTest):
         title, made = made.split("\n", 1)
         self.assertEqual(title, 'title: "snow: fitted"')  # one text, whatever is in it
         _, shipped = PRESET.read_text(encoding="utf-8").split("\n", 1)
+        shipped, _ = shipped.split("contact:", 1)  # of which a laboratory without a wheel knows nothing
         self.assertEqual(re.sub(NUMBER, "N", made).split(), re.sub(NUMBER, "N", shipped).split())
         both = [[float(x) for x in re.findall(NUMBER, text)] for text in (made, shipped)]
         np.testing.assert_allclose(both[0], both[1], rtol=0.02, atol=0.011)
