@@ -355,8 +355,8 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
       .by_default("yes");
   schema
       .number("residual_share", "", Range::closed(0.0, 1.0),
-              "share of the velocity that the grid cannot show and particles keep at a transfer; "
-              "by default 0.95, or 0 for a law whose stress jumps")
+              "share of the velocity that the grid cannot show, which particles keep while a wave "
+              "crosses 6.4 cells; by default 0.95, or 0 for a law whose stress jumps")
       .optional();
   schema
       .number("modulus_scale", "", Range::closed(0.01, 1.0),

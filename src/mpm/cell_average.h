@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Means over the particles of a cell, against volumetric locking (theory: continuum, eq. 14). With
+/// Means over the particles of a cell, against volumetric locking (theory: continuum, eq. 15). With
 /// quadratic splines and eight particles a cell, a motion that keeps the volume of every particle
 /// hardly exists; one that keeps the volume of every cell does [Coombs2018], [Zhao2023].
 ///

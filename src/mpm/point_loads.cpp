@@ -3,10 +3,9 @@
 
 namespace furrow {
 
-PointLoads::PointLoads(Discretisation& discretisation, RemapControl& remap, double residual_share)
+PointLoads::PointLoads(Discretisation& discretisation, RemapControl& remap)
     : discretisation_(discretisation),
       remap_(remap),
-      residual_share_(residual_share),
       kernels_(transfer_kernels()),
       forces_(static_cast<std::size_t>(discretisation.grid.fields())),
       grid_motions_(forces_.size()) {}
@@ -55,16 +54,16 @@ void PointLoads::interpolate_motion(const std::vector<ParticleIndex>& particles,
                                     std::vector<ParticleMotion>& motions) {
   motions.resize(particles.size());
   if (!remap_.particles_lag()) {
+    const double share = remap_.residual_share();
     for (std::size_t n = 0; n < particles.size(); ++n) {
       const Particles& group = particles_of(particles[n]);
       const std::size_t p = particles[n].particle;
       const Vector3 x = group.position(p);
-      const Vector3 w = residual_share_ * group.residual_spin(p);
+      const Vector3 w = share * group.residual_spin(p);
       Matrix3 turn;
       turn << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
       motions[n] = {x, remap_.interval_running() ? group.quadrature_position(p) : x,
-                    group.velocity(p) - residual_share_ * group.residual_velocity(p),
-                    group.affine(p) - turn};
+                    group.velocity(p) - share * group.residual_velocity(p), group.affine(p) - turn};
     }
     return;
   }

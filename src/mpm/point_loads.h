@@ -26,8 +26,7 @@ struct ParticleMotion {
 /// Each rank adds and asks for its own particles; no call is collective.
 class PointLoads {
  public:
-  /// @param residual_share  of TransferScheme
-  PointLoads(Discretisation& discretisation, RemapControl& remap, double residual_share);
+  PointLoads(Discretisation& discretisation, RemapControl& remap);
 
   /// A force on the ground during the next step [N], through the weights of a particle near the
   /// point where it acts [m]. @param work  of whoever presses: gets the work of the force [J] when
@@ -64,7 +63,6 @@ class PointLoads {
 
   Discretisation& discretisation_;
   RemapControl& remap_;
-  double residual_share_;
   const TransferKernels& kernels_;
   std::vector<PointLoad> loads_;
   // Buffers of a step; forces and motions by velocity field.

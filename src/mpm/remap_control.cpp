@@ -10,11 +10,18 @@ namespace {
 
 // travel in an interval, of the shortest cell times the volume ratio
 constexpr double max_travel = 0.05;
+// shortest cells that a wave crosses while the residual motion falls to its share
+constexpr double cells_of_share = 6.4;
 
 }  // namespace
 
-RemapControl::RemapControl(const Discretisation& discretisation, int max_steps)
-    : discretisation_(discretisation), max_steps_(max_steps) {}
+RemapControl::RemapControl(const Discretisation& discretisation, int max_steps,
+                           double residual_share, double wave_speed)
+    : discretisation_(discretisation),
+      max_steps_(max_steps),
+      decay_(residual_share > 0.0 ? std::log(residual_share) * wave_speed /
+                                        (cells_of_share * discretisation.grid.shortest_cell())
+                                  : 0.0) {}
 
 void RemapControl::begin_interval(double dt) {
   double max_square = 0.0;
@@ -32,7 +39,7 @@ void RemapControl::begin_interval(double dt) {
     });
   }
   largest_speed_ = std::sqrt(max_square);
-  travel_ = 0.0;
+  travel_ = elapsed_ = 0.0;
   const double speed = discretisation_.ranks().max(std::sqrt(max_square_over_ratio));
   const double most = max_steps_;
   const double steps =
@@ -43,10 +50,13 @@ void RemapControl::begin_interval(double dt) {
 double RemapControl::count_step(double dt) {
   const double step_travel = discretisation_.ranks().max(largest_speed_) * dt;
   travel_ += step_travel;
+  elapsed_ += dt;
   if (--steps_left_ > 0 && travel_ > 2.0 * max_travel * discretisation_.grid.shortest_cell())
     steps_left_ = 0;
   return step_travel;
 }
+
+double RemapControl::residual_share() const { return std::exp(decay_ * elapsed_); }
 
 void RemapControl::raise_largest_speed(double speed) {
   largest_speed_ = std::max(largest_speed_, speed);
@@ -54,6 +64,7 @@ void RemapControl::raise_largest_speed(double speed) {
 
 void RemapControl::checkpoint(Checkpoint& state) {
   state.value("travel", travel_);
+  state.value("interval_time", elapsed_);
   largest_speed_ = discretisation_.ranks().max(largest_speed_);
   state.value("largest_speed", largest_speed_);
   state.value("steps_to_remap", steps_left_);

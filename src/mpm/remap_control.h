@@ -14,7 +14,9 @@ namespace furrow {
 /// stands for, and the less it may travel.
 class RemapControl {
  public:
-  RemapControl(const Discretisation& discretisation, int max_steps);
+  /// @param residual_share  of TransferScheme; @param wave_speed  of the undisturbed ground [m/s]
+  RemapControl(const Discretisation& discretisation, int max_steps, double residual_share,
+               double wave_speed);
 
   bool interval_running() const { return steps_left_ > 0; }
   bool last_step() const { return steps_left_ == 1; }
@@ -35,6 +37,10 @@ class RemapControl {
   /// Bound of the distance by which particles lag [m].
   double staleness() const { return particles_lag_ ? travel_ : 0.0; }
 
+  /// Share of the residual motion that particles have kept since the interval began. It depends on
+  /// time alone, so that shorter steps with more transfers do not damp more.
+  double residual_share() const;
+
   /// Of this rank's particles, at the start of the interval or seen at loaded points since [m/s].
   double largest_speed() const { return largest_speed_; }
   void raise_largest_speed(double speed);
@@ -45,6 +51,8 @@ class RemapControl {
  private:
   const Discretisation& discretisation_;
   int max_steps_;
+  double decay_;          // of the residual motion, ln of its share over time [1/s]
+  double elapsed_ = 0.0;  // since the interval began [s]
   int steps_left_ = 0;
   double largest_speed_ = 0.0;  // [m/s]
   double travel_ = 0.0;         // bound of what any particle travelled in the interval [m]

@@ -137,12 +137,27 @@ std::vector<WaveSpeeds> TerrainFill::wave_speeds(const Grid& grid) const {
                                           [z](const ParticleLevel& a, const ParticleLevel& b) {
                                             return std::abs(a.z - z) < std::abs(b.z - z);
                                           });
-    const Material& material = *layers_[nearest->layer].material;
-    const ElasticModuli moduli = material.moduli(nearest->state);
-    const double density = material.current_density(nearest->state);
-    speeds.push_back({std::sqrt(moduli.wave() / density), std::sqrt(moduli.shear / density)});
+    speeds.push_back(wave_speeds(*nearest));
   }
   return speeds;
+}
+
+WaveSpeeds TerrainFill::wave_speeds(const ParticleLevel& level) const {
+  const Material& material = *layers_[level.layer].material;
+  const ElasticModuli moduli = material.moduli(level.state);
+  const double density = material.current_density(level.state);
+  return {std::sqrt(moduli.wave() / density), std::sqrt(moduli.shear / density)};
+}
+
+double TerrainFill::largest_wave_speed() const {
+  double largest = 0.0;
+  const auto add = [&](const std::vector<ParticleLevel>& levels) {
+    for (const ParticleLevel& level : levels)
+      largest = std::max(largest, wave_speeds(level).pressure);
+  };
+  add(levels_);
+  for (const std::vector<ParticleLevel>& levels : patch_levels_) add(levels);
+  return largest;
 }
 
 void TerrainFill::add_cells(int x_cell, Discretisation& discretisation) {

@@ -29,6 +29,8 @@ class TerrainFill {
 
   /// Elastic wave speeds at the height of each plane of nodes across z, from below.
   std::vector<WaveSpeeds> wave_speeds(const Grid& grid) const;
+  /// Of pressure waves, over all levels and patches [m/s].
+  double largest_wave_speed() const;
 
   /// Appends the particles of a layer of cells across x that this rank owns. Ids are counted on
   /// all ranks; every rank calls it for every layer. A slide surface gives each particle its side.
@@ -52,6 +54,8 @@ class TerrainFill {
                  double height, std::size_t row, Discretisation& discretisation);
 
   std::string where_;
+  WaveSpeeds wave_speeds(const ParticleLevel& level) const;
+
   std::vector<TerrainLayer> layers_;
   GroundRelief relief_;
   double base_, depth_, clearance_;  // z of the base, heights of ground and of grid above it [m]

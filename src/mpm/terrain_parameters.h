@@ -47,7 +47,8 @@ struct Trough {
 /// What particles and grid exchange (terrain_step.h, cell_average.h).
 struct TransferScheme {
   bool cell_average = true;  ///< of volume change and pressure
-  /// share of the residual motion that particles keep at a grid reset, 0 to 1
+  /// share of the residual motion that particles keep while a wave crosses 6.4 cells of the
+  /// undisturbed ground: 16 steps with cfl 0.4
   double residual_share = 0.95;
 };
 

@@ -227,10 +227,11 @@ void TerrainStep::grid_to_particles() {
   if (!remap_.particles_lag()) return;
   remap_.particles_updated();
   if (active_) active_->add_motion();
+  const double share = remap_.residual_share();
   for (ParticleGroup& group : discretisation_.groups)
     group.for_awake([&](std::size_t from, std::size_t to) {
       kernels_.gather_motion(discretisation_.local_view(group.field),
-                             group.particles.view(from, to - from), scheme_.residual_share);
+                             group.particles.view(from, to - from), share);
     });
   clear_displacement();
 }

@@ -52,7 +52,8 @@ Outcome roll(bool half) {
   Scene scene;
   make_tyre(scene, half);
   make_terrain(scene, half);
-  scene.command("fix touch all contact/continuum body tyre terrain soil friction 0.3");
+  scene.command(
+      "fix touch all contact/continuum body tyre terrain soil friction 0.3 slip_length 0");
   scene.command("run 4500");  // 0.1 m
   const auto find = [&](const char* id) { return scene.lammps().modify->find_fix_id(id); };
   auto* tyre_fix = dynamic_cast<coupling::FixTyreDarnell*>(find("tyre"));

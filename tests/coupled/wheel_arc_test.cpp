@@ -87,7 +87,8 @@ TEST(WheelArc, SumsToForceAndTorqueOnAContinuum) {
       "fix soil all terrain/continuum material {}/inputs/materials/fresh_snow.yaml length 0.4 "
       "width "
       "0.12 depth 0.06 surface 0.06 cell 0.02 symmetry yes follow wheel clearance_above 0.2\n"
-      "fix touch all contact/continuum body wheel terrain soil friction 0.3\nthermo 100000",
+      "fix touch all contact/continuum body wheel terrain soil friction 0.3 slip_length 0\nthermo "
+      "100000",
       FURROW_SOURCE_DIR));
   compare(scene, 2000, 1500, 0.2);
 }

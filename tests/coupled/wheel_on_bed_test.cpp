@@ -54,7 +54,7 @@ Outcome roll(Scene& scene, double slip) {
   scene.command(
       fmt::format("fix rig all wheel/rig wheel wheel load_force {} speed 0.2 mode slip slip {} "
                   "settle_time 0.4 load_ramp_time 0.1 "
-                  "accelerate_time 0.1 ground_level {:.9f} damping 10",
+                  "accelerate_time 0.1 ground_level {:.9f} damping 10 release in_air",
                   load, slip, level));
   scene.wall_of_body("wheel", hertz, "tread");
   const coupling::FixWheelRig& rig =

@@ -4,7 +4,8 @@
     wheel_on_hybrid.py <furrow>
 
 What the base of the continuum gives is the weight of grains and continuum and the load of the wheel
-(momentum), but for what walls around the grains carry by friction; the continuum gives way where a
+(momentum), but for what walls around the grains carry by friction: 2 %, and less than 0.1 % without
+friction. The continuum gives way where a
 rigid floor under the same grains does not; and its long steps change the sinkage by less than the
 scatter of grains. Likewise with the grains in a trough of the continuum, another packing; and where
 grains and continuum go with the wheel, over more than the length of both: then the ground loses and
@@ -52,7 +53,8 @@ def check_momentum(results: Path) -> None:
     wheel = float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(time)))
     expected = (grains + ground) * GRAVITY * end + wheel
     print(f"base {base[-1]:.2f} N s, weights and wheel {expected:.2f} N s")
-    if abs(base[-1] - expected) > 0.015 * expected:
+    by_walls = 1.0 - base[-1] / expected
+    if not -0.003 <= by_walls <= 0.03:
         sys.exit("the base does not give what it carries")
 
 

@@ -60,7 +60,7 @@ def lowering(furrow: str) -> None:
 
 
 def friction(furrow: str) -> None:
-    snow = {"material": MATERIALS / "fresh_snow_cam_clay.yaml", "motion": "mode slip slip 0.1", "steps": 5000}
+    snow = {"material": MATERIALS / "fresh_snow_cam_clay.yaml", "motion": "mode slip slip 0.1", "steps": 7000}
     taken, words = run(furrow, **snow, contact="body_material steel")
     expect("the contact prints its values",
            "Contact of 'wheel' (steel) with 'Fresh snow, 200 kg/m3, cohesive Cam clay': friction 0.3 (0.2 to 0.5), "

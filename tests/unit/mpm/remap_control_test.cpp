@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing_terrain;
 
-constexpr double cell = 0.1, dt = 1e-3;
+constexpr double cell = 0.1, dt = 1e-3, wave_speed = 40.0, share = 0.95;
 constexpr int max_steps = 16;
 
 /// One particle in a grid of cells of 0.1 m.
@@ -20,7 +20,7 @@ struct Fixture {
         discretisation{Grid(Axis(even(0, 1, cell), "x"), Axis(even(0, 1, cell), "y"),
                             Axis(even(0, 1, cell), "z")),
                        groups_of(material), Partition(Communicator(), {1, 1}, discretisation.grid)},
-        remap(discretisation, max_steps) {
+        remap(discretisation, max_steps, share, wave_speed) {
     particles().append(1);
     particles().set_state(0, material->initial_state());
   }
@@ -74,6 +74,19 @@ TEST(RemapControl, AnIntervalEndsWhenContactMakesTheGroundFast) {
   EXPECT_TRUE(f.remap.interval_running());
   f.remap.count_step(dt);  // 0.12 of a cell
   EXPECT_FALSE(f.remap.interval_running());
+}
+
+/// 16 ms are the time in which a wave of 40 m/s crosses 6.4 cells.
+TEST(RemapControl, ResidualMotionFallsWithTimeHoweverManyIntervalsItHas) {
+  Fixture f;
+  double kept = 1.0;
+  for (const int steps : {1, 3, 12}) {
+    f.remap.begin_interval(dt);
+    EXPECT_EQ(f.remap.residual_share(), 1.0);
+    for (int step = 0; step < steps; ++step) f.remap.count_step(dt);
+    kept *= f.remap.residual_share();
+  }
+  EXPECT_NEAR(kept, share, 1e-14);
 }
 
 TEST(RemapControl, StalenessIsTheTravelSinceParticlesWereUpdated) {
