@@ -65,7 +65,7 @@ class StudiesFaultsTest(FaultsTest):
                     words = ["--evaluate", "--results", results]
                     found = outcome(lambda: run_study(study, words))
                     self.expect(f"{folder.name}: {content}", found, results)
-        self.assertEqual(len(STUDIES), 24)
+        self.assertEqual(len(STUDIES), 25)
         self.assertNotIn("FURROW_TRACEBACK", os.environ)
 
 
