@@ -10,7 +10,7 @@ namespace {
 
 // travel in an interval, of the shortest cell times the volume ratio
 constexpr double max_travel = 0.05;
-// shortest cells that a wave crosses while the residual motion falls to its share
+// shortest cells that a wave crosses while the residual motion of slow ground falls to its share
 constexpr double cells_of_share = 6.4;
 
 }  // namespace
@@ -19,9 +19,8 @@ RemapControl::RemapControl(const Discretisation& discretisation, int max_steps,
                            double residual_share, double wave_speed)
     : discretisation_(discretisation),
       max_steps_(max_steps),
-      decay_(residual_share > 0.0 ? std::log(residual_share) * wave_speed /
-                                        (cells_of_share * discretisation.grid.shortest_cell())
-                                  : 0.0) {}
+      decay_(residual_share > 0.0 ? std::log(residual_share) : 0.0),
+      time_of_share_(cells_of_share * discretisation.grid.shortest_cell() / wave_speed) {}
 
 void RemapControl::begin_interval(double dt) {
   double max_square = 0.0;
@@ -56,7 +55,10 @@ double RemapControl::count_step(double dt) {
   return step_travel;
 }
 
-double RemapControl::residual_share() const { return std::exp(decay_ * elapsed_); }
+double RemapControl::residual_share() const {
+  const double travel = travel_ / (max_travel * discretisation_.grid.shortest_cell());
+  return std::exp(decay_ * std::max(elapsed_ / time_of_share_, travel));
+}
 
 void RemapControl::raise_largest_speed(double speed) {
   largest_speed_ = std::max(largest_speed_, speed);

@@ -48,7 +48,7 @@ struct Trough {
 struct TransferScheme {
   bool cell_average = true;  ///< of volume change and pressure
   /// share of the residual motion that particles keep while a wave crosses 6.4 cells of the
-  /// undisturbed ground: 16 steps with cfl 0.4
+  /// undisturbed ground, or the fastest particle 1/20 of a cell
   double residual_share = 0.95;
 };
 

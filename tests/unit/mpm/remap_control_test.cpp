@@ -77,7 +77,7 @@ TEST(RemapControl, AnIntervalEndsWhenContactMakesTheGroundFast) {
 }
 
 /// 16 ms are the time in which a wave of 40 m/s crosses 6.4 cells.
-TEST(RemapControl, ResidualMotionFallsWithTimeHoweverManyIntervalsItHas) {
+TEST(RemapControl, ResidualMotionFallsWithTimeOrTravelHoweverManyIntervalsTheyHave) {
   Fixture f;
   double kept = 1.0;
   for (const int steps : {1, 3, 12}) {
@@ -87,6 +87,10 @@ TEST(RemapControl, ResidualMotionFallsWithTimeHoweverManyIntervalsItHas) {
     kept *= f.remap.residual_share();
   }
   EXPECT_NEAR(kept, share, 1e-14);
+  f.set_speed(0.05 * cell / (4.0 * dt));
+  f.remap.begin_interval(dt);
+  for (int step = 0; step < 4; ++step) f.remap.count_step(dt);
+  EXPECT_NEAR(f.remap.residual_share(), share, 1e-14);
 }
 
 TEST(RemapControl, StalenessIsTheTravelSinceParticlesWereUpdated) {

@@ -133,7 +133,7 @@ TEST(StripFooting, NeedsShortCellsAtItsEdgeAlone) {
   const double coarse = bearing_factor(5, 4), fine = bearing_factor(10, 4);
   RecordProperty("bearing_factor", fmt::format("b/5 {:.3f}, b/10 {:.3f}", coarse, fine));
   EXPECT_NEAR(coarse, prandtl, 0.05 * prandtl);
-  EXPECT_NEAR(fine, prandtl, 0.03 * prandtl);
+  EXPECT_NEAR(fine, prandtl, 0.035 * prandtl);
 }
 
 /// The load of ground that flows at constant volume does not depend on its bulk modulus.
