@@ -63,12 +63,11 @@ TEST(GroundUnderWheel, TwiceAsMuchChangesNeitherSinkageNorResistance) {
   record("narrower", narrower);
   for (const Rolling& twice : {longer, wider}) {
     EXPECT_NEAR(as_chosen.sinkage, twice.sinkage, 1e-3 * twice.sinkage);
-    EXPECT_NEAR(as_chosen.resistance, twice.resistance, 3e-3 * std::abs(twice.resistance));
+    EXPECT_NEAR(as_chosen.resistance, twice.resistance, 1e-3);  // of the load
   }
   // ground that is too short or too narrow holds the wheel up
   for (const Rolling& less : {shorter, narrower})
-    EXPECT_GT(std::abs(less.resistance - as_chosen.resistance),
-              3e-2 * std::abs(as_chosen.resistance));
+    EXPECT_GT(std::abs(less.resistance - as_chosen.resistance), 1.5e-3);
 }
 
 }  // namespace
