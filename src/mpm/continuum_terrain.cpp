@@ -81,7 +81,7 @@ ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Co
                 fill_.wave_speeds(discretisation_.grid)),
       distribution_(discretisation_, boundary_),
       remap_(discretisation_, parameters.remap_interval, parameters.scheme.residual_share,
-             fill_.largest_wave_speed()),
+             fill_.slowest_wave_speed()),
       loads_(discretisation_, remap_),
       slide_(parameters.slide),
       active_(make_active(parameters, discretisation_, boundary_, energy_, where)),

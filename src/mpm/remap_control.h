@@ -14,7 +14,8 @@ namespace furrow {
 /// stands for, and the less it may travel.
 class RemapControl {
  public:
-  /// @param residual_share  of TransferScheme; @param wave_speed  of the undisturbed ground [m/s]
+  /// @param residual_share  of TransferScheme; @param wave_speed  of the undisturbed ground's
+  /// slowest layer [m/s]
   RemapControl(const Discretisation& discretisation, int max_steps, double residual_share,
                double wave_speed);
 

@@ -149,15 +149,15 @@ WaveSpeeds TerrainFill::wave_speeds(const ParticleLevel& level) const {
   return {std::sqrt(moduli.wave() / density), std::sqrt(moduli.shear / density)};
 }
 
-double TerrainFill::largest_wave_speed() const {
-  double largest = 0.0;
+double TerrainFill::slowest_wave_speed() const {
+  std::vector<double> largest(layers_.size(), 0.0);
   const auto add = [&](const std::vector<ParticleLevel>& levels) {
     for (const ParticleLevel& level : levels)
-      largest = std::max(largest, wave_speeds(level).pressure);
+      largest[level.layer] = std::max(largest[level.layer], wave_speeds(level).pressure);
   };
   add(levels_);
   for (const std::vector<ParticleLevel>& levels : patch_levels_) add(levels);
-  return largest;
+  return *std::min_element(largest.begin(), largest.end());
 }
 
 void TerrainFill::add_cells(int x_cell, Discretisation& discretisation) {

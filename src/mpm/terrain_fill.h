@@ -29,8 +29,8 @@ class TerrainFill {
 
   /// Elastic wave speeds at the height of each plane of nodes across z, from below.
   std::vector<WaveSpeeds> wave_speeds(const Grid& grid) const;
-  /// Of pressure waves, over all levels and patches [m/s].
-  double largest_wave_speed() const;
+  /// Of pressure waves: the largest one of the slowest layer [m/s].
+  double slowest_wave_speed() const;
 
   /// Appends the particles of a layer of cells across x that this rank owns. Ids are counted on
   /// all ranks; every rank calls it for every layer. A slide surface gives each particle its side.
