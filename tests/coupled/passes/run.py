@@ -26,6 +26,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 COVERAGE = 3.0  # standard errors
+SWING = 0.02
 ROUNDING = 1e-10  # of the largest energy, force, moment
 LOADS = {"": 40.0, "rear": 30.0}  # of sand_axles.lig [N]
 LOAD_ERROR = 0.1  # of the load: the mean over a short way
@@ -85,10 +86,11 @@ def check_passes(first, second):
         "the second pass has no less resistance"
 
 
-def check_alike(what, one, other):
+def check_alike(what, one, other, share=0.0):
+    """share: of a mean, that means may differ by beyond their errors"""
     for name, (mean, error) in one.items():
         other_mean, other_error = other[name]
-        allowed = COVERAGE * math.hypot(error, other_error)
+        allowed = COVERAGE * math.hypot(error, other_error) + share * abs(mean)
         print(f"{what}, {name}: {mean:.5g}, {other_mean:.5g}, allowed difference {allowed:.2g}")
         assert abs(mean - other_mean) <= allowed, f"{what}: {name} {mean:.5g} and {other_mean:.5g}"
 
@@ -118,7 +120,8 @@ def main(case, furrow, *axles):
     if axles:
         front = Path(axles[0])
         check_alike("front wheel, first pass", values(summary_of(front)), first)
-        check_alike("rear wheel, second pass", values(summary_of(front / "rear")), second)
+        # the rear wheel still swings from the place where the front wheel stood
+        check_alike("rear wheel, second pass", values(summary_of(front / "rear")), second, SWING)
 
 
 if __name__ == "__main__":
