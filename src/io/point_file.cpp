@@ -208,7 +208,7 @@ FitCurve read_curve(const std::string& file, const YamlTree& map, const Material
   curve.driven_by = target;
   curve.driven_unit = key->unit;
   const PointChannel compared =
-      in_path(*measured, [&] { return find_point_channel(material, channel); });
+      in_path(*measured, [&, &name = channel] { return find_point_channel(material, name); });
   const MeasuredColumn of_channel = column_of(table, *measured, compared.unit);
   curve.measured = of_channel.values;
   if (!curve.relative) curve.deviation *= of_channel.factor;

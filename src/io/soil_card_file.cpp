@@ -67,7 +67,7 @@ SoilCard read_chrono(const std::string& path) {
   SoilCard found;
   for (const auto& [key, value] : file["Soil parameters"].items()) {
     const auto known = std::find_if(std::begin(of_chrono), std::end(of_chrono),
-                                    [&](const auto& pair) { return pair.first == key; });
+                                    [&name = key](const auto& pair) { return pair.first == name; });
     need(known != std::end(of_chrono) && value.is_number(), path,
          fmt::format("has \"{}\": {} in \"Soil parameters\"", key, value.dump()),
          "numbers by the keys of Chrono's SCM");
