@@ -31,11 +31,18 @@ void ParticleDistribution::sort() {
   ++generation_;
   for (ParticleGroup& group : discretisation_.groups) group.particles.remove_released_columns();
   migrate();
-  for (ParticleGroup& group : discretisation_.groups) sort_by_cell(group);
+  for (ParticleGroup& group : discretisation_.groups) sort_by_cell(group, false);
+}
+
+std::array<int, 3> ParticleDistribution::cell_of(double number) const {
+  const auto n = static_cast<long long>(number);
+  const long long y = discretisation_.grid.axis(1).cells(),
+                  z = discretisation_.grid.axis(2).cells();
+  return {static_cast<int>(n / (y * z)), static_cast<int>(n / z % y), static_cast<int>(n % z)};
 }
 
 /// Counting sort: stable, so that the order of the particles of a cell stays.
-void ParticleDistribution::sort_by_cell(ParticleGroup& group) {
+void ParticleDistribution::sort_by_cell(ParticleGroup& group, bool of_last_sorting) {
   const Grid& grid = discretisation_.grid;
   const CellRange x_cells = discretisation_.partition.own_cells(0);
   const CellRange y_cells = discretisation_.partition.own_cells(1);
@@ -48,15 +55,18 @@ void ParticleDistribution::sort_by_cell(ParticleGroup& group) {
   double* cell_of_particle = group.particles.data(column::cell);
   for (std::size_t p = 0; p < n; ++p) {
     const Vector3 x = group.particles.position(p);
-    const int c[3] = {grid.axis(0).cell_of(x[0]), grid.axis(1).cell_of(x[1]),
-                      grid.axis(2).cell_of(x[2])};
+    const std::array<int, 3> c =
+        of_last_sorting ? cell_of(cell_of_particle[p])
+                        : std::array<int, 3>{grid.axis(0).cell_of(x[0]), grid.axis(1).cell_of(x[1]),
+                                             grid.axis(2).cell_of(x[2])};
     if (c[0] < 0 || c[1] < 0 || c[2] < 0) report_outside(group);
     cell_[p] = (static_cast<std::size_t>(c[0] - x_cells.from) * ny +
                 static_cast<std::size_t>(c[1] - y_cells.from)) *
                    nz +
                static_cast<std::size_t>(c[2]);
     ++start_[cell_[p] + 1];
-    cell_of_particle[p] = static_cast<double>(cell_[p]);
+    cell_of_particle[p] =
+        (static_cast<double>(c[0]) * grid.axis(1).cells() + c[1]) * grid.axis(2).cells() + c[2];
   }
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   order_.resize(n);
@@ -203,7 +213,8 @@ void ParticleDistribution::restore(RankNumbers& numbers, const Saved& saved, boo
   for (std::size_t r = 0; r < saved.ranks(); ++r)
     if (!same_layout || r == rank) read_particles(numbers, saved, r, same_layout);
   const double drift = drift_;
-  if (!same_layout) sort();
+  if (!same_layout)
+    for (ParticleGroup& group : discretisation_.groups) sort_by_cell(group, true);
   drift_ = drift;
   ++generation_;
   Grid& grid = discretisation_.grid;
@@ -237,7 +248,7 @@ void ParticleDistribution::check_numbers(RankNumbers& numbers, const Saved& save
                   wrong));
 }
 
-/// Takes the particles that belong to this rank.
+/// Takes the particles whose cell, that of the last sorting, belongs to this rank.
 void ParticleDistribution::read_particles(RankNumbers& numbers, const Saved& saved,
                                           std::size_t rank, bool all) {
   const Grid& grid = discretisation_.grid;
@@ -254,10 +265,11 @@ void ParticleDistribution::read_particles(RankNumbers& numbers, const Saved& sav
       chunk.resize(std::min<std::uint64_t>(most, left));
       numbers.read(static_cast<int>(rank), first, chunk.data(), chunk.size());
       for (const double *next = chunk.data(), *end = next + chunk.size(); next != end;
-           next += length)
-        if (all || partition.owner(grid.axis(0).cell_of(next[0]), grid.axis(1).cell_of(next[1])) ==
-                       discretisation_.ranks().rank())
+           next += length) {
+        const std::array<int, 3> cell = cell_of(next[Particles::place_in_record(column::cell)]);
+        if (all || partition.owner(cell[0], cell[1]) == discretisation_.ranks().rank())
           particles.unpack(next);
+      }
       first += chunk.size();
       left -= chunk.size();
     }

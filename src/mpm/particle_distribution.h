@@ -3,6 +3,7 @@
 /// Where particles are kept: in the order of their cells in memory, and on the rank that owns the
 /// cell; and what each rank keeps of the ground in a checkpoint.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -59,7 +60,9 @@ class ParticleDistribution {
   void rebalance();
   void send_along(int axis, ParticleGroup& group);
   Partition::Counts count_in_layers() const;
-  void sort_by_cell(ParticleGroup& group);
+  /// @param of_last_sorting  by the cells of then, which a particle may have left; else by places
+  void sort_by_cell(ParticleGroup& group, bool of_last_sorting);
+  std::array<int, 3> cell_of(double number) const;  ///< that a particle keeps
 
   Discretisation& discretisation_;
   Boundary& boundary_;

@@ -94,6 +94,12 @@ void Particles::checkpoint_columns(Checkpoint& state) {
   }
 }
 
+std::size_t Particles::place_in_record(std::size_t column) {
+  std::size_t place = 0;
+  for (std::size_t c = 0; c < column; ++c) place += static_cast<std::size_t>(components_of(c));
+  return place;
+}
+
 std::size_t Particles::record_length() const {
   std::size_t length = 0;
   for_each_column([&](const Column& c) { length += static_cast<std::size_t>(c.components); });

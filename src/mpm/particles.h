@@ -90,6 +90,8 @@ class Particles {
 
   std::size_t size() const { return size_; }
   std::size_t record_length() const;  ///< numbers of one particle
+  /// Place of a column's first number in a record.
+  static std::size_t place_in_record(std::size_t column);
   double* data(std::size_t column) { return columns_[column].values.data(); }
   const double* data(std::size_t column) const { return columns_[column].values.data(); }
   Vector3 position(std::size_t i) const { return vector(column::x, i); }
