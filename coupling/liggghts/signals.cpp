@@ -71,7 +71,7 @@ void stop(int signal) {
       say(makes_bed
               ? "\nERROR: command bed was interrupted while it made the bed, which is not kept; "
                 "start the script again\n"
-              : "\nERROR: the script was interrupted before its first run; start it again\n");
+              : "\nThe script was interrupted before its first run; start it again\n");
     _exit(128 + signal);
   }
   if (stop_wanted) {

@@ -29,7 +29,7 @@ CHANGES = {
     "../": f"{INPUTS}/",
     "+0.372+0.002": "+0.3725",
     "settle_time 0.4 accelerate_time 0.2":
-        "settle_time 0.02 load_ramp_time 0.005 accelerate_time 0.02",
+        "settle_time 0.02 load_ramp_time 0.005 accelerate_time 0.02 release in_air",
     "every 50 vtk ${vtk}": "every 20",
     "run             ${steps}": f"run             {STEPS}",
 }
