@@ -251,7 +251,6 @@ void ParticleDistribution::check_numbers(RankNumbers& numbers, const Saved& save
 /// Takes the particles whose cell, that of the last sorting, belongs to this rank.
 void ParticleDistribution::read_particles(RankNumbers& numbers, const Saved& saved,
                                           std::size_t rank, bool all) {
-  const Grid& grid = discretisation_.grid;
   const Partition& partition = discretisation_.partition;
   std::uint64_t first = 0;
   std::vector<double> chunk;
