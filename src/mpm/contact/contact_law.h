@@ -5,9 +5,7 @@
 /// A law is a class like PenaltyLaw:
 ///   static constexpr const char* name, *meaning;   // for keyword 'enforcement' and its page
 ///   explicit Law(const ContactParameters&);
-///   // to the step of this terrain; @throws InputError when the law cannot work on it; `where`
-///   names
-///   // the contact
+///   // to the step of this terrain; @throws InputError when it cannot; `where`: the contact
 ///   void fit(const TerrainParameters&, const std::string& where);
 ///   // for every touching particle in each step: the stiffness of its springs
 ///   void update_stiffness(const ParticleGroup&, std::size_t particle, ContactHistory&,

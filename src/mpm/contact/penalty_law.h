@@ -35,7 +35,8 @@ class PenaltyLaw {
                 ContactLosses& losses) const;
 
  private:
-  /// Twice as much changes hub drop, pull and torque of a wheel by less than 1 %.
+  /// Twice as much changes hub drop, pull and torque of a wheel on sand by less than their errors
+  /// over time (inputs/validation/convergence).
   static constexpr double usual_stiffness = 1.6;
 
   double largest_stiffness(const TerrainParameters& terrain, const std::string& where) const;
