@@ -143,7 +143,7 @@ TEST_F(HeightmapFile, ScansOffTheGridAreResampledWithTheirError) {
 TEST_F(HeightmapFile, PicturesGiveHeightsFromBlackToWhite) {
   const auto number = [](std::uint32_t value, int bytes) {
     std::string text;
-    for (int n = 0; n < bytes; ++n) text += static_cast<char>(value >> (8 * n) & 255u);
+    for (int n = 0; n < bytes; ++n, value >>= 8) text += static_cast<char>(value & 255u);
     return text;
   };
   std::string bmp = "BM" + number(54 + 24, 4) + number(0, 4) + number(54, 4) + number(40, 4) +
