@@ -101,8 +101,8 @@ void print_verdicts(LAMMPS_NS::LAMMPS& lammps) {
   const std::vector<FixWheelHistory*> histories = fixes_of<FixWheelHistory>(*lammps.modify);
   for (const FixWheelHistory* history : histories)
     if (!history->verdict().empty())
-      fmt::print(lammps.screen, "\nSummary: {}/summary.txt\n{}\n", history->folder(),
-                 history->verdict());
+      fmt::print(lammps.screen, "\nSummary: {0}/summary.txt\n{1}{2}\n", history->folder(),
+                 error_note(history->folder()), history->verdict());
 }
 
 GroundLosses FixWheelHistory::ground_losses() {

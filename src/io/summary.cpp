@@ -86,11 +86,7 @@ std::string steady_table(const Resistance& r) {
                  : v.independent_samples < static_cast<double>(SteadyCriteria{}.min_blocks)
                      ? "steady, hardly changes"
                      : fmt::format("steady, {:.0f} independent samples", v.independent_samples));
-  text +=
-      "\n  ± is one standard error of the mean over time (block averages). It does not hold the "
-      "influence of cell or\n"
-      "  grain size, box or packing: compare runs for that.\n";
-  return text;
+  return text + "\n  ± is one standard error of the mean over time (block averages).\n";
 }
 
 std::string passes_table(const std::vector<Resistance>& passes) {
@@ -209,16 +205,23 @@ std::string verdict_of(const Summary& s) {
   const bool steady = answer.steady && drop.steady && s.resistance.window.warning.empty();
   const std::string text = (steady ? "steady, " : "not steady, ") + value_text(answer);
   const std::string both = text + ", " + value_text(drop), of_time = "; ± over time";
-  for (const std::string& whole : {both + of_time, both, text + of_time})
-    if (characters(whole) <= longest_verdict) return whole;
-  return text;
+  return (characters(both + of_time) <= longest_verdict ? both : text) + of_time;
+}
+
+std::string error_note(const std::string& folder) {
+  return fmt::format(
+      "± is over time alone, without cells or grains, ground, packing, material and model.\n"
+      "With them: furrow-post budget {}\n",
+      folder);
 }
 
 std::string summary_text(const Summary& s) {
   std::string text = fmt::format("{}\n{}\n\n", s.info.title, std::string(s.info.title.size(), '='));
   if (!s.closed)
     text += "THE RUN DID NOT COME TO ITS END: what follows is what there was when it stopped.\n\n";
-  text += verdict_head + verdict_of(s) + "\n\n";
+  text += verdict_head + verdict_of(s) + "\n";
+  if (s.trouble.empty()) text += error_note("FOLDER");
+  text += "\n";
   text += s.trouble.empty() ? answer_table(s.resistance) + "\n" + steady_table(s.resistance) +
                                   passes_table(s.passes) + parts_table(s.resistance.parts)
                             : fmt::format("No steady values: {}\n", s.trouble);

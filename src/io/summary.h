@@ -32,9 +32,13 @@ struct Summary {
 /// @throws Error when the file is missing or cannot be read
 Summary summarise(const std::string& folder, const ResistanceOptions& options = {});
 
-/// At most 91 characters: the value that the run was made for and the hub drop, with their errors,
-/// and whether they are steady. The summary's line "Verdict: ..." has at most 100.
+/// At most 91 characters: the value that the run was made for and the hub drop, with their errors
+/// over time, and whether they are steady. The summary's line "Verdict: ..." has at most 100.
 std::string verdict_of(const Summary& summary);
+
+/// Two lines: what is not in these errors, and the command that adds it.
+std::string error_note(const std::string& folder);
+
 std::string summary_text(const Summary& summary);
 std::string summary_json(const Summary& summary);
 

@@ -6,6 +6,7 @@
 namespace furrow::summary_test {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -46,6 +47,17 @@ TEST(Summary, VerdictIsOneShortLineBeforeTheValues) {
   EXPECT_THAT(text, HasSubstr("Not steady\n  net traction coefficient: it drifts by 0.08"));
 }
 
+TEST(Summary, ErrorOverTimeNamesWhatItLeavesOut) {
+  const std::string note = error_note("results/a");
+  EXPECT_THAT(note, HasSubstr("without cells or grains, ground, packing, material and model"));
+  EXPECT_THAT(note, HasSubstr("furrow-post budget results/a\n"));
+  const std::string text = summary_text(summary());
+  EXPECT_LT(text.find(error_note("FOLDER")), text.find("Window: "));
+  Summary none;
+  none.trouble = "the wheel digs in";
+  EXPECT_EQ(summary_text(none).find("over time"), std::string::npos);
+}
+
 TEST(Summary, VerdictNamesValuesOfTheSummary) {
   for (const bool driven : {true, false}) {
     Summary each = summary();
@@ -66,6 +78,7 @@ TEST(Summary, VerdictHasAtMost91Characters) {
   }
   EXPECT_LE(verdict_of(tiny).size(), 91u + 3u);  // bytes: each ± has two
   EXPECT_THAT(verdict_of(tiny), HasSubstr("net traction coefficient"));
+  EXPECT_THAT(verdict_of(tiny), EndsWith("; ± over time"));
   Summary none;
   none.trouble =
       "the wheel digs in: it sinks from 0.1 to 0.3 m over the second half of the cruise; "
