@@ -4,7 +4,7 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 
-from furrow_post.analyse.cost_table import Components
+from furrow_post.analyse.budget import Budget
 from furrow_post.analyse.entry import FORMULA, BEST, MEASURED, RUN, Entry
 from furrow_post.analyse.judgement import judge
 from furrow_post.analyse.plates import pressure_at
@@ -45,7 +45,7 @@ def line_of(
         "kind": entry.kind,
         "element": known(element),
         "value": known(entry.value),
-        **{f"error_{name}": known(entry.parts.part(name)) for name in Components.NAMES},
+        **{f"error_{name}": known(entry.parts.part(name)) for name in Budget.NUMERICAL},
         "cpu_time": known(entry.cpu_time),
         "program": program,
     }
@@ -54,17 +54,17 @@ def line_of(
 def number_line(case: str, place: str, quantity: str, value: float) -> OutputRow:
     """A number on the case that is of no one ground."""
     nothing = dict.fromkeys(
-        ("source", "element", *(f"error_{name}" for name in Components.NAMES), "cpu_time"), ""
+        ("source", "element", *(f"error_{name}" for name in Budget.NUMERICAL), "cpu_time"), ""
     )
     own = {"case": case, "place": place, "quantity": quantity, "kind": "difference"}
     return {**own, **nothing, "value": known(value), "program": ""}
 
 
 def entry_of(line: Mapping[str, str]) -> Entry:
-    parts = {name: number(line[f"error_{name}"]) for name in Components.NAMES}
+    parts = [number(line[f"error_{name}"]) for name in Budget.NUMERICAL]
     quantity = quantity_of(line["quantity"])
     value = number(line["value"])
-    return Entry(quantity, line["source"], value, Components(**parts), line["kind"])
+    return Entry(quantity, line["source"], value, Budget(*parts), line["kind"])
 
 
 def number(text: str) -> float:

@@ -11,7 +11,7 @@ from lines import OutputRow, line_of
 from wheel_cases import BEKKER
 
 from furrow_post.analyse import curves, plates
-from furrow_post.analyse.cost_table import Components
+from furrow_post.analyse.budget import Budget
 from furrow_post.analyse.curves import Curve
 from furrow_post.analyse.entry import FORMULA, MEASURED, Entry
 from furrow_post.analyse.terrain_values import terrain
@@ -55,7 +55,7 @@ class PlateCase:
     def formulas(self, level: float) -> Iterator[Entry]:
         for line in self.formula_lines():
             pressure = float(np.interp(level, line.x, line.y))
-            yield Entry(plates.pressure_at(level), line.label, pressure, Components(), FORMULA)
+            yield Entry(plates.pressure_at(level), line.label, pressure, Budget(), FORMULA)
 
     def formula_lines(self) -> list[Line]:
         """On sand; b of a round plate is its radius."""
@@ -75,7 +75,7 @@ class PlateCase:
         for row in read_numbers(MEASURED_PLATE):
             if math.isclose(row["sinkage_m"], level):
                 pressure = row["peak_load_N"] / (0.25 * math.pi * row["diameter_m"] ** 2)
-                yield Entry(plates.pressure_at(level), MEASURED, pressure, Components(), MEASURED)
+                yield Entry(plates.pressure_at(level), MEASURED, pressure, Budget(), MEASURED)
 
     def draw(self, output: Output) -> None:
         result = curves.compare_curves(

@@ -16,7 +16,8 @@ import numpy as np
 from cases import BASE, SERIES, Made, Planned
 from lines import OutputRow, entry_of, line_of, series_value
 
-from furrow_post.analyse.cost_table import Components, Row, row_of
+from furrow_post.analyse.budget import Budget
+from furrow_post.analyse.cost_table import Row, row_of
 from furrow_post.analyse.entry import BEST, RUN, Entry
 from furrow_post.analyse.grid_convergence import same_size
 from furrow_post.analyse.verdict import COVERAGE, HUB_DROP, QUANTITIES
@@ -50,7 +51,7 @@ def lines_of_series(
         for quantity in QUANTITIES:
             limit, run = (own[kind, planned.ground, quantity.key] for kind in (BEST, RUN))
             value, error = row.value(quantity.key)
-            parts = Components(time=error)
+            parts = Budget(time=error)
             point = Entry(quantity, planned.ground, value, parts, RUN, cpu_time=row.cpu_time)
             yield point_line(planned, point, row.size, made)
             yield point_line(planned, moved(limit, row, twin, run.parts.packing), row.size, made)
@@ -82,7 +83,7 @@ def moved(base: Entry, row: Row, twin: Row, packing: float) -> Entry:
     (value, error), (own, own_error) = row.value(base.quantity.key), twin.value(base.quantity.key)
     if base.quantity == HUB_DROP:
         ratio = value / own
-        parts = Components(
+        parts = Budget(
             base.value * ratio * float(np.hypot(error / value, own_error / own)),
             base.parts.size * ratio,
             base.parts.domain * ratio,

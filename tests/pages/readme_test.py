@@ -13,7 +13,7 @@ LINKS = {
     "slopes": "inputs/guide/howto/slopes_and_angles.md",
     "own wheel": "inputs/guide/howto/own_wheel.md",
     "own soil": "inputs/guide/tutorials/4_soil_from_tests.md",
-    "How accurate is my case?": "inputs/validation/README.md#how-accurate-is-my-case",
+    "How accurate is my answer?": "inputs/validation/README.md#how-accurate-is-my-answer",
 }
 
 

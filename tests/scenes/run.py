@@ -7,6 +7,7 @@
     run.py sweep <results>                      the page of sweeps, one of them killed and resumed
     run.py until_steady <results>               a run that goes on until it is steady
     run.py error <results>                      two runs for an error that none alone reaches
+    run.py converge <results>                   two sizes of a scene, and a later run that takes their error
     run.py usage                                the list of scenes, and what inputs/run refuses
 
 The head of a script says what is run and what must come out, in SI units:
@@ -110,9 +111,24 @@ def check_verdict(folder, said):
             sys.exit(f"the last line is no verdict of at most 100 characters: '{last}'\n{text}")
     if f"\nVerdict: {verdict}\n" not in screen.rpartition("Loop time")[2]:  # of several wheels not the last one
         sys.exit(f"LIGGGHTS hides '{verdict}':\n{screen}")
+    check_errors(folder, said)
     for name in re.findall(r", ([a-z ]+) -?\d", verdict.partition(";")[0]):
         if f"\n  {name} " not in summary:
             sys.exit(f"the verdict names '{name}', which the summary does not list:\n{summary}")
+
+
+def check_errors(folder, said):
+    """No error on the screen is smaller than the known parts that budget.json has of it."""
+    if not (folder / "budget.json").is_file():  # a run without steady values
+        return
+    for name, quantity in json.loads((folder / "budget.json").read_text()).items():
+        factor = {"m": 1e3, "": 100 if name == "slip" else 1}.get(quantity["unit"], 1)
+        whole = factor * sum((part or 0) ** 2 for part in quantity["parts"].values()) ** 0.5
+        for shown in re.findall(rf"^ +{name.replace('_', ' ')} +\S+ ± (\S+)", said, re.MULTILINE):
+            if float(shown) < 0.8 * whole:  # rounding: 2 of 2.49
+                sys.exit(f"{name} is shown with ± {shown}, and its known parts are {whole:.3g}:\n{said}")
+    if not re.search(r"^  hub drop +\S+ ", said, re.MULTILINE):
+        sys.exit(f"the screen has no hub drop with its error:\n{said}")
 
 
 def two_grounds(results):
@@ -246,6 +262,23 @@ def error(results):
             sys.exit(f"it does not say '{text}':\n{said}")
 
 
+def converge(results):
+    """Two sizes are stored next to the results of the scene; a later run takes the error of its cells from them."""
+    folder = empty(results)
+    given = ["-v", "distance", "0.6", "-v", "vtk", "0"]
+    said = run([sys.executable, PROJECT / "postproc" / "furrow-post", "converge", "wheel_on_snow", "-v", "cell", "0.0667", *given,
+                "--ratio", "1.25", "--sizes", "2", "-o", folder / "sizes"], folder=folder)
+    stored = json.loads((folder / "wheel_on_snow.convergence.json").read_text())
+    if [round(size, 3) for size in stored["sizes"]] != [0.067, 0.083] or "fewer than three sizes" not in said:
+        sys.exit(f"two sizes give {stored}:\n{said}")
+    said = inputs_run("wheel_on_snow", "-v", "cell", "0.0667", *given, "--no-pictures", "-o", folder / "later")
+    part = json.loads((folder / "later" / "budget.json").read_text())["hub_drop"]["parts"]["size"]
+    fine, coarse = (value for value, _ in stored["quantities"]["hub_drop"])
+    bound = 1.5 * abs(coarse - fine) / 0.25  # half of Roache's index of two sizes
+    if not bound <= part <= 1.05 * bound + 1e-5 or "cells: wheel_on_snow.convergence.json: cells of 83.4, 66.7 mm" not in said:
+        sys.exit(f"the later run has {part} m of cells, not {bound}:\n{said}")
+
+
 def refused(words):
     """(status, what is said) of the program that inputs/run becomes."""
     said = io.StringIO()
@@ -292,5 +325,5 @@ def usage():
 
 if __name__ == "__main__":
     tests = {"scene": scene, "two_grounds": two_grounds, "laboratory": laboratory, "usage": usage,
-             "sweep": sweep, "until_steady": until_steady, "error": error}
+             "sweep": sweep, "until_steady": until_steady, "error": error, "converge": converge}
     tests[sys.argv[1]](*sys.argv[2:])

@@ -11,7 +11,7 @@ import numpy as np
 from ..csv_table import in_cells, write_rows
 from ..formatting import duration, in_unit, with_error
 from .comparison import Comparison, overall, overall_of_best_estimates
-from .cost_table import Components
+from .budget import Budget
 from .density import sections
 from .entry import RUN, Entry
 from .judgement import remedies
@@ -37,30 +37,27 @@ def table_rows(result: Comparison) -> list[Line]:
     """Lines of compare.csv: texts and SI numbers."""
     lines: list[Line] = []
     for e in result.entries:
-        parts = e.parts if e.of_run else Components()
+        parts = e.parts if e.of_run else Budget()
         line = _line(e.quantity.name, e.source, e.kind, e.value, e.uncertainty, parts)
         lines.append({**line, "cpu_time": e.cpu_time, "note": e.note})
     for label, (value, error) in result.tracks.items():
-        parts = Components(time=error)
+        parts = Budget(time=error)
         lines.append(_line("density under the track", label, RUN, value, error, parts))
     return lines
 
 
 def _line(
-    quantity: str, source: str, kind: str, value: float, uncertainty: float, parts: Components
+    quantity: str, source: str, kind: str, value: float, uncertainty: float, parts: Budget
 ) -> Line:
     named: Line = {"quantity": quantity, "source": source, "kind": kind}
     named |= {"value": value, "uncertainty": uncertainty}
-    named |= {f"u_{name}": parts.part(name) for name in Components.NAMES}
+    named |= {f"u_{name}": parts.part(name) for name in Budget.NAMES}
     return {**named, "cpu_time": math.nan, "note": ""}
 
 
-def component_cells(entry: Entry) -> list[str]:
-    """Parts of an entry's uncertainty in its unit, "?" for what is not known; empty for others."""
-    if not entry.of_run:
-        return [""] * len(Components.NAMES)
-    scale = entry.quantity.scale
-    return [f"{scale * p:.2g}" if math.isfinite(p) else "?" for p in entry.parts.parts()]
+def parts_cell(entry: Entry) -> str:
+    """Parts of an entry's uncertainty in its unit, and what is unknown; empty for others than runs."""
+    return entry.parts.scaled(entry.quantity.scale).parts_text() if entry.of_run else ""
 
 
 def comparison_report(result: Comparison) -> str:
@@ -76,14 +73,11 @@ def comparison_report(result: Comparison) -> str:
         for run in result.runs
     ]
     for quantity in QUANTITIES:
-        columns = f"{'of which time':>13} {'size':>8} {'domain':>8} {'packing':>8}   cost"
-        lines += ["", quantity.label, f"  {'':{wide}}  {'':18} {columns}"]
-        for e in result.of(quantity):
-            time, size, domain, packing = component_cells(e)
-            lines.append(
-                f"  {e.label:{wide}}  {e.text():18} {time:>13} {size:>8} {domain:>8} {packing:>8}"
-                f"   {duration(e.cpu_time):9}{e.note}".rstrip()
-            )
+        lines += ["", f"  {quantity.label:{wide}}  {'':18} {'cost':9}parts of the error"]
+        lines += [
+            f"  {e.label:{wide}}  {e.text():18} {duration(e.cpu_time):9}{', '.join(filter(None, [parts_cell(e), e.note]))}".rstrip()
+            for e in result.of(quantity)
+        ]
     if result.tracks:
         lines += ["", f"density under the track{in_unit('kg/m3')}"]
         lines += [
@@ -91,8 +85,7 @@ def comparison_report(result: Comparison) -> str:
         ]
     lines += [
         "",
-        "± is one standard error, from the parts that are known; '?' is not known. Verdicts allow "
-        "two.",
+        "± is one standard error, from the parts that are known. Verdicts allow two.",
     ]
     if result.differences:
         lines += ["", "COMPARED ALTHOUGH CONDITIONS DIFFER"]

@@ -14,7 +14,8 @@ from ..errors import ResultsError
 from ..formatting import duration
 from ..read.wheel_run import cells_or_grains
 from . import cost_table
-from .cost_table import QUANTITY_KEYS, Components, FamilyKey, Row
+from .budget import Budget
+from .cost_table import QUANTITY_KEYS, FamilyKey, Row
 
 ByQuantity = dict[str, float]  # key of a quantity -> number
 
@@ -41,7 +42,7 @@ class Assessed(HasErrors):
 
     row: Row
     errors: ByQuantity  # relative, NaN: not known
-    parts: dict[str, Components]  # in the quantity's unit
+    parts: dict[str, Budget]  # in the quantity's unit
     references: ByQuantity  # best estimates of the wanted wheel
     reference_errors: ByQuantity  # their standard errors, of standing in too
     orders: ByQuantity  # of the family's extrapolation to zero size; NaN where there is none
@@ -248,6 +249,6 @@ def write_csv(path: Path, assessed: Sequence[Assessed]) -> None:
         row |= {"size_m": a.row.size, "cpu_time_s": a.row.cpu_time, "pareto": int(a.pareto)}
         row |= {f"error_{key}": a.errors[key] for key in QUANTITY_KEYS}
         for key in QUANTITY_KEYS:
-            row |= {f"{key}_{part}": a.parts[key].part(part) for part in Components.NAMES}
+            row |= {f"{key}_{part}": a.parts[key].part(part) for part in Budget.NUMERICAL}
         rows.append(in_cells(row, 6))
     write_rows(path, rows, ["# relative numerical errors, CPU seconds of one core; empty: not known"])

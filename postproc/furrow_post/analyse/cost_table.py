@@ -13,11 +13,12 @@ import shlex
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 from ..csv_table import read_comments, read_rows, write_rows
 from ..errors import ResultsError, content_of
 from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun
+from .budget import Budget
 from .grid_convergence import (
     Convergence,
     grid_convergence,
@@ -140,41 +141,6 @@ def write_table(path: Path, rows: Iterable[Row], comments: Sequence[str] = ()) -
     write_rows(path, texts, comments)
 
 
-@dataclass(frozen=True)
-class Components:
-    """Parts of an uncertainty: standard deviations in the quantity's unit; NaN: unknown."""
-
-    time: float = math.nan
-    size: float = math.nan
-    domain: float = math.nan
-    packing: float = math.nan
-
-    NAMES: ClassVar[tuple[str, ...]] = ("time", "size", "domain", "packing")
-
-    def part(self, name: str) -> float:
-        value: float = getattr(self, name)
-        return value
-
-    def parts(self) -> list[float]:
-        """In the order of NAMES."""
-        return [self.part(name) for name in self.NAMES]
-
-    @property
-    def known(self) -> list[str]:
-        return [name for name in self.NAMES if math.isfinite(self.part(name))]
-
-    @property
-    def unknown(self) -> list[str]:
-        return [name for name in self.NAMES if not math.isfinite(self.part(name))]
-
-    @property
-    def total(self) -> float:
-        """Root of the sum of the squares of what is known; NaN where nothing is."""
-        if not self.known:
-            return math.nan
-        return math.sqrt(sum(self.part(name) ** 2 for name in self.known))
-
-
 class Family:
     """The rows of one family; its bases differ in size alone."""
 
@@ -238,7 +204,7 @@ class Family:
         ]
         return max((shift for shift in shifts if math.isfinite(shift)), default=math.nan)
 
-    def components(self, key: str, size: float, time_error: float = math.nan) -> Components:
+    def components(self, key: str, size: float, time_error: float = math.nan) -> Budget:
         """Parts of the error of a run of this size [m].
 
         That of the size is its distance from the best estimate and the error of that, or more
@@ -248,7 +214,7 @@ class Family:
         of_size = math.nan
         if series:
             of_size = max(series.size_error(size), self._beyond_noise(key, size, series.value))
-        return Components(time_error, of_size, self.domain_error(key), self.packing(key))
+        return Budget(time_error, of_size, self.domain_error(key), self.packing(key))
 
     def _beyond_noise(self, key: str, size: float, best: float) -> float:
         """How far the base of this size is from the best estimate, less what noise explains."""
@@ -269,7 +235,7 @@ class Family:
 
     def best_estimate(
         self, key: str, size: float, value: float, time_error: float
-    ) -> tuple[float, Components] | None:
+    ) -> tuple[float, Budget] | None:
         """What a run of this size [m] and value comes to, with the parts of its error.
 
         A run of the table comes to the family's best estimate, whose error has those of times and
@@ -280,7 +246,7 @@ class Family:
         if series is None:
             return None
         if any(math.isclose(row.value(key)[0], value, rel_tol=1e-5) for row in self._bases_of(size)):
-            return series.value, Components(0.0, series.error, self.domain_error(key), 0.0)
+            return series.value, Budget(0.0, series.error, self.domain_error(key), 0.0)
         parts = self.components(key, size, time_error)
         return value - (series.at(size) - series.value), replace(parts, size=series.error)
 

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Values that are compared: of runs, best estimates, of formulas; each with its uncertainty.
+"""Values that are compared: of runs, best estimates, of formulas; each with its whole error.
 
-Uncertainties are standard deviations: of the time average from the run itself; of the size of
-elements or grains, of the domain and of the packing from a table of runs of the scene
-(cost_table.py), which also gives the best estimate that each run comes to.
+Errors of runs are those of whole_error.py. A table of runs of the scene (cost_table.py) also gives the best
+estimate that each run comes to.
 """
 
 import math
@@ -11,10 +10,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..formatting import value_text
-from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun
-from .cost_table import Components, Family, FamilyKey
+from ..read.wheel_run import WheelRun
+from .budget import Budget
+from .cost_table import Family, FamilyKey
 from .prediction import Prediction
 from .verdict import QUANTITIES, Quantity
+from .whole_error import budgets
 
 # Kinds of entries; BEST: what a run comes to by the sizes of its family (grid_convergence.py)
 RUN, BEST, FORMULA, MEASURED = "run", "best estimate", "formula", "measured"
@@ -28,7 +29,7 @@ class Entry:
     quantity: Quantity
     source: str  # label of a run, name of a formula, "measured"
     value: float
-    parts: Components
+    parts: Budget
     kind: str  # RUN, BEST, FORMULA, MEASURED
     note: str = ""
     cpu_time: float = math.nan
@@ -51,11 +52,11 @@ class Entry:
 
     @property
     def unknown(self) -> list[str]:
-        """Parts of its uncertainty that are not known."""
+        """Parts of its numerical uncertainty that are not known."""
         if not self.of_run:
             return []
-        moving = [] if self.steady or "time" in self.parts.unknown else ["time"]
-        return [*moving, *self.parts.unknown]
+        missing = [name for name in self.parts.NUMERICAL if name in self.parts.unknown]
+        return missing if self.steady or "time" in missing else ["time", *missing]
 
     def text(self) -> str:
         """The value with its uncertainty in the unit of the quantity."""
@@ -63,23 +64,13 @@ class Entry:
         return value_text(scale * self.value, scale * self.uncertainty)
 
 
-def parts_without_table(run: WheelRun, time: float) -> Components:
-    """Parts of an error that a run knows by itself: nothing in cells is random, a road has no end."""
-    road = run.ground == "none"
-    packing = 0.0 if road or run.ground in GROUNDS_OF_CELLS else math.nan
-    return Components(time=time, domain=0.0 if road else math.nan, packing=packing)
-
-
 def entries_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[Entry]:
-    """Each quantity of a run, with the parts of its error that a table's families know."""
+    """Each quantity of a run with its whole error. families: of a table of runs of the scene, may be empty"""
     entries = []
-    family = families.get(FamilyKey(run.ground, run.model, run.wheel))
+    errors = budgets(run, families)
     for quantity in QUANTITIES:
         value = run.values[NAME_IN_RUN[quantity.key]]
-        if family:
-            parts = family.components(quantity.key, run.size, value.standard_error)
-        else:
-            parts = parts_without_table(run, value.standard_error)
+        parts = errors[NAME_IN_RUN[quantity.key]]
         note = "" if value.steady else "not called steady"
         entries.append(Entry(quantity, run.label, value.mean, parts, RUN, note, run.cpu_time, value.steady))
     return entries
@@ -111,7 +102,7 @@ def formula_entries(prediction: Prediction) -> list[Entry]:
             quantity,
             prediction.method,
             value,
-            Components(time=scatter) if scatter > 0 else Components(),
+            Budget(time=scatter) if scatter > 0 else Budget(),
             FORMULA,
             note,
         )

@@ -78,7 +78,7 @@ def _assessed_pair(coarse: Assessed, fine: Assessed) -> Pair:
         reference, parts = fine.references[key], fine.parts[key]
         value, time_error = pair.at_size_zero(key, coarse.row.value(key), fine.row.value(key))
         _, packing_error = pair.at_size_zero(key, (0.0, parts.packing), (0.0, parts.packing))
-        # what is not known counts as in Components.total
+        # what is not known counts as in Budget.total
         known = [e for e in (packing_error, parts.domain) if math.isfinite(e)]
         total = math.hypot(value - reference, fine.reference_errors[key], time_error, *known)
         resolved = math.isfinite(fine.errors[key])

@@ -10,7 +10,7 @@ import numpy as np
 from ..csv_table import read_numbers
 from ..errors import ResultsError
 from ..read.wheel_run import WheelRun
-from .cost_table import Components
+from .budget import Budget
 from .entry import MEASURED, Entry
 from .verdict import QUANTITIES
 
@@ -84,6 +84,6 @@ def measured_entries(path: Path, run: WheelRun) -> list[Entry]:
         (measured.coefficient, measured.coefficient_scatter),
     )
     return [
-        Entry(quantity, MEASURED, value, Components(time=scatter), MEASURED, note)
+        Entry(quantity, MEASURED, value, Budget(time=scatter), MEASURED, note)
         for quantity, (value, scatter) in zip(QUANTITIES, values)
     ]

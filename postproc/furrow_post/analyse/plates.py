@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .cost_table import Components
+from .budget import Budget
 from .curves import Curve
 from .entry import BEST, RUN, Entry
 from .grid_convergence import grid_convergence, mean_shift, noise_of, pooled_scatter, same_size
@@ -74,10 +74,10 @@ class PlateFamily:
             series = grid_convergence(sizes, [log for _, log in runs], noise)
             size = series.size_error(self.base.size)
             estimate = math.exp(series.value)
-            parts = Components(0.0, estimate * series.error, estimate * domain, 0.0)
+            parts = Budget(0.0, estimate * series.error, estimate * domain, 0.0)
             best = [Entry(quantity, self.base.label, estimate, parts, BEST)]
         relative = (self.noise[id(self.base)], size, domain, packing)
-        parts = Components(*(value * error for error in relative))
+        parts = Budget(*(value * error for error in relative))
         return [Entry(quantity, self.base.label, value, parts, RUN), *best]
 
 

@@ -5,11 +5,11 @@ numbers."""
 from pathlib import Path
 
 from ..analyse.displacement import displacements
+from ..analyse.whole_error import headline
 from ..errors import ResultsError
 from ..figures.terrain_figure import draw_terrain
 from ..figures.terrain_stress_figure import draw_stress
 from ..read.results import Results
-from ..run.summary import Summary
 from ..read.terrain import Outline, Terrain, read_terrain_fields
 from .parameters import Given, command, output_options, pixels_option, results_argument, target
 
@@ -27,7 +27,7 @@ def terrain_(given: Given) -> None:
     has_history = (folder / "history.h5").is_file()
     title = Results(folder).title if has_history else folder.resolve().name
     file = target(given, folder, "terrain")
-    numbers = Summary(folder).line()
+    numbers = headline(folder)
     print(draw_terrain(folder, title, numbers, file, given.pixels).report())
     terrain = Terrain.read(folder)
     body = Outline(folder, terrain)

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..analyse.wheel_histories import Stage
+from ..analyse.whole_error import budgets_of, headline
 from ..arrays import Floats
 from ..errors import ResultsError
 from ..formatting import with_error
@@ -66,7 +67,7 @@ def draw_histories(results: Results, target: Path, against: str = "time") -> Non
     @raises ResultsError where it is not one of a wheel on a rig
     """
     use_style()
-    summary = Summary(results.folder)
+    summary, errors = Summary(results.folder), budgets_of(results.folder)
     wanted = ["time", against, *(name for panel in PANELS for name, _ in panel.channels), "stage"]
     missing = [name for name in wanted if name not in (*results.columns, *OF_TYRES)]
     if missing:
@@ -89,14 +90,15 @@ def draw_histories(results: Results, target: Path, against: str = "time") -> Non
         columns = [column for column, _ in drawn]
         for (column, legend), style in zip(drawn, LINE_STYLES):
             axes.plot(abscissa, panel.scale * column, style, lw=1.0, alpha=0.85, label=legend)
-        if summary.window:
-            _mark_steady(axes, summary, panel, np.interp(summary.window, time, abscissa))
+        if summary.window and panel.quantity in errors:
+            whole = errors[panel.quantity].total
+            _mark_steady(axes, summary, panel, np.interp(summary.window, time, abscissa), whole)
         axes.set_ylabel(f"{panel.title} [{panel.unit}]")
         _limit_to_cruise(axes, panel.scale, columns, stage)
         axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
         axes.margins(x=0)
     all_axes[-1].set_xlabel("time [s]" if against == "time" else "x of the axle [m]")
-    line = "\n".join(textwrap.wrap(summary.line(), 100))
+    line = "\n".join(textwrap.wrap(headline(results.folder), 100))
     figure.suptitle(f"{results.title}\n{line}" if line else results.title, fontsize=10)
     save(figure, target)
 
@@ -123,13 +125,13 @@ def _shade_stages(axes: Axes, abscissa: Floats, stage: Floats, named: bool) -> N
             )
 
 
-def _mark_steady(axes: Axes, summary: Summary, panel: Panel, window: Floats) -> None:
-    """The mean over the steady window with its standard error; dashed where it was not steady."""
+def _mark_steady(axes: Axes, summary: Summary, panel: Panel, window: Floats, error: float) -> None:
+    """The mean over the steady window with its whole error; dashed where it was not steady."""
     value = summary.quantity(panel.quantity)
     if value is None:
         return
-    mean, error = panel.scale * value.mean, panel.scale * value.standard_error
-    state = "imposed" if value.imposed else "one standard error" if value.steady else "not steady"
+    mean, error = panel.scale * value.mean, panel.scale * error
+    state = "imposed" if value.imposed else "whole error" if value.steady else "not steady"
     axes.fill_between(window, mean - error, mean + error, color="C3", alpha=0.25, lw=0, zorder=3)
     axes.plot(
         window,

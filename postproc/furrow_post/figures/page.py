@@ -10,9 +10,10 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from ..analyse.comparison import Comparison, overall
-from ..analyse.comparison_report import component_cells, findings
+from ..analyse.comparison_report import findings, parts_cell
 from ..analyse.verdict import QUANTITIES
-from ..formatting import duration, in_unit, with_error
+from ..analyse.whole_error import budgets, headline
+from ..formatting import duration, in_unit
 from ..read.wheel_run import WheelRun
 from ..run.summary import Summary
 
@@ -62,7 +63,7 @@ def results_tables(result: Comparison) -> list[tuple[str, list[list[str]]]]:
     tables = []
     for quantity in QUANTITIES:
         rows = [
-            [e.label, e.text(), *component_cells(e), duration(e.cpu_time), e.note]
+            [e.label, e.text(), parts_cell(e), duration(e.cpu_time), e.note]
             for e in result.of(quantity)
         ]
         name = quantity.name[0].upper() + quantity.name[1:] + in_unit(quantity.unit)
@@ -94,11 +95,12 @@ def all_condition_rows(runs: Sequence[WheelRun]) -> list[list[str]]:
 def run_values(run: WheelRun, histories: Path) -> dict[str, Any]:
     """Conditions and values of one run. histories: its drawn histories"""
     summary = Summary(run.folder)
-    steady = []
+    steady, errors = [], budgets(run)
     for name, value in summary.quantities.items():
         known = summary.quantity(name)
-        number = with_error(known.mean, known.standard_error) if known else ""
-        steady.append([name.replace("_", " "), number, value["unit"], value.get("verdict", "")])
+        number = errors[name].value_text(known.mean) if known else ""
+        parts = errors[name].parts_text() if known else ""
+        steady.append([name.replace("_", " "), number, value["unit"], parts, value.get("verdict", "")])
     info = run.results.run
     facts = [[key, info[key]] for key in ("title", "version", "started", "ranks") if key in info]
     facts.append(["script", Path(info.get("script", "")).name])
@@ -109,7 +111,7 @@ def run_values(run: WheelRun, histories: Path) -> dict[str, Any]:
     rut = run.folder / "rut.png"
     return {
         "label": run.label,
-        "line": summary.line(),
+        "line": headline(run.folder),
         "rut": rut if rut.is_file() else None,
         "histories": histories,
         "steady": steady,

@@ -15,10 +15,10 @@ from typing import Any
 
 import numpy as np
 
+from ..analyse.whole_error import headline
 from ..arrays import Floats
 from ..errors import ResultsError
 from ..read.motion import Body, Cloud, Motion, Points, evenly_chosen
-from ..run.summary import Summary
 from .page import escaped, html_page
 from .ground_quantities import COLOURS, Quantity, quantities_of
 from .style import GROUND_COLOURS, MILLIMETRE
@@ -108,7 +108,7 @@ def view_section(motions: Sequence[Motion], labels: Sequence[str], largest: floa
 
 def result_line(motion: Motion) -> str:
     """Its values with their errors; empty for a run without the history of a wheel."""
-    return Summary(motion.folder).line()
+    return headline(motion.folder)
 
 
 def view_style() -> str:

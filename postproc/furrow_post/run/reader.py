@@ -9,10 +9,11 @@ import pandas as pd
 
 from ..errors import ResultsError, content_of
 from .record import FAILED, FINISHED, Record, read_record
-from .summary import Summary
+from .summary import Summary, whole_errors
 
 SET = "set_"  # before the name of a variable of the script
-ERROR, STEADY = "_error", "_steady"  # behind the name of a quantity: its standard error, whether it is steady
+# behind the name of a quantity: standard error over time, whole error where budget.json has it, whether it is steady
+ERROR, WHOLE, STEADY = "_error", "_whole_error", "_steady"
 FACTS = "facts.txt"  # names and values that a script of the laboratory writes
 COSTS = {"wall_time": "s", "cpu_time": "s", "ranks": ""}
 UNITS = "units"  # attribute of a table: column -> SI unit
@@ -38,7 +39,7 @@ def read_row(folder: Path) -> Row:
     if record:
         row.cells.update(_of_record(record))
     if not record or not record.error:
-        _add_quantities(row, Summary(folder))
+        _add_quantities(row, Summary(folder), whole_errors(folder))
         row.cells.update(_facts(folder / FACTS))
     if len(row.cells) == 1:
         raise ResultsError(f"{folder}: has no run that came to its end; start the run again")
@@ -70,12 +71,14 @@ def _value(text: str) -> Cell:
         return text
 
 
-def _add_quantities(row: Row, summary: Summary) -> None:
+def _add_quantities(row: Row, summary: Summary, whole: Mapping[str, float]) -> None:
     for name in summary.quantities:
         value = summary.quantity(name)
         if value:
             row.cells |= {name: value.mean, name + ERROR: value.standard_error, name + STEADY: value.steady}
-            row.units |= {column: value.unit for column in (name, name + ERROR) if value.unit}
+            row.cells |= {name + WHOLE: whole[name]} if name in whole else {}
+            columns = (name, name + ERROR, *([name + WHOLE] if name in whole else []))
+            row.units |= {column: value.unit for column in columns if value.unit}
 
 
 def _facts(path: Path) -> dict[str, Cell]:

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ResultsError, content_of
-from ..formatting import with_error
 from ..json_text import parse_json
 
 
@@ -33,6 +32,18 @@ class ResistanceParts:
 
 # quantity in files of earlier versions -> its name
 FORMER_NAMES = {"sinkage": "hub_drop", "drawbar_coefficient": "net_traction_coefficient"}
+
+
+BUDGET = "budget.json"  # whole errors with their parts, which furrow-post run writes
+
+
+def whole_errors(folder: Path) -> dict[str, float]:
+    """Quantity -> whole standard error; empty where none are stored. @raises ResultsError"""
+    path = folder / BUDGET
+    if not path.is_file():
+        return {}
+    with content_of(path, "write it again with 'furrow-post budget --write'"):
+        return {name: float(one["error"]) for name, one in parse_json(path.read_text(encoding="utf-8")).items()}
 
 
 class Summary:
@@ -79,6 +90,16 @@ class Summary:
             return SteadyValue(mean, error, str(value["unit"]), bool(value["steady"]), imposed)
 
     @property
+    def headline(self) -> list[str]:
+        """Names of the quantities that a run is made for. A towed wheel has no torque and a resistance coefficient, a
+        driven one has a net traction coefficient."""
+        torque = self.quantity("drive_torque")
+        towed = torque is None or not (torque.mean or torque.standard_error)
+        wanted = ("hub_drop", "tyre_deflection", "rut_depth", "resistance_coefficient" if towed else "net_traction_coefficient",
+                  "" if towed else "drive_torque", "slip")  # fmt: skip
+        return [name for name in wanted if self.quantity(name)]
+
+    @property
     def verdict(self) -> str:
         """One line; empty in files of earlier versions."""
         return str(self.content.get("verdict", ""))
@@ -101,29 +122,3 @@ class Summary:
                 return None
             forces = {str(name): float(force) for name, force in dict(found["parts"]).items()}
             return ResistanceParts(float(found["whole"]), forces, float(found["unexplained"]))
-
-    def line(self) -> str:
-        """For a title: "hub drop 15.8 ± 1.9 mm, resistance coefficient 0.330 ± 0.007, ...".
-
-        A towed wheel has no torque and a resistance coefficient, a driven one has a net traction
-        coefficient.
-        """
-        torque = self.quantity("drive_torque")
-        towed = torque is None or not (torque.mean or torque.standard_error)
-        coefficient = "resistance_coefficient" if towed else "net_traction_coefficient"
-        parts = []
-        for value, name, scale, unit in (
-            (self.quantity("hub_drop"), "hub drop", 1e3, " mm"),
-            (self.quantity("tyre_deflection"), "tyre deflection", 1e3, " mm"),
-            (self.quantity("rut_depth"), "rut depth", 1e3, " mm"),
-            (self.quantity(coefficient), coefficient.replace("_", " "), 1, ""),
-            (None if towed else torque, "torque", 1, " N m"),
-            (self.quantity("slip"), "slip", 100, " %"),
-        ):
-            if value:
-                error = 0.0 if value.imposed else value.standard_error
-                number = with_error(scale * value.mean, scale * error, short=True)
-                parts.append(f"{name} {number}{unit}{' imposed' if value.imposed else ''}")
-        if parts and not self.content.get("steady", False):
-            parts.append("not all steady, see summary.txt")
-        return ", ".join(parts)

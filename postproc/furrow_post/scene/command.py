@@ -22,7 +22,7 @@ from .scene_choice import Chosen, choose, outcome, table_of
 from .one import SceneRun, ranks_remark, require_folder, run_scenes, show, words_of
 from .options import called, require_fitting
 from .restart import Former, continuation, read_former
-from .scene_summary import verdict_line
+from .scene_summary import result_lines
 from .two_grounds import Post, run_two_grounds
 
 POST = "furrow-post"  # the first word of a formula's options in a table of errors
@@ -214,5 +214,4 @@ def _run_and_show(run: SceneRun, options: Any) -> None:
     if (run.folder / "history.h5").is_file():
         if not options.no_pictures:
             show(run.folder, options.quick)
-        print((run.folder / "summary.txt").read_text(encoding="utf-8"))
-        print(verdict_line(run.folder, options.quick))
+        print("\n".join(result_lines(run.folder, options.quick)))

@@ -3,12 +3,12 @@
 
 from pathlib import Path
 
+from ..analyse.whole_error import headline
 from ..figures.histories import draw_histories
 from ..figures.picture import draw_picture
 from ..figures.terrain_figure import draw_terrain
 from ..read.results import Results
 from ..read.terrain import terrain_file
-from ..run.summary import Summary
 
 PIXELS, QUICK_PIXELS = 1000, 500  # width of the view from behind
 
@@ -29,7 +29,7 @@ def draw_run(folder: Path, quick: bool) -> list[Path]:
 def draw_rut(results: Results, file: Path, pixels: int) -> None:
     """The rut in grains, or in a continuum without grains."""
     folder = results.folder
-    numbers = Summary(folder).line()
+    numbers = headline(folder)
     if results.has_grains or not terrain_file(folder).is_file():
         draw_picture(results, numbers, file, pixels)
     else:

@@ -87,7 +87,7 @@ def _evaluate(
 ) -> int:
     """Tables go beside the driver when they are complete, else into the results folder."""
     states = [executor.state(case) for case in study.cases]
-    complete = State.DONE in states and all(
+    complete = not states or State.DONE in states and all(
         state is State.DONE or (state is State.FAILED and case.may_fail)
         for case, state in zip(study.cases, states)
     )

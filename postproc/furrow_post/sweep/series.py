@@ -12,7 +12,8 @@ from ..read.wheel_run import WheelRun, read_wheel_run
 from ..run.process import SCREEN
 from ..run.record import FAILED, FINISHED
 from .sweep_plan import Plan, read_plan
-from .sweep_quantities import Families, Value, quantities
+from ..analyse.whole_error import Families
+from .sweep_quantities import Value, quantities
 
 WARNED = "WARNING: run_until_steady: "
 

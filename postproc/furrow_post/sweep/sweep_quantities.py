@@ -12,17 +12,15 @@ of the packing; the packing's part is what the time averages leave of it.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..analyse.cost_table import Components, Family, FamilyKey
-from ..analyse.entry import NAME_IN_RUN, entries_of_run
+from ..analyse.budget import Budget
+from ..analyse.whole_error import Families, budgets
 from ..run.summary import Summary
-from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun
-
-Families = Mapping[FamilyKey, Family]
+from ..read.wheel_run import WheelRun
 
 
 @dataclass(frozen=True)
@@ -31,7 +29,7 @@ class Value:
 
     mean: float
     unit: str
-    parts: Components
+    parts: Budget
     steady: bool = True
     imposed: bool = False  # an input of the run, without an error
 
@@ -49,34 +47,19 @@ def quantities(runs: Sequence[WheelRun], families: Families) -> dict[str, Value]
 
 
 def _of_run(run: WheelRun, families: Families) -> dict[str, Value]:
-    packing = 0.0 if run.ground in (*GROUNDS_OF_CELLS, "none") else math.nan
     summary = Summary(run.folder)
-    found: dict[str, Value] = {}
-    for name in summary.quantities:
-        steady = run.values.get(name) or summary.quantity(name)
-        if steady:
-            parts = Components(time=steady.standard_error, packing=packing)
-            found[name] = Value(steady.mean, steady.unit, parts, steady.steady, steady.imposed)
-    for entry in entries_of_run(run, families):
-        name = NAME_IN_RUN[entry.quantity.key]
-        found[name] = replace(found[name], mean=entry.value, parts=entry.parts)
+    steady = {name: run.values.get(name) or summary.quantity(name) for name in summary.quantities}
+    errors = budgets(run, families)
+    found = {name: Value(v.mean, v.unit, errors[name], v.steady, v.imposed) for name, v in steady.items() if v}
     load, pull, torque = found["force_z"], found["drawbar_pull"], found["drive_torque"]
     if "net_traction_coefficient" not in found:
-        found["net_traction_coefficient"] = _ratio(pull, load)
-    resistance = found["resistance_coefficient"].parts
-    for name, scale in (("net_traction_coefficient", 1.0), ("drawbar_pull", load.mean)):
-        found[name] = replace(found[name], parts=_with_parts_of(resistance, scale, found[name].parts))
-    for name in (name for name, value in found.items() if value.imposed):
-        found[name] = replace(found[name], parts=Components(time=0.0))
+        ratio = _ratio(pull, load)
+        parts = replace(pull.parts.scaled(1 / load.mean), time=ratio.parts.time)
+        found["net_traction_coefficient"] = replace(ratio, parts=parts)
     found["torque_coefficient"] = _ratio(torque, load, 1 / run.radius)
     if pull.mean > 0 and torque.mean > 0:
         found["tractive_efficiency"] = _ratio(pull, torque, run.rolling_radius)
     return found
-
-
-def _with_parts_of(other: Components, scale: float, own: Components) -> Components:
-    """The pull has all parts of the error of the resistance, its negative, but its own over time."""
-    return Components(own.time, scale * other.size, scale * other.domain, scale * other.packing)
 
 
 def speed_over_rim(slip: float) -> float:
@@ -86,12 +69,12 @@ def speed_over_rim(slip: float) -> float:
 
 def _ratio(above: Value, below: Value, factor: float = 1.0) -> Value:
     if not below.mean:
-        return Value(math.nan, "", Components(), False)
+        return Value(math.nan, "", Budget(), False)
     ratio = factor * above.mean / below.mean
     error = math.hypot(
         factor * above.parts.time / below.mean, ratio * below.parts.time / below.mean
     )
-    parts = Components(time=error, packing=above.parts.packing)
+    parts = Budget(time=error, packing=above.parts.packing)
     return Value(ratio, "", parts, above.steady and below.steady)
 
 
@@ -103,6 +86,6 @@ def _averaged(values: Sequence[Value]) -> Value:
     means = np.array([value.mean for value in values])
     time = math.sqrt(sum(value.parts.time**2 for value in values)) / number
     packing = math.sqrt(max(float(np.var(means, ddof=1)) / number - time**2, 0.0))
-    parts = Components(time, first.parts.size, first.parts.domain, packing)
+    parts = replace(first.parts, time=time, packing=packing)
     steady = all(value.steady for value in values)
     return replace(first, mean=float(means.mean()), parts=parts, steady=steady)

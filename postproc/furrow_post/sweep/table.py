@@ -9,7 +9,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from ..analyse.cost_table import Components
+from ..analyse.budget import Budget
 from ..csv_table import column_names, in_cells, write_rows
 from ..formatting import duration, value_text
 from .sweep_curves import CONDITIONS, Figure
@@ -18,10 +18,10 @@ from .series import Series, SweepPoint
 PART = "part_"  # before the name of a part of the resistance
 SET = "set_"  # before the name of a variable that was swept: what the script was given
 CSV_HEAD = (
-    "# A row per point, packings averaged. SI units; <quantity>_error is one standard error, made of",
-    "# the parts that are known: _error_time, _error_size, _error_domain, _error_packing. An empty cell",
-    "# is unknown; a part without a column is unknown at every point. imposed: quantities that the",
-    "# script sets, which have no error.",
+    "# A row per point, packings averaged. SI units; <quantity>_error is one standard error, made of the",
+    f"# parts that are known: _error_{', _error_'.join(Budget.NAMES[:5])},",
+    f"# _error_{', _error_'.join(Budget.NAMES[5:])}. An empty cell is unknown; a part without a",
+    "# column is unknown or zero. unknown: parts of the error of the net traction that are. imposed: quantities that the script sets, which have no error.",
 )
 
 Cell = str | float
@@ -42,10 +42,11 @@ def _row(series: Series, point: SweepPoint) -> dict[str, Cell]:
             row[name] = point.number(name)
     for name, value in point.quantities.items():
         row[name], row[f"{name}_error"] = value.mean, value.uncertainty
-        row.update({f"{name}_error_{part}": value.parts.part(part) for part in Components.NAMES})
+        row.update({f"{name}_error_{part}": value.parts.part(part) for part in Budget.NAMES})
     row.update(_parts(point))
     row["packings"] = float(len(point.runs))
     row["steady"] = "yes" if point.steady else "no"
+    row["unknown"] = " ".join(point.quantities["net_traction_coefficient"].parts.unknown)
     row["imposed"] = " ".join(name for name, value in point.quantities.items() if value.imposed)
     row["cpu_time"] = point.cpu_time
     return row
@@ -75,7 +76,7 @@ def units(series: Sequence[Series]) -> dict[str, str]:
             for name, condition in point.runs[0].conditions.items():
                 found.setdefault(name, condition.unit)
             for name, value in point.quantities.items():
-                parts = ("", "_error", *(f"_error_{part}" for part in Components.NAMES))
+                parts = ("", "_error", *(f"_error_{part}" for part in Budget.NAMES))
                 found.update({name + part: value.unit for part in parts})
             found.update(dict.fromkeys(_parts(point), "N"))
     return {name: unit for name, unit in found.items() if unit}
@@ -96,9 +97,9 @@ def write_table(series: Sequence[Series], csv: Path, hdf5: Path) -> None:
 
 
 def _is_unknown_part(name: str, rows: Sequence[dict[str, Cell]]) -> bool:
-    """Whether it is a part of an error that no point knows."""
+    """Whether it is a part of an error that is unknown or zero at every point."""
     cells = [row.get(name, math.nan) for row in rows]
-    return "_error_" in name and all(isinstance(cell, float) and math.isnan(cell) for cell in cells)
+    return "_error_" in name and all(isinstance(cell, float) and not cell > 0 for cell in cells)
 
 
 def _write_column(content: Any, name: str, values: Sequence[Cell]) -> None:

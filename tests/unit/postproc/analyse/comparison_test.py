@@ -9,7 +9,8 @@ import numpy as np
 
 from furrow_post.analyse import comparison, comparison_report, conditions
 from furrow_post.analyse.comparison import Comparison, overall, overall_of_best_estimates
-from furrow_post.analyse.cost_table import Components, families
+from furrow_post.analyse.budget import Budget
+from furrow_post.analyse.cost_table import families
 from furrow_post.analyse.curves import Curve, CurveKind, compare_curves
 from furrow_post.analyse.density import height_left
 from furrow_post.analyse.entry import FORMULA, BEST, MEASURED, RUN, Entry, best_estimates
@@ -28,7 +29,7 @@ from support.tables import CONTINUUM, row
 def entry(
     source: str, value: float, u: float, quantity: Quantity = HUB_DROP, kind: str = RUN
 ) -> Entry:
-    return Entry(quantity, source, value, Components(u, 0.0, 0.0, 0.0), kind)
+    return Entry(quantity, source, value, Budget(u, 0.0, 0.0, 0.0), kind)
 
 
 class JudgeTest(unittest.TestCase):
@@ -45,14 +46,14 @@ class JudgeTest(unittest.TestCase):
         self.assertIn("inconclusive, too large: time of a: b - a = +10 mm (+10 %), 40 allowed", verdict.sentence)
 
     def test_no_uncertainty_is_inconclusive(self) -> None:
-        other = Entry(HUB_DROP, "b", 0.1, Components(), MEASURED)
+        other = Entry(HUB_DROP, "b", 0.1, Budget(), MEASURED)
         verdict = judge(entry("a", 0.1, 0.001), other)
         self.assertEqual(verdict.agreement, Agreement.INCONCLUSIVE)
         self.assertIn("inconclusive, unknown: uncertainty of b", verdict.sentence)
 
     def test_an_unknown_part_is_inconclusive_however_large_the_difference(self) -> None:
         for value in (0.1, 0.2):
-            other = Entry(HUB_DROP, "b", value, Components(time=0.001), RUN)
+            other = Entry(HUB_DROP, "b", value, Budget(time=0.001), RUN)
             verdict = judge(entry("a", 0.1, 0.001), other)
             self.assertEqual(verdict.agreement, Agreement.INCONCLUSIVE)
             self.assertEqual(verdict.unknown, ("domain of b", "packing of b", "size of b"))
@@ -65,7 +66,7 @@ class JudgeTest(unittest.TestCase):
         self.assertEqual(remedies(verdict.unknown), ["time average (b): a longer run"])
 
     def test_each_unknown_part_has_the_run_that_finds_it(self) -> None:
-        other = Entry(HUB_DROP, "b", 0.1, Components(time=0.001), RUN)
+        other = Entry(HUB_DROP, "b", 0.1, Budget(time=0.001), RUN)
         sizes, ground, packings, command = remedies(judge(entry("a", 0.1, 0.001), other).unknown)
         self.assertRegex(sizes, r"^size of cells or grains \(b\): .*-v cell")
         self.assertRegex(ground, r"^size of the ground \(b\): .*-v width")
@@ -103,7 +104,7 @@ class OverallTest(unittest.TestCase):
         agree = entry("a", 0.1, 0.003), entry("b", 0.101, 0.003)
         differ = entry("a", 0.1, 0.003), entry("b", 0.2, 0.003)
         vague = entry("a", 0.2, 0.1, COEFFICIENT), entry("b", 0.21, 0.1, COEFFICIENT)
-        unknown = entry("a", 0.2, 0.1), Entry(HUB_DROP, "b", 0.2, Components(0.1, packing=0.0), RUN)
+        unknown = entry("a", 0.2, 0.1), Entry(HUB_DROP, "b", 0.2, Budget(0.1, packing=0.0), RUN)
         self.assertEqual(self.verdict(agree), "The runs agree in hub drop.")
         self.assertEqual(self.verdict(differ), "The runs differ in hub drop.")
         self.assertEqual(

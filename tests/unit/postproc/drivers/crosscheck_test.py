@@ -5,7 +5,7 @@ import math
 import sys
 import unittest
 
-from furrow_post.analyse.cost_table import Components
+from furrow_post.analyse.budget import Budget
 from furrow_post.analyse.entry import BEST, FORMULA, RUN, Entry
 from furrow_post.analyse.plates import pressure_at
 from furrow_post.analyse.verdict import COEFFICIENT, HUB_DROP
@@ -23,7 +23,7 @@ import wheel_cases
 
 
 def entry(source: str, value: float, u: float, kind: str = RUN) -> Entry:
-    return Entry(HUB_DROP, source, value, Components(u, 0.0, 0.0, 0.0), kind)
+    return Entry(HUB_DROP, source, value, Budget(u, 0.0, 0.0, 0.0), kind)
 
 
 class AnswersTest(unittest.TestCase):
@@ -38,12 +38,12 @@ class AnswersTest(unittest.TestCase):
             with self.subTest(value=value, u=u):
                 other = entry("grains", value, u)
                 if math.isnan(u):
-                    other = Entry(HUB_DROP, "grains", value, Components(), RUN)
+                    other = Entry(HUB_DROP, "grains", value, Budget(), RUN)
                 own = {"continuum": entry("continuum", 0.1, 0.0), "grains": other}
                 self.assertEqual(lines.answers(own), [expected])
 
     def test_parts_that_are_not_known_are_named(self) -> None:
-        other = Entry(HUB_DROP, "grains", 0.1, Components(0.001, 0.0, math.nan, 0.0), RUN)
+        other = Entry(HUB_DROP, "grains", 0.1, Budget(0.001, 0.0, math.nan, 0.0), RUN)
         (answer,) = lines.answers({"continuum": entry("continuum", 0.1, 0.0), "grains": other})
         self.assertEqual(answer, "inconclusive, +0 % (2 %), unknown: domain of grains")
 
@@ -56,7 +56,7 @@ class AnswersTest(unittest.TestCase):
 
 class LinesTest(unittest.TestCase):
     def test_a_line_is_the_entry_again(self) -> None:
-        parts = Components(1e-3, 2e-3, math.nan, 0.0)
+        parts = Budget(1e-3, 2e-3, math.nan, 0.0)
         for quantity in (HUB_DROP, COEFFICIENT, pressure_at(0.015)):
             for kind in (RUN, BEST):
                 written = Entry(quantity, "grains", 0.25, parts, kind, cpu_time=12.0)
@@ -73,7 +73,7 @@ class LinesTest(unittest.TestCase):
                 ("wheel_on_sand", entry("continuum", 0.11, 0.002, BEST), math.nan),
                 ("wheel_on_sand", entry("grains", 0.12, 0.002), 0.03),
                 ("wheel_on_sand", entry("grains", 0.111, 0.002, BEST), math.nan),
-                ("wheel_on_sand", Entry(HUB_DROP, "made", 0.09, Components(), FORMULA), math.nan),
+                ("wheel_on_sand", Entry(HUB_DROP, "made", 0.09, Budget(), FORMULA), math.nan),
                 ("plate", entry("continuum", 0.1, 0.002), 0.04),
                 ("plate", entry("grains", 0.12, 0.002), 0.03),
             )
@@ -92,7 +92,7 @@ class LinesTest(unittest.TestCase):
 class SeriesTest(unittest.TestCase):
     """A point of a series moves from its twin among the base's runs."""
 
-    parts = Components(0.0, 0.002, 0.001, 0.0)
+    parts = Budget(0.0, 0.002, 0.001, 0.0)
     twin = row("base", "grains", 0.04, 0.08, 0.20, 10.0, error=0.001)
     point = row("point", "grains", 0.0401, 0.12, 0.26, 10.0, error=0.003)
 
@@ -102,7 +102,7 @@ class SeriesTest(unittest.TestCase):
         )
         self.assertAlmostEqual(zero.value, 0.1 * 1.5)
         time = 0.15 * math.hypot(0.003 / 0.12, 0.001 / 0.08)
-        for found, expected in zip(zero.parts.parts(), (time, 0.003, 0.0015, 0.006)):
+        for found, expected in zip(zero.parts.numerical(), (time, 0.003, 0.0015, 0.006)):
             self.assertAlmostEqual(found, expected)
 
     def test_coefficients_go_by_the_difference(self) -> None:
@@ -111,7 +111,7 @@ class SeriesTest(unittest.TestCase):
         )
         self.assertAlmostEqual(zero.value, 0.15 + 0.06)
         time = math.hypot(0.003, 0.001)
-        for found, expected in zip(zero.parts.parts(), (time, 0.002, 0.001, 0.004)):
+        for found, expected in zip(zero.parts.numerical(), (time, 0.002, 0.001, 0.004)):
             self.assertAlmostEqual(found, expected)
 
     def test_the_twin_has_the_point_s_size_packing_and_width(self) -> None:

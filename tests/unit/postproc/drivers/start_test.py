@@ -29,7 +29,7 @@ def start(*words: object) -> "subprocess.CompletedProcess[str]":
 
 class DriversTest(unittest.TestCase):
     def test_there_are_all_studies(self) -> None:
-        self.assertEqual(len(STUDIES), 25)
+        self.assertEqual(len(STUDIES), 26)
 
     def test_help(self) -> None:
         for driver in TOOLS:
@@ -45,11 +45,9 @@ class DriversTest(unittest.TestCase):
                     done = run_post("study", place, "--list", "--results", results, folder=SOURCE)
                     self.assertEqual(done.returncode, 0, done.stderr)
                     names = [line.split()[1] for line in done.stdout.splitlines()]
-                    self.assertGreaterEqual(len(names), 4)
+                    self.assertGreaterEqual(len(names), 0 if place == INPUTS / "validation" else 4)  # tables alone
                     self.assertEqual(len(names), len(set(names)))
-                    self.assertEqual(
-                        {line.split()[0] for line in done.stdout.splitlines()}, {"missing"}
-                    )
+                    self.assertLessEqual({line.split()[0] for line in done.stdout.splitlines()}, {"missing"})
 
     def test_laboratory_lists_tests_and_grounds(self) -> None:
         done = start(INPUTS / "laboratory" / "run.py", "--list")

@@ -12,7 +12,8 @@ from typing import Any
 
 import h5py
 
-from furrow_post.analyse.cost_table import Components, FamilyKey
+from furrow_post.analyse.budget import Budget
+from furrow_post.analyse.cost_table import FamilyKey
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.figures.resistance_parts import COLOURS
@@ -41,8 +42,8 @@ class KnownSize:
 
     SIZE = 0.02
 
-    def components(self, key: str, size: float, time_error: float) -> Components:
-        return Components(time_error, self.SIZE, math.nan, 0.0)
+    def components(self, key: str, size: float, time_error: float) -> Budget:
+        return Budget(time_error, self.SIZE, math.nan, 0.0)
 
 
 def write_pulling(folder: Path, sinkage: float = 0.05) -> None:
@@ -131,7 +132,7 @@ class OutputTest(FolderTest):
         value = point.quantities["hub_drop"]
         self.assertAlmostEqual(value.mean, 0.053, 9)
         self.assertAlmostEqual(value.parts.time, 1e-3 / math.sqrt(3), 9)
-        self.assertAlmostEqual(value.uncertainty, 3e-3 / math.sqrt(3), 9)  # of the three means
+        self.assertAlmostEqual(math.hypot(value.parts.time, value.parts.packing), 3e-3 / math.sqrt(3), 9)  # of the three means
         self.assertEqual(len(point.runs), 3)
 
     def test_two_grounds_measurements_and_formulas_lie_in_one_figure(self) -> None:
@@ -188,7 +189,11 @@ class OutputTest(FolderTest):
         rows = read_rows(self.folder / "a" / "sweep.csv")
         self.assertEqual([row["set_slip"] for row in rows], ["-0.2", "0.1", "0.3"])
         self.assertEqual(float(rows[1]["hub_drop"]), 0.05)
-        self.assertEqual(float(rows[1]["hub_drop_error"]), 0.001)
+        self.assertEqual(float(rows[1]["hub_drop_error_time"]), 0.001)
+        self.assertGreater(float(rows[1]["hub_drop_error_model"]), 0.002)
+        whole = math.hypot(*(float(text or 0) for name, text in rows[1].items() if name.startswith("hub_drop_error_")))
+        self.assertAlmostEqual(float(rows[1]["hub_drop_error"]), whole, 9)
+        self.assertEqual(rows[1]["unknown"], "size step contact material")
         self.assertEqual(rows[0]["tractive_efficiency"], "")
         with h5py.File(self.folder / "a" / "sweep.h5") as content:
             self.assertEqual(content["hub_drop"].attrs["unit"], "m")

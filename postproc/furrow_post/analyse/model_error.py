@@ -1,0 +1,296 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Error of the model: how far computed values were from measurements, by regime.
+
+A test is one measured comparison, or a group of which only rms and mean are known. Its difference is computed
+less measured, over the computed value for depths, deflections and loads of plates, else absolute. e is the
+standard error of both values. Of a regime
+
+    model error^2 = mean over studies of [mean over tests of (difference^2 - e^2)],
+
+not below a quarter of the mean of difference^2: tests of one study share soil and rig. A case at the distance d
+from the nearest tests has the error of these times sqrt(1 + d^2). d^2 is the sum of the squares of MISMATCH for
+each word that differs, and of (how far a number is outside of that of the tests)/SCALES. Beyond FARTHEST it is unknown.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from ..csv_table import read_rows
+from ..errors import content_of
+from ..programs import inputs_folder
+
+# What the words of a regime differ by, and the ranges that count as one step outside of the tests
+MISMATCH = {"ground": 2.0, "wheel": 1.0, "motion": 1.0, "grousers": 1.0}
+SCALES = {"slip": 0.2, "slip_angle": 20.0, "slope": 10.0, "sinkage": math.log(2), "radius": math.log(2)}
+LOGARITHMIC = ("sinkage", "radius")
+FARTHEST = 3.0
+LEAST_SHARE = 0.25  # of the mean square of the differences
+TABLE, TESTS = "model_errors.csv", "measured.csv"  # of inputs/validation: regimes, and the tests of which they are made
+# Quantities of a run -> quantity of the tests; a rigid wheel's depths have one name
+OF_RUN = {
+    "hub_drop": "hub drop",
+    "rut_depth": "depth",
+    "tyre_deflection": "deflection",
+    "resistance_coefficient": "coefficient",
+    "net_traction_coefficient": "coefficient",
+    "lateral_force": "lateral",  # over the vertical force
+    "slip": "slip",
+}
+RELATIVE = ("depth", "hub drop", "deflection", "plate load")
+
+
+@dataclass(frozen=True)
+class Case:
+    """What decides how near tests are. NaN: not known, or without a meaning."""
+
+    ground: str  # snow, sand, road
+    wheel: str  # rigid wheel, tyre, plate
+    motion: str  # towed, driven, braked, pressed
+    grousers: str  # yes, no
+    slip: float = math.nan
+    slip_angle: float = math.nan  # [deg], without sign
+    slope: float = math.nan  # [deg]
+    sinkage: float = math.nan  # over the radius
+    radius: float = math.nan  # [m]
+
+    def text(self) -> str:
+        bars = " with grousers" if self.grousers == "yes" else ""
+        slope = ", slope" if self.slope > 0 else ""
+        return f"{self.wheel}{bars} {self.motion} on {self.ground}{slope}"
+
+
+@dataclass(frozen=True)
+class Test:
+    """A measured comparison, or a group of them whose difference is a rms."""
+
+    study: str
+    label: str  # known, held out, blind; not fitted
+    quantity: str
+    case: Case
+    tests: int
+    difference: float
+    error: float  # of computed and measured value, as the difference
+    mean: float = math.nan  # of a group
+
+    @property
+    def bias(self) -> float:
+        return self.difference if self.tests == 1 else self.mean
+
+
+@dataclass(frozen=True)
+class Regime:
+    """Tests of one kind, and the error of the model that they show."""
+
+    quantity: str
+    words: Mapping[str, str]  # of MISMATCH
+    ranges: Mapping[str, tuple[float, float]]  # of SCALES
+    tests: int
+    studies: tuple[str, ...]
+    bias: float
+    scatter: float  # about the bias
+    model: float
+
+    def distance(self, case: Case) -> float:
+        steps = [MISMATCH[name] for name, word in self.words.items() if word != getattr(case, name)]
+        for name, (low, high) in self.ranges.items():
+            value = getattr(case, name)
+            if name in LOGARITHMIC:
+                value, low, high = (math.log(max(one, 1e-3)) for one in (value, low, high))
+            outside = max(low - value, value - high, 0.0)
+            steps.append(outside / SCALES[name] if math.isfinite(outside) else 0.0)
+        return math.hypot(*steps)
+
+    def text(self) -> str:
+        words: dict[str, Any] = {**self.words}
+        case = Case(**words, slope=self.ranges["slope"][1])
+        count = f"{self.tests} tests" if self.tests > 1 else "1 test"
+        return f"{count}: {case.text()} ({', '.join(self.studies)})"
+
+
+@dataclass(frozen=True)
+class ModelError:
+    """Of one quantity of a case: relative for RELATIVE ones."""
+
+    value: float
+    distance: float
+    nearest: Regime
+
+    def source(self) -> str:
+        far = f", {self.distance:.1f} steps away" if self.distance > 0 else ""
+        return self.nearest.text() + far
+
+
+def regimes_of(tests: Iterable[Test]) -> list[Regime]:
+    """Tests by quantity, ground, wheel, motion, grousers, and whether there is a slope."""
+    groups: dict[tuple[object, ...], list[Test]] = {}
+    for test in tests:
+        key = (test.quantity, *(getattr(test.case, name) for name in MISMATCH), test.case.slope > 0)
+        groups.setdefault(key, []).append(test)
+    return [_regime(group) for group in groups.values()]
+
+
+def _regime(tests: Sequence[Test]) -> Regime:
+    first, count = tests[0], sum(test.tests for test in tests)
+    squares = _mean_over_studies(tests, lambda test: test.difference**2)
+    noise = _mean_over_studies(tests, lambda test: test.error**2)
+    known = [test for test in tests if math.isfinite(test.bias)]
+    number = sum(test.tests for test in known)
+    bias = sum(test.tests * test.bias for test in known) / number if number else math.nan
+    mean_square = sum(test.tests * test.difference**2 for test in known) / number if number else math.nan
+    return Regime(
+        first.quantity,
+        {name: getattr(first.case, name) for name in MISMATCH},
+        {name: _range([getattr(test.case, name) for test in tests]) for name in SCALES},
+        count,
+        tuple(dict.fromkeys(test.study for test in tests)),
+        bias,
+        math.sqrt(max(mean_square - bias**2, 0.0)),
+        math.sqrt(max(squares - noise, LEAST_SHARE * squares)),
+    )
+
+
+def _mean_over_studies(tests: Sequence[Test], value: Callable[[Test], float]) -> float:
+    studies = dict.fromkeys(test.study for test in tests)
+    means = []
+    for study in studies:
+        own = [test for test in tests if test.study == study]
+        means.append(sum(test.tests * value(test) for test in own) / sum(test.tests for test in own))
+    return sum(means) / len(means)
+
+
+def _range(values: Iterable[float]) -> tuple[float, float]:
+    known = [value for value in values if math.isfinite(value)]
+    return (min(known), max(known)) if known else (math.nan, math.nan)
+
+
+def model_error(regimes: Sequence[Regime], quantity: str, case: Case) -> ModelError | None:
+    """By the nearest tests of a quantity; of equally near ones those with the larger error. None where none is near."""
+    of_quantity = [regime for regime in regimes if regime.quantity == quantity]
+    if not of_quantity:
+        return None
+    distances = [round(regime.distance(case), 6) for regime in of_quantity]
+    least = min(distances)
+    if least > FARTHEST:
+        return None
+    near = [regime for regime, distance in zip(of_quantity, distances) if distance == least]
+    nearest = max(near, key=lambda regime: regime.model)
+    return ModelError(nearest.model * math.hypot(1.0, least), least, nearest)
+
+
+# ---- calibration: each study predicted from the others
+
+
+@dataclass(frozen=True)
+class Scored:
+    """A test with its error by the rule, from the other studies."""
+
+    test: Test
+    error: float  # of the model, of the computed and the measured value
+
+    @property
+    def normalised(self) -> float:
+        return self.test.difference / self.error
+
+
+def leave_one_study_out(tests: Sequence[Test]) -> list[Scored]:
+    """Tests whose quantity another study has measured."""
+    found = []
+    for study in dict.fromkeys(test.study for test in tests):
+        others = regimes_of(test for test in tests if test.study != study)
+        for test in (test for test in tests if test.study == study):
+            error = model_error(others, test.quantity, test.case)
+            if error:
+                found.append(Scored(test, math.hypot(error.value, test.error)))
+    return found
+
+
+def calibration_rows(tests: Sequence[Test]) -> list[dict[str, object]]:
+    """Regime by regime, and all: rms of the normalised differences, and the share within two errors.
+
+    The share is of single tests alone: of a group only the rms is known.
+    """
+    scored = leave_one_study_out(tests)
+    groups: dict[tuple[str, str], list[Scored]] = {}
+    for one in scored:
+        slope = ", slope" if one.test.case.slope > 0 else ""
+        groups.setdefault((one.test.quantity, f"{one.test.case.ground}, {one.test.case.motion}{slope}"), []).append(one)
+    rows = [_calibration(quantity, name, group) for (quantity, name), group in groups.items()]
+    return [*rows, _calibration("all", "all", scored)]
+
+
+def _calibration(quantity: str, name: str, scored: Sequence[Scored]) -> dict[str, object]:
+    count = sum(one.test.tests for one in scored)
+    square = sum(one.test.tests * one.normalised**2 for one in scored) / count
+    single = [abs(one.normalised) for one in scored if one.test.tests == 1]
+    return {
+        "quantity": quantity,
+        "regime": name,
+        "tests": count,
+        "rms": round(math.sqrt(square), 2),
+        "single_tests": len(single),
+        "inside_two_errors": round(sum(z <= 2 for z in single) / len(single), 2) if single else "",
+    }
+
+
+# ---- the tables of inputs/validation
+
+
+def read_tests(path: Path) -> list[Test]:
+    """@raises ResultsError"""
+    with content_of(path, "write it again with 'furrow-post study validation'"):
+        return [test_of(row) for row in read_rows(path)]
+
+
+def test_of(row: Mapping[str, str]) -> Test:
+    """Of a row of measured.csv."""
+    features: dict[str, Any] = {name: row[name] for name in MISMATCH}
+    features.update({name: _number(row[name]) for name in SCALES})
+    case = Case(**features)
+    values = (int(row["tests"]), float(row["difference"]), float(row["error"]), _number(row["mean"]))
+    return Test(row["study"], row["label"], row["quantity"], case, *values)
+
+
+def _number(text: str) -> float:
+    return float(text) if text else math.nan
+
+
+def regime_rows(tests: Iterable[Test]) -> list[dict[str, object]]:
+    """Rows of model_errors.csv."""
+    rows = []
+    for regime in regimes_of(tests):
+        row: dict[str, object] = {"quantity": regime.quantity, **regime.words, "tests": regime.tests}
+        row |= {"studies": " ".join(regime.studies)}
+        row |= {name: _cell(getattr(regime, name)) for name in ("bias", "scatter", "model")}
+        for name, ends in regime.ranges.items():
+            row |= {f"{name}_{end}": _cell(value) for end, value in zip(("low", "high"), ends)}
+        rows.append(row)
+    return rows
+
+
+def _cell(value: float) -> str:
+    return f"{value:.4g}" if math.isfinite(value) else ""
+
+
+@lru_cache(maxsize=4)
+def read_regimes(path: Path) -> tuple[Regime, ...]:
+    """@raises ResultsError"""
+    with content_of(path, "write it again with 'furrow-post study validation'"):
+        return tuple(_read_regime(row) for row in read_rows(path))
+
+
+def _read_regime(row: Mapping[str, str]) -> Regime:
+    ranges = {name: (_number(row[f"{name}_low"]), _number(row[f"{name}_high"])) for name in SCALES}
+    numbers = [_number(row[name]) for name in ("bias", "scatter", "model")]
+    words = {name: row[name] for name in MISMATCH}
+    return Regime(row["quantity"], words, ranges, int(row["tests"]), tuple(row["studies"].split()), *numbers)
+
+
+def known_regimes() -> tuple[Regime, ...]:
+    """Of inputs/validation; none where only the package is installed."""
+    inputs = inputs_folder()
+    path = inputs / "validation" / TABLE if inputs else None
+    return read_regimes(path) if path and path.is_file() else ()

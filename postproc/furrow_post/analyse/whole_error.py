@@ -1,0 +1,314 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The whole error of each value of a run: where its parts come from.
+
+Cells or grains: of the runs of the scene in a table, else of the scene's convergence, else of the nearest series of
+sizes.csv. The size counts over the width of the wheel, and an error grows in proportion to it beyond the largest of
+the series. Step and contact of a continuum: scheme.csv. Model: model_error.py. Depths have relative errors, coefficients
+absolute ones; forces those of their coefficients times the vertical force.
+"""
+
+import json
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from ..csv_table import read_rows
+from ..errors import ResultsError, content_of
+from ..programs import inputs_folder
+from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun, cells_or_grains, read_wheel_run
+from ..run.summary import BUDGET, SteadyValue, Summary
+from .budget import IMPOSED, Budget
+from .convergence import convergence_of
+from .cost_table import Family, FamilyKey, Row
+from .model_error import MISMATCH, OF_RUN, RELATIVE, Case, known_regimes, model_error
+
+Families = Mapping[FamilyKey, Family]
+SNOW = 700.0  # [kg/m3] bulk density below which a ground is snow
+STRAIGHT = 0.02  # slip within which a driven wheel is not braked
+SIZES, SCHEME = "sizes.csv", "scheme.csv"
+DEPTHS = ("hub_drop", "rut_depth")
+COEFFICIENTS = ("resistance_coefficient", "net_traction_coefficient")
+FORCES = ("drawbar_pull", "tractive_force", "force_x")  # coefficient times vertical force
+REMEDY = "write it again with 'furrow-post study validation'"
+
+
+def case_of(run: WheelRun) -> Case:
+    """What decides which tests are near."""
+    style = run.results.styles().of_kind("wheel")
+    grousers = bool(style and style.has("grousers") and style.number("grousers") > 0)
+    slip = run.number("slip")
+    torque = run.values["drive_torque"]
+    towed = run.text("mode") == "towed" or not (torque.mean or torque.standard_error)
+    density = run.number("density")
+    ground = "road" if run.ground == "none" else "snow" if density < SNOW else "sand"
+    return Case(
+        ground,
+        "tyre" if run.deformable else "rigid wheel",
+        "towed" if towed else "braked" if slip < -STRAIGHT else "driven",
+        "yes" if grousers else "no",
+        math.nan if towed else slip,
+        abs(run.number("slip_angle")),
+        run.number("slope"),
+        run.values["hub_drop"].mean / run.radius,
+        run.radius,
+    )
+
+
+# ---- cells, grains and packings of like wheels
+
+
+@dataclass(frozen=True)
+class SizeSeries:
+    """Runs of one scene in several sizes."""
+
+    name: str
+    words: Mapping[str, str]  # ground, wheel, motion
+    width: float  # of the wheel [m]
+    family: Family
+
+    def distance(self, case: Case) -> float:
+        return math.hypot(*(MISMATCH[name] for name, word in self.words.items() if word != getattr(case, name)))
+
+    def errors(self, key: str, size_over_width: float) -> tuple[float, float]:
+        """Of the size and of a packing: of a depth relative."""
+        size, scale = size_over_width * self.width, abs(self.family.reference(key)[0]) if key == "sinkage" else 1.0
+        largest = max(row.size for row in self.family.bases)
+        parts = self.family.components(key, min(size, largest))
+        return max(size / largest, 1.0) * parts.size / scale, parts.packing / scale
+
+
+@lru_cache(maxsize=2)
+def read_series(path: Path) -> tuple[SizeSeries, ...]:
+    """@raises ResultsError"""
+    groups: dict[tuple[str, str, str], list[dict[str, str]]] = {}
+    with content_of(path, REMEDY):
+        for row in read_rows(path):
+            groups.setdefault((row["series"], row["ground"], row["wheel"]), []).append(row)
+        return tuple(_series(rows) for rows in groups.values())
+
+
+def _series(rows: Sequence[Mapping[str, str]]) -> SizeSeries:
+    first = rows[0]
+    words = {"ground": first["soil"], "wheel": first["wheel"], "motion": first["motion"]}
+    made = [
+        Row(row["series"], row["ground"], "", row["wheel"], float(row["size"]), row["domain"], row["seed"], *_values(row), 0.0, "")
+        for row in rows
+    ]
+    return SizeSeries(first["series"], words, float(first["width"]), Family(made))
+
+
+def _values(row: Mapping[str, str]) -> tuple[float, float, float, float]:
+    sinkage, u, coefficient, v = (float(row[n]) for n in ("sinkage", "sinkage_error", "coefficient", "coefficient_error"))
+    return sinkage, u, coefficient, v
+
+
+@lru_cache(maxsize=2)
+def read_scheme(path: Path) -> dict[tuple[str, str], tuple[float, str]]:
+    """(part, "sinkage" or "coefficient") -> error and what was changed. @raises ResultsError"""
+    with content_of(path, REMEDY):
+        columns = (("sinkage", "depth"), ("coefficient", "coefficient"))
+        return {(r["part"], key): (float(r[column]), r["what"]) for r in read_rows(path) for key, column in columns}
+
+
+def _validation(name: str) -> Path | None:
+    inputs = inputs_folder()
+    path = inputs / "validation" / name if inputs else None
+    return path if path and path.is_file() else None
+
+
+def like_wheels(run: WheelRun, case: Case, key: str) -> Budget:
+    """Size, packing, step and contact by the nearest series: of a depth relative."""
+    path, scheme = _validation(SIZES), _validation(SCHEME)
+    near = [one for one in read_series(path) if one.family.key.ground == run.ground] if path else []
+    if not near or not math.isfinite(run.size):
+        return Budget()
+    least = min(one.distance(case) for one in near)
+    near = [one for one in near if one.distance(case) == least]
+    pairs = np.array([one.errors(key, run.size / run.number("wheel_width")) for one in near])
+    size, packing = (_rms(column) * math.hypot(1.0, least) for column in pairs.T)
+    far = " of other wheels" if least else ""
+    from_ = f"{', '.join(one.name for one in near)}{far}"
+    sources = {"size": from_, "packing": from_ if packing else "a continuum has none"}
+    found = Budget(size=size, packing=packing, sources=sources)
+    if run.ground == "continuum" and scheme:
+        for part in ("step", "contact"):
+            error, what = read_scheme(scheme)[part, key]
+            found = replace(found, **{part: error}, sources={**found.sources, part: f"convergence: {what}"})
+        particles, what = read_scheme(scheme)["size", key]
+        soil = run.results.styles().of_kind("terrain")
+        if not soil or soil.number("particles", 2) < 3:
+            found = replace(found, size=math.hypot(found.size, particles), sources={**found.sources, "size": f"{from_}; {what}"})
+    return found
+
+
+def _rms(values: Iterable[float]) -> float:
+    """Of the finite ones; NaN of none."""
+    known = [value for value in values if math.isfinite(value)]
+    return math.sqrt(sum(value**2 for value in known) / len(known)) if known else math.nan
+
+
+# ---- a run
+
+
+def budgets(run: WheelRun, families: Families | None = None) -> dict[str, Budget]:
+    """Quantity of the summary -> its error. families: of a table of runs of the scene"""
+    summary = Summary(run.folder)
+    steady = {name: run.values.get(name) or summary.quantity(name) for name in summary.quantities}
+    steady.update(run.values)
+    values = {name: value for name, value in steady.items() if value}
+    found = _Parts(run, families or {})
+    elements = "mesh" if run.ground == "none" else cells_or_grains(run.ground)
+    return {name: replace(found.of(name, value), elements=elements) for name, value in values.items()}
+
+
+class _Parts:
+    """Parts of the errors of one run."""
+
+    def __init__(self, run: WheelRun, families: Families) -> None:
+        self.run, self.case = run, case_of(run)
+        self.family = families.get(FamilyKey(run.ground, run.model, run.wheel))
+        self.stored = convergence_of(run)
+        self.load = abs(run.values["force_z"].mean)
+        self.regimes = known_regimes() if run.ground != "scm" else ()
+
+    def of(self, name: str, value: SteadyValue) -> Budget:
+        time = value.standard_error
+        if value.imposed or name == "force_z":  # the load, which the rig holds
+            return replace(IMPOSED, time=0.0 if value.imposed else time)
+        if name in FORCES:
+            coefficient = self._parts("net_traction_coefficient", self.run.values["resistance_coefficient"])
+            return replace(coefficient.scaled(self.load), time=time, sources=coefficient.sources)
+        return self._parts(name, value)
+
+    def _parts(self, name: str, value: SteadyValue) -> Budget:
+        key = "sinkage" if name in DEPTHS else "coefficient" if name in COEFFICIENTS else ""
+        scale = abs(value.mean) if name in (*DEPTHS, "tyre_deflection") else 1.0
+        parts = like_wheels(self.run, self.case, key).scaled(scale) if key else Budget()
+        parts = self._of_no_random(parts)
+        parts = self._of_scene(parts, name, value, key)
+        parts = replace(parts, time=value.standard_error, held=self._held(name, value))
+        quantity = "depth" if name == "hub_drop" and not self.run.deformable else OF_RUN.get(name, "")
+        if name == "slip" and self.case.motion == "towed":
+            return parts  # the tests are of wheels that drive
+        model = model_error(self.regimes, quantity, self.case)
+        if not model:
+            return parts
+        size = model.value * (abs(value.mean) if quantity in RELATIVE else self.load if quantity == "lateral" else 1.0)
+        return replace(parts, model=size, sources={**parts.sources, "model": model.source()})
+
+    def _of_no_random(self, parts: Budget) -> Budget:
+        """Nothing in cells is random, a road has no end."""
+        road = self.run.ground == "none"
+        if road or self.run.ground in GROUNDS_OF_CELLS:
+            parts = replace(parts, packing=0.0)
+        return replace(parts, domain=0.0) if road else parts
+
+    def _of_scene(self, parts: Budget, name: str, value: SteadyValue, key: str) -> Budget:
+        """Of the runs of this scene in other sizes, where there are any."""
+        if self.stored and (error := self.stored.size_error(name, self.run.size, value.mean)) is not None:
+            parts = replace(parts, size=error, sources={**parts.sources, "size": self.stored.source})
+        if not self.family or not key or name == "rut_depth":
+            return parts
+        known = self.family.components(key, self.run.size, value.standard_error)
+        numbers = {part: known.part(part) for part in ("size", "domain", "packing") if math.isfinite(known.part(part))}
+        return replace(parts, **numbers, sources={**parts.sources, **dict.fromkeys(numbers, "table of runs of the scene")})
+
+    def _held(self, name: str, value: SteadyValue) -> float:
+        """The vertical force over the window against the load, of what grows with it."""
+        level = self.run.number("slope") == 0 and self.run.number("side_slope") == 0
+        load = self.run.number("load")
+        if not level or not load > 0:
+            return math.nan
+        return abs(self.load / load - 1.0) * (abs(value.mean) if value.unit else 0.0)
+
+
+def budgets_of(folder: Path) -> dict[str, Budget]:
+    """Of a results folder. Of one that is no complete run of a wheel only the error over time is known."""
+    try:
+        return budgets(read_wheel_run(folder))
+    except ResultsError:
+        summary = Summary(folder)
+        known = {name: summary.quantity(name) for name in summary.quantities}
+        return {
+            name: replace(IMPOSED) if value.imposed else Budget(time=value.standard_error)
+            for name, value in known.items()
+            if value
+        }
+
+
+# ---- for people and programs
+
+IN_PEOPLES_UNITS = {"m": (1e3, "mm"), "": (1.0, "")}
+TITLES = {"drive_torque": "torque"}
+
+
+def _scaled(name: str, value: SteadyValue) -> tuple[float, str]:
+    """Factor and unit that people read."""
+    return (100.0, "%") if name == "slip" else IN_PEOPLES_UNITS.get(value.unit, (1.0, value.unit))
+
+
+def value_text(name: str, value: SteadyValue, budget: Budget) -> str:
+    """ "94 ± 12 mm", "20 % imposed"."""
+    factor, unit = _scaled(name, value)
+    text = f"{budget.scaled(factor).value_text(factor * value.mean)} {unit}".rstrip()
+    return f"{text} imposed" if value.imposed else text
+
+
+def headline(folder: Path) -> str:
+    """For a title: "hub drop 94 ± 12 mm, net traction coefficient 0.06 ± 0.12; ground, material unknown"."""
+    summary, known = Summary(folder), budgets_of(folder)
+    parts: list[str] = []
+    unknown: dict[str, None] = {}
+    for name in summary.headline:
+        value = summary.quantity(name)
+        assert value is not None
+        parts.append(f"{TITLES.get(name, name.replace('_', ' '))} {value_text(name, value, known[name])}")
+        unknown.update(dict.fromkeys(map(known[name].label, known[name].unknown)))
+    if not parts:
+        return ""
+    steady = "" if summary.content.get("steady", False) else ", not all steady, see summary.txt"
+    missing = ", ".join(unknown)
+    return ", ".join(parts) + steady + (f"; not in ±: {missing}" if missing else "")
+
+
+def report(folder: Path) -> str:
+    """The headline quantities with their parts, and the nearest tests. @raises ResultsError without steady values"""
+    summary, known = Summary(folder), budgets_of(folder)
+    if not summary.headline:
+        raise ResultsError(f"{folder}: has no steady values in summary.json; run longer")
+    lines = ["± is one standard error of all that is known; in brackets its parts"]
+    sources: dict[str, dict[str, None]] = {}
+    for name in summary.headline:
+        value, budget = summary.quantity(name), known[name]
+        assert value is not None
+        factor, unit = _scaled(name, value)
+        state = "imposed" if value.imposed else "" if value.steady else "not steady"
+        text = budget.scaled(factor).text(factor * value.mean, unit)
+        lines.append(f"  {name.replace('_', ' '):24} {text}{', ' * bool(state)}{state}")
+        for part, source in budget.sources.items():
+            if budget.part(part) > 0:
+                label = f"nearest tests of {name.replace('_', ' ')}" if part == "model" else budget.label(part)
+                sources.setdefault(label, {})[source] = None
+    lines += [f"  {label}: {'; '.join(found)}" for label, found in sorted(sources.items(), key=lambda one: one[0][:7] == "nearest")]
+    return "\n".join(lines)
+
+
+def write_budget(folder: Path) -> None:
+    """budget.json, for programs. @raises ResultsError"""
+    (folder / BUDGET).write_text(json.dumps(as_json(folder), indent=1) + "\n", encoding="utf-8")
+
+
+def as_json(folder: Path) -> dict[str, object]:
+    """Quantity -> value, whole error, parts (null: unknown) and their sources, in SI units."""
+    summary, known = Summary(folder), budgets_of(folder)
+    found: dict[str, object] = {}
+    for name, budget in known.items():
+        value = summary.quantity(name)
+        if value:
+            parts = {part: budget.part(part) if math.isfinite(budget.part(part)) else None for part in budget.NAMES}
+            found[name] = {"value": value.mean, "unit": value.unit, "error": budget.total, "parts": parts, "sources": dict(budget.sources)}
+    return found

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""No number is shown with an error that is smaller than its known parts: committed tables and pages, texts of a run."""
+
+import csv
+import math
+import re
+import unittest
+from pathlib import Path
+
+from furrow_post.analyse.comparison import compare
+from furrow_post.analyse.comparison_report import comparison_report, table_rows
+from furrow_post.analyse.whole_error import budgets, headline, report
+from furrow_post.csv_table import read_rows
+from furrow_post.figures.page import results_tables, run_values
+from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
+from furrow_post.scene.scene_summary import verdict_line
+from furrow_post.sweep.sweep_quantities import quantities
+from support.command import SOURCE
+from support.folder import FolderTest
+from support.runs import write_run
+
+ROUNDING = 0.8  # of an error with one digit: 2 of 2.49
+SHOWN = re.compile(r"(-?[\d.]+) ± ([\d.]+)")
+
+
+def root_sum_square(row: dict[str, str], columns: list[str]) -> float:
+    return math.hypot(*(float(row[column] or 0) for column in columns))
+
+
+class CommittedTest(unittest.TestCase):
+    def tables(self) -> list[Path]:
+        return sorted((SOURCE / "inputs").rglob("*.csv"))
+
+    def test_errors_of_tables_are_no_smaller_than_their_parts(self) -> None:
+        """Columns X_error and X_error_PART, or uncertainty and u_PART."""
+        seen = 0
+        for path in self.tables():
+            rows = list(csv.DictReader(line for line in path.read_text("utf-8-sig").splitlines() if not line.startswith("#")))
+            for name in rows[0] if rows else ():
+                if not name:
+                    continue
+                whole = name.endswith("_error") or name == "uncertainty"
+                head = "u_" if name == "uncertainty" else f"{name}_"
+                parts = [column for column in rows[0] if column and column.startswith(head)]
+                for row in rows if whole and parts else ():
+                    if row[name]:
+                        self.assertGreaterEqual(float(row[name]) * (1 + 1e-5), root_sum_square(row, parts), (path, row))
+                        seen += 1
+        self.assertGreaterEqual(seen, 0)
+
+    def test_cross_check_shows_no_smaller_errors_than_its_parts(self) -> None:
+        folder = SOURCE / "inputs" / "crosscheck"
+        page = (folder / "README.md").read_text(encoding="utf-8")
+        table = [line for line in page.splitlines() if line.startswith("|") and "±" in line]
+        whole: dict[float, float] = {}  # value -> its smallest whole error, of all scales that the page has
+        for row in read_rows(folder / "results.csv"):
+            error = root_sum_square(row, [column for column in row if column.startswith("error_")])
+            for scale in (1.0, 1e3, 1e-3):
+                whole[scale * float(row["value"])] = min(scale * error, whole.get(scale * float(row["value"]), math.inf))
+        checked = 0
+        for value, error in (map(float, pair) for line in table for pair in SHOWN.findall(line)):
+            digit = 0.5 * 10.0 ** -len(str(value).partition(".")[2].rstrip("0"))
+            near = [u for known, u in whole.items() if abs(known - value) <= digit and u < abs(known)]
+            if near:
+                self.assertGreaterEqual(error, ROUNDING * min(near), (value, error))
+                checked += 1
+        self.assertGreater(checked, 15)
+
+    def test_regimes_have_no_smaller_error_than_their_own_tests_leave(self) -> None:
+        """The error of the model and of the tests cover the mean square of the differences of each regime."""
+        tests = read_rows(SOURCE / "inputs" / "validation" / "measured.csv")
+        for regime in read_rows(SOURCE / "inputs" / "validation" / "model_errors.csv"):
+            words = ("quantity", "ground", "wheel", "motion", "grousers")
+            own = [row for row in tests if all(row[word] == regime[word] for word in words)]
+            for study in {row["study"] for row in own}:
+                self.assertIn(study, regime["studies"].split())
+            smallest = min(float(row["difference"]) ** 2 for row in own)
+            noise = max(float(row["error"]) ** 2 for row in own)
+            self.assertGreaterEqual(float(regime["model"]) ** 2 + noise, smallest * 0.999, regime)
+
+
+class OutputTest(FolderTest):
+    def run_on_sand(self) -> WheelRun:
+        write_run(self.folder / "run", torque=50.0, pull=0.1)
+        run = read_wheel_run(self.folder / "run")
+        run.ground, run.size = "continuum", 0.04
+        run.conditions["density"] = Condition(1600.0, "kg/m3")
+        return run
+
+    def assert_whole(self, text: str, run: WheelRun) -> int:
+        """Every "value ± error" of a text is one of the run, with its whole error; their number."""
+        known = {}
+        for name, budget in budgets(run).items():
+            mean = run.values[name].mean if name in run.values else math.nan
+            known[name] = (mean, math.hypot(*(budget.part(part) for part in budget.known)))
+        found = 0
+        for value, error in (map(float, pair) for pair in SHOWN.findall(text)):
+            fits = [
+                scale * whole
+                for mean, whole in known.values()
+                for scale in (1.0, 100.0, 1e3)
+                if abs(abs(scale * mean) - abs(value)) <= max(0.51 * error, 1e-3 * abs(value)) and whole > 0
+            ]
+            self.assertTrue(fits, f"{value} ± {error} in {text}")
+            self.assertGreaterEqual(error, ROUNDING * min(fits), f"{value} ± {error} in {text}")
+            found += 1
+        return found
+
+    def test_texts_of_a_run(self) -> None:
+        write_run(self.folder / "run", torque=50.0, pull=0.1)
+        run = read_wheel_run(self.folder / "run")
+        histories = self.folder / "histories.png"
+        result = compare([run])
+        page = run_values(run, histories)
+        texts = {
+            "compare": comparison_report(result),
+            "report page": "\n".join(" ".join(row[:2]) for row in page["steady"]),
+            "tables of the page": "\n".join(" ".join(row) for _, rows in results_tables(result) for row in rows),
+        }
+        for name, text in texts.items():
+            with self.subTest(text=name):
+                self.assertGreaterEqual(self.assert_whole(text, run), 2)
+        for line in table_rows(result):
+            parts = [value for name, value in line.items() if name.startswith("u_") and isinstance(value, float)]
+            self.assertAlmostEqual(float(line["uncertainty"]), math.hypot(*(p for p in parts if p == p)))
+
+    def test_texts_of_a_folder(self) -> None:
+        write_run(self.folder / "run", torque=50.0)
+        folder = self.folder / "run"
+        run = read_wheel_run(folder)
+        for text in (report(folder), headline(folder), verdict_line(folder, quick=False)):
+            self.assertGreaterEqual(self.assert_whole(text, run), 1)
+
+    def test_values_of_a_sweep(self) -> None:
+        run = self.run_on_sand()
+        for name, value in quantities([run], {}).items():
+            known = [value.parts.part(part) for part in value.parts.known]
+            self.assertAlmostEqual(value.uncertainty, math.hypot(*known), 12, name)
+        self.assertGreater(quantities([run], {})["net_traction_coefficient"].parts.model, 0.03)
+
+
+if __name__ == "__main__":
+    unittest.main()
