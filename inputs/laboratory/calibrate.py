@@ -60,7 +60,7 @@ class Trials:
     def __init__(self, task: Task, folder: Path, most: int, tools: Tools) -> None:
         self.task, self.folder, self.most = task, folder, most
         self.names = list(task["parameters"])
-        self.executor = Executor(folder, tools, same_program=True, again=True)
+        self.executor = Executor(folder, tools, again=True)
         self.trials: set[str] = set()
         self.made = 0
 

@@ -121,7 +121,7 @@ def run_test(parsed: argparse.Namespace) -> None:
     tools = Tools.of(Path(__file__), parsed.build)
     default = PROJECT / "results" / "laboratory" / f"{test}_{parsed.ground}"
     output: Path = (parsed.output or default).resolve()
-    executor = Executor(output, tools, parsed.jobs, same_program=True, again=True)
+    executor = Executor(output, tools, parsed.jobs, again=True)
     cases = []
     for value in series or [""]:
         variables: dict[str, Value] = {"ground": parsed.ground}

@@ -2,10 +2,13 @@
 """What is run: a program with its arguments, variables and files, in its results folder."""
 
 import math
+import os
+import re
 import shlex
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +23,9 @@ Value = str | float | int | Path
 YAML_NAMES = (".yaml", ".yml")
 LONGEST_NAME = 256  # letters; longer texts are no names of files
 SCRIPT = ".lig"
+DEFAULT = re.compile(r"^variable\s+\w+\s+index.*|#.*", re.MULTILINE)
+VARIABLE = re.compile(r"\$\{(\w+)\}")
+FILE_NAME = re.compile(r"[^\s,:;=\"'()&|]+\.[A-Za-z]\w*")
 FOLDER = "{folder}"  # in an argument, a variable or a file's text: the folder of the run
 
 
@@ -103,14 +109,31 @@ class Case:
         return list(found)
 
     def _files_of(self, script: Path, furrow: Path) -> Iterator[Path]:
-        """The script, what it includes, and files that its variables name."""
+        """The script, what it includes, and files that lines and variables of them name."""
         given = {name: str(value) for name, value in self.variables.items()}
         known = script_variables(script, given, furrow)
-        yield from known.files
-        for value in {**known.defaults, **given}.values():
-            path = script.parent / value
-            if Path(value).suffix and path.is_file():
-                yield path.resolve()
+        values = {**known.defaults, **given}
+        seen = {*known.files}
+        start = () if self.start is None else (self.start,)
+        scripts = dict.fromkeys(known.files)
+        while scripts:
+            file, _ = scripts.popitem()
+            yield file
+            text = DEFAULT.sub("", file.read_text("utf-8", "replace"))
+            text = VARIABLE.sub(lambda found: values.get(found[1], ""), text)
+            named = [*_files_among(FILE_NAME.findall(text), file.parent, *start)]
+            scripts |= dict.fromkeys(path for path in named if path.suffix == SCRIPT and path not in seen)
+            seen.update(named)
+            yield from named
+        for value in values.values():
+            yield from _files_among((value, *FILE_NAME.findall(value)), script.parent, *start)
+
+
+def _files_among(names: Iterable[str], *folders: Path) -> Iterator[Path]:
+    for name, folder in product(names, folders):
+        path = os.path.join(folder, name)
+        if os.path.splitext(name)[1] and os.path.isfile(path):
+            yield Path(os.path.realpath(path))
 
 
 def _add_with_named(path: Path, found: dict[Path, None]) -> None:
@@ -124,10 +147,7 @@ def _add_with_named(path: Path, found: dict[Path, None]) -> None:
 
 def _named_in(text: str, folder: Path) -> Iterator[Path]:
     """Files that values of a YAML text name; what is no YAML names none."""
-    for value in _words_of(text):
-        path = (folder / value).resolve()
-        if Path(value).suffix and path.is_file():
-            yield path
+    return _files_among(_words_of(text), folder)
 
 
 @lru_cache(maxsize=None)

@@ -11,6 +11,7 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 from ..errors import Interrupted, ResultsError
+from ..formatting import duration
 from .case import FOLDER, Case, Value
 from .claim import claimed, is_busy
 from .process import ERRORS, Ending, Job, Processes, output_lines
@@ -19,6 +20,7 @@ from .record import FAILED, FINISHED, Record, digest, digests, forget, read_reco
 from .tools import Tools
 
 LOOK_EVERY = 1.0  # [s] at what is running
+PROGRAM = ""  # name of the program's digest among those of files
 PATIENCE = 10.0  # [s] in which a run that is being stopped leaves its folder
 
 
@@ -71,9 +73,9 @@ class Failed(ResultsError):
 class Executor:
     """The runs of a list in a results folder.
 
-    same_inputs: a run counts only when its input files are still the same; same_program: and when the
-    executable is (for tests); again: failed runs are repeated; low_priority: runs yield to other work;
-    watch: lines of the program go to the screen, instead of one line per run.
+    A run counts only while its program and all its input files are still the same. again: failed runs are
+    repeated; low_priority: runs yield to other work; watch: lines of the program go to the screen, instead
+    of one line per run.
     """
 
     def __init__(
@@ -81,15 +83,12 @@ class Executor:
         results: Path,
         tools: Tools,
         jobs: int = 1,
-        same_program: bool = False,
         again: bool = False,
-        same_inputs: bool = False,
         low_priority: bool = True,
         watch: bool = False,
     ) -> None:
         self.results, self.tools = results.resolve(), tools
-        self.same_inputs = same_inputs or same_program
-        self.jobs, self.same_program, self.again = jobs, same_program, again
+        self.jobs, self.again = jobs, again
         self.low_priority, self.watch = low_priority, watch
 
     def folder(self, case: Case) -> Path:
@@ -109,32 +108,43 @@ class Executor:
 
     def _valid(self, case: Case, file: str) -> Record | None:
         """The record in the folder, if it is that of this very case."""
-        record = read_record(self.folder(case) / file)
-        if record is None or record.job != case.identity(self.tools.root):
-            return None
-        if self.same_program and record.program != digest(self.tools.program(case.program)):
-            return None
-        if self.same_inputs and record.inputs != digests(case.input_files(self._furrow)):
-            return None
-        return record
+        record = self._stored(case, file)
+        return record if record and not self._changed(case, record) else None
 
-    @property
-    def _furrow(self) -> Path | None:
-        """The program that knows what scripts include, where it is built."""
+    def _stored(self, case: Case, file: str) -> Record | None:
+        """The record of a run with these arguments, variables and texts, whatever has changed since."""
+        record = read_record(self.folder(case) / file)
+        return record if record and record.job == case.identity(self.tools.root) else None
+
+    def _changed(self, case: Case, record: Record) -> list[str]:
+        """Names of the program and of input files that differ from those of a run."""
+        now, then = self.digests_now(case), {PROGRAM: record.program, **record.inputs}
+        differing = [name for name in {**then, **now} if now.get(name) != then.get(name)]
+        return [case.program if name == PROGRAM else name for name in differing]
+
+    def digests_now(self, case: Case) -> dict[str, str]:
+        """Digests of all input files and of the program, which has none where it is not built."""
+        program = self._built(case.program)
+        return {PROGRAM: digest(program) if program else "", **digests(case.input_files(self._built("furrow")))}
+
+    def _built(self, name: str) -> Path | None:
         try:
-            return self.tools.program("furrow")
+            return self.tools.program(name)
         except ResultsError:
             return None
 
-    def changed(self, case: Case) -> list[str]:
-        """Input files that differ from those of the run, as far as its record has them."""
-        record = self.ended(case)
-        if not record:
-            return []
-        furrow = self._furrow
-        now = digests(case.input_files(furrow))
-        names = record.inputs if furrow else now.keys() & record.inputs.keys()
-        return [name for name in names if now.get(name) != record.inputs[name]]
+    def outdated(self, cases: Sequence[Case]) -> str:
+        """A sentence about stored runs that do not count, because something has changed; empty where all count."""
+        stored = [(case, self._stored(case, FINISHED) or self._stored(case, FAILED)) for case in cases]
+        former = [(record, names) for case, record in stored if record and (names := self._changed(case, record))]
+        if not former:
+            return ""
+        every = ", ".join(sorted({name for _, names in former for name in names}))
+        cost = duration(sum(record.cpu_time for record, _ in former))
+        return (
+            f"{len(former)} runs in {self.results} do not count, because {every} changed since; "
+            f"they took {cost} of one core"
+        )
 
     def state(self, case: Case) -> State:
         if self.record(case):
@@ -180,6 +190,8 @@ class Executor:
         """stop: starts no further run after a failure."""
         for program in {case.program for case in cases}:
             self.tools.program(program)
+        if not anew and (sentence := self.outdated(cases)):
+            print(f"Repeating: {sentence}", flush=True)
         progress = Progress(len(cases), self.jobs, self.watch)
         failures: list[Run] = []
         with Processes() as processes:
@@ -241,6 +253,7 @@ class Executor:
         forget(folder, checkpoints=not case.continued)
         for name, text in case.files.items():
             (folder / name).write_text(text.replace(FOLDER, str(folder)), encoding="utf-8")
+        before = self.digests_now(case)
         started = datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
         show = progress.printer(case.name)
 
@@ -265,10 +278,12 @@ class Executor:
             stopped.append(error)
             changes = case.fallback
             ending, error = attempt(changes)
+        # A file that the run makes counts as it is after the run, one that was there before as it was
+        found = {**self.digests_now(case), **before}
         record = Record(
             job=case.identity(self.tools.root),
-            program=digest(program),
-            inputs=digests(case.input_files(self._furrow)),
+            program=found.pop(PROGRAM),
+            inputs=found,
             commit=self.tools.commit(),
             started=started,
             wall_time=round(ending.wall_time, 3),

@@ -56,7 +56,7 @@ def make_sweep(options: Any, script: Path, plan: Plan, folder: Path) -> int:
     former = read_plan(folder)
     whole = plan.joined(former) if former else plan
     whole.write(folder)
-    executor = Executor(folder, Tools.found(), options.jobs or 1, again=options.again, same_inputs=True)
+    executor = Executor(folder, Tools.found(), options.jobs or 1, again=options.again)
     cases = [case_of(plan, point) for point in plan.points]
     states = [executor.state(case) for case in cases]
     print(
@@ -79,7 +79,7 @@ def make_point(folder: Path, name: str) -> int:
     if not plan or not found:
         raise ResultsError(f"{folder}: is no sweep with a point {name}")
     case = case_of(plan, found[0])
-    executor = Executor(folder, Tools.found(), same_inputs=True, again=True)
+    executor = Executor(folder, Tools.found(), again=True)
     executor.run([case])
     return 0 if executor.state(case) is State.DONE else 1
 

@@ -36,7 +36,7 @@ CONE_ANGLE = 30.0  # [degrees]
 
 def card_executor(folder: Path, jobs: int = 1) -> Executor:
     """Executor of virtual tests. A test is repeated when its program, script or ground has changed."""
-    return Executor(folder, Tools.found(), jobs, same_program=True, again=True, low_priority=False, watch=True)
+    return Executor(folder, Tools.found(), jobs, again=True, low_priority=False, watch=True)
 
 
 def instrument_case(

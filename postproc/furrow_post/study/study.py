@@ -57,7 +57,7 @@ def carry_out(study: Study, parsed: Any) -> int:
     """
     tools = Tools.of(study.folder, parsed.build)
     results = parsed.results or tools.root / "results" / study.folder.name
-    executor = Executor(results, tools, parsed.jobs, same_program=parsed.check, again=parsed.again)
+    executor = Executor(results, tools, parsed.jobs, again=parsed.again)
     chosen = study.selected(parsed.names)
     if parsed.check and not parsed.names and study.checked is not None:
         chosen = [case for case in chosen if case.name in study.checked]
@@ -65,21 +65,11 @@ def carry_out(study: Study, parsed: Any) -> int:
         for case in chosen:
             print(f"{executor.state(case).value:8} {case.name:40} {case.what}".rstrip())
         return 0
-    _warn_of_changes(executor, chosen)
     if not parsed.evaluate:
         executor.run(chosen)
+    elif sentence := executor.outdated(study.cases):
+        print(f"WARNING: {sentence}. Without --evaluate they are repeated", file=sys.stderr)
     return _evaluate(study, executor, chosen, parsed.check, parsed.merge)
-
-
-def _warn_of_changes(executor: Executor, cases: Sequence[Case]) -> None:
-    changed = [names for case in cases if (names := executor.changed(case))]
-    if changed:
-        every = ", ".join(sorted({name for each in changed for name in each}))
-        print(
-            f"WARNING: {len(changed)} runs in {executor.results} were made with other input files ({every}); remove their "
-            "folders to repeat them",
-            file=sys.stderr,
-        )
 
 
 def _evaluate(

@@ -7,6 +7,7 @@ import unittest
 from pathlib import Path
 
 from furrow_post.cli.study_command import study_folders
+from furrow_post.run.executor import PROGRAM, Executor
 from furrow_post.run.process import ERRORS, SCREEN
 from furrow_post.run.tools import Tools
 from furrow_post.run.record import Record
@@ -36,11 +37,12 @@ NEEDS_NO_RUNS = {"tyre_table6", "validation"}  # results on the screen of a run;
 
 def forge(study: Study, results: Path, content: str | None) -> None:
     """Folders of finished runs, of all cases but one, with this in every file, or without files."""
-    root = Tools.of(study.folder).root
+    executor = Executor(results, Tools.of(study.folder))
     for case in study.cases[:-1]:
         folder = results / case.name
         folder.mkdir(parents=True, exist_ok=True)
-        record = Record(case.identity(root), "", {}, "", "2026-01-01T00:00:00Z", 1.0, 1.0, 0.1)
+        inputs = executor.digests_now(case)
+        record = Record(case.identity(executor.tools.root), inputs.pop(PROGRAM), inputs, "", "2026-01-01T00:00:00Z", 1.0, 1.0, 0.1)
         record.write(folder)
         for name in (SCREEN, ERRORS):
             (folder / name).write_text("")

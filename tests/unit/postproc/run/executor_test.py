@@ -8,6 +8,7 @@ import signal
 import threading
 import unittest
 from dataclasses import replace
+from pathlib import Path
 from unittest import mock
 
 from furrow_post.errors import ResultsError
@@ -212,18 +213,47 @@ class ExecutorTest(FolderTest):
         starts = self.tree.starts()
         self.assertEqual((sorted(starts[:2]), sorted(starts[2:])), (["a1", "b1"], ["a2", "b2"]))
 
-    def test_for_a_check_runs_are_by_the_present_program_and_script(self) -> None:
-        case = self.tree.case("a")
+    def test_run_counts_while_all_that_it_was_made_from_is_the_same(self) -> None:
+        """Each change repeats the run once: script, bed, material, base, contact, layer, mesh, and program."""
+        study = self.tree.study
+        texts = {
+            "made.lig": "include part.lig\nvariable d index bed\nvariable m index other.yaml\nbed ${d}.lig seed 1\nrun 1\n",
+            "part.lig": "fix t all terrain/continuum material ../soil.yaml\n",
+            "bed.lig": "fix m all mesh/surface file wall.stl\n",
+            "wall.stl": "solid\n",
+            "snow.yaml": "{base: base.yaml}\n",
+            "base.yaml": "{law: {density: 300}, contact: steel.yaml}\n",
+            "steel.yaml": "{friction: 0.1}\n",
+            "../soil.yaml": "{law: {density: 1500}}\n",
+            "layer.yaml": "{law: {density: 400}}\n",
+            "other.yaml": "{law: {density: 500}}\n",  # default that is replaced
+        }
+        for name, text in texts.items():
+            (study / name).write_text(text)
+        case = self.tree.case("a", m="snow.yaml:0.1,layer.yaml")
         self.executor.run([case])
-        strict = Executor(self.results, self.tree.tools, same_program=True)
-        self.assertEqual(strict.state(case), State.DONE)
-        self.tree.install("another build")
+        for count, (name, text) in enumerate(texts.items(), 1):
+            self.assertEqual((self.executor.state(case), self.executor.outdated([case])), (State.DONE, ""), name)
+            (study / name).write_text(text + "# changed\n")
+            if name == "other.yaml":
+                break
+            self.assertEqual(self.executor.state(case), State.MISSING, name)
+            self.assertRegex(self.executor.outdated([case]), f"^1 runs in .*because {Path(name).name} changed since")
+            self.executor.run([case])
+            self.assertEqual(len(self.tree.starts()), count + 1)
         self.assertEqual(self.executor.state(case), State.DONE)
-        self.assertEqual(strict.state(case), State.MISSING)
-        strict.run([case])
-        self.assertEqual(strict.state(case), State.DONE)
-        self.tree.script.write_text("run 2\n")
-        self.assertEqual(strict.state(case), State.MISSING)
+        self.tree.install("another build")
+        self.assertIn("because furrow changed since", self.executor.outdated([case]))
+        self.executor.run([case])
+        self.assertEqual((self.executor.state(case), len(self.tree.starts())), (State.DONE, len(texts) + 1))
+
+    def test_run_whose_inputs_change_meanwhile_does_not_count(self) -> None:
+        """The record has the files as they were when the program started."""
+        case = self.tree.case("a", sleep=0.5)
+        changes = threading.Timer(0.2, self.tree.script.write_text, ["run 2\n"])
+        changes.start()
+        self.executor.run([case])
+        self.assertEqual(self.executor.state(case), State.MISSING)
 
     def test_files_are_written_with_the_folder_of_the_run(self) -> None:
         files = {"path.yaml": f"output: {FOLDER}/x\n"}

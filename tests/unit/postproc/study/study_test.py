@@ -52,14 +52,29 @@ class StudyTest(FolderTest):
         self.assertRegex(printed, r"missing +a1 +value 1\nmissing +b1 +value 2")
         self.assertEqual(self.tree.starts(), [])
 
-    def test_runs_of_other_input_files_are_kept_with_a_warning(self) -> None:
+    def test_run_of_changed_script_base_or_program_is_repeated_and_never_in_the_table(self) -> None:
+        base, stored = self.tree.study / "base.yaml", self.tree.study / "results.csv"
+        base.write_text("{law: {density: 300}}\n")
+        (self.tree.study / "snow.yaml").write_text("{base: base.yaml}\n")
+        self.tree.script.write_text("variable snow index snow.yaml\n")
         self.run_study(a1=1, a2=2)
-        self.assertNotIn("WARNING", self.run_study(a1=1, a2=2)[1])
-        self.tree.script.write_text("run 2\n")
-        printed = self.run_study(a1=1, a2=2, b1=1)[1]
-        self.assertIn("WARNING: 2 runs in ", printed)
-        self.assertIn("were made with other input files (made.lig); remove their folders to repeat them", printed)
-        self.assertEqual(self.tree.starts(), ["a1", "a2", "b1"])
+        for change, name in (
+            (lambda: self.tree.script.write_text("variable snow index snow.yaml\nrun 2\n"), "made.lig"),
+            (lambda: base.write_text("{law: {density: 400}}\n"), "base.yaml"),
+            (lambda: self.tree.install("another build"), "furrow"),
+        ):
+            change()
+            stored.write_text("run,value\na1,7\n")
+            started = len(self.tree.starts())
+            printed = self.run_study("--evaluate", "--merge", a1=1, a2=2)[1]
+            self.assertIn(f"WARNING: 2 runs in {self.results} do not count, because {name} changed since", printed)
+            self.assertEqual((stored.read_text(), len(self.tree.starts())), ("run,value\na1,7\n", started))
+            printed = self.run_study("a1", "--merge", a1=1, a2=2)[1]
+            self.assertIn(f"Repeating: 1 runs in {self.results} do not count", printed)
+            self.assertEqual(read_rows(stored), [{"run": "a1", "value": "1.0"}])
+            self.run_study(a1=1, a2=2)
+            self.assertEqual(self.tree.starts()[started:], ["a1", "a2"])
+            self.assertNotIn("Repeating", self.run_study(a1=1, a2=2)[1])
 
     def test_selection_by_stage_and_pattern(self) -> None:
         self.run_study("a", a1=1, a2=1, b1=2)

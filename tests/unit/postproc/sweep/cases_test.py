@@ -49,7 +49,7 @@ class CasesTest(FolderTest):
         return plan_of(replace(Request(self.tree.script, sweep), **more))[0]
 
     def executor(self) -> Executor:
-        return Executor(self.results, self.tree.tools, same_inputs=True)
+        return Executor(self.results, self.tree.tools)
 
     def test_link_in_the_place_of_the_part_of_a_plan_is_not_followed(self) -> None:
         notes = self.results / "notes"
@@ -102,12 +102,14 @@ class CasesTest(FolderTest):
         self.executor().forget(cases)
         self.assertEqual(self.executor().missing(cases), cases)
 
-    def test_a_point_of_another_script_or_material_is_made_again(self) -> None:
+    def test_a_point_of_another_script_material_or_program_is_made_again(self) -> None:
         plan = self.plan("value=1,2")
         cases = [case_of(plan, point) for point in plan.points]
         self.executor().run(cases)
         self.assertEqual(self.executor().missing(cases), [])
         self.tree.install("another build")
+        self.assertEqual(self.executor().missing(cases), cases)
+        self.tree.install()
         self.assertEqual(self.executor().missing(cases), [])
         self.sand.write_text("dense")
         again = [case_of(plan, point) for point in plan.points]
