@@ -15,7 +15,6 @@ whose "together" values are used. A deviation "30%" compares logarithms. Several
 {"test", "variables", "series", target}; "held_out": true leaves a test out of the fit and reports what the fit predicts.
 """
 
-import argparse
 import json
 import math
 import sys
@@ -38,10 +37,11 @@ from furrow_post.analyse.fitter import Fit, Parameter, Search, fit
 from furrow_post.analyse.statistics import rms
 from furrow_post.arguments import at_least, fraction, path
 from furrow_post.arrays import Floats
+from furrow_post.cli.main import start
+from furrow_post.cli.parameters import Given, argument, command, option
 from furrow_post.errors import ResultsError
 from furrow_post.laboratory.evaluation import values_of
 from furrow_post.laboratory.together import together
-from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve, read_oedometer_reference
 from furrow_post.run.case import Case, Value, laboratory_case
 from furrow_post.run.executor import Executor
@@ -204,23 +204,27 @@ def findings(found: Fit) -> list[str]:
     return [*text, *(f"{one.parameter.name}: {one.remark}" for one in found.parameters if one.remark)]
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("calibration", type=path)
-    parser.add_argument("-o", "--output", type=path)
-    parser.add_argument("--runs", type=at_least(1), default=40, help="new trials at most (40)")
-    parser.add_argument("--build", type=path, help="default: $FURROW_BUILD, or build in the tree")
-    parsed = parser.parse_args()
-    calibration: Path = parsed.calibration
-    task = read_task(calibration)
-    default = PROJECT / "results" / "laboratory" / f"calibrate_{calibration.stem}"
-    folder: Path = (parsed.output or default).resolve()
+@command(
+    argument("calibration", "JSON file", path),
+    option("-o", "--output", "folder", parse=path, help="where runs are kept"),
+    option("--runs", parse=at_least(1), default=40, show_default=True, help="new trials at most"),
+    option("--build", parse=path, help="default: $FURROW_BUILD, or build in the tree"),
+    description=__doc__ or "",
+)
+def calibration(given: Given) -> None:
+    file: Path = given.calibration
+    task = read_task(file)
+    folder = (given.folder or PROJECT / "results" / "laboratory" / f"calibrate_{file.stem}").resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    trials = Trials(task, folder, parsed.runs, Tools.of(Path(__file__), parsed.build))
+    trials = Trials(task, folder, given.runs, Tools.of(Path(__file__), given.build))
     result = json.dumps(calibrate(task, trials), indent=1)
-    calibration.with_suffix(".result.json").write_text(result + "\n", encoding="utf-8")
+    file.with_suffix(".result.json").write_text(result + "\n", encoding="utf-8")
     print(result)
 
 
+def main() -> int:
+    return start(calibration, "laboratory/calibrate.py")
+
+
 if __name__ == "__main__":
-    sys.exit(run_program("laboratory/calibrate.py", main))
+    sys.exit(main())

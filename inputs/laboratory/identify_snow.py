@@ -2,10 +2,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A law for the continuum from the laboratory tests of a snow of clusters, and what it is worth.
 
-  record RESULTS ... -o RECORD.csv                           means and scatter over packings
-  fit RECORD.csv --law LAW [--title TITLE] -o MATERIAL.yaml  the law
-  compare RECORD.csv MATERIAL.yaml ...                       all values, and the deviations
-
 Laws: cohesive Cam clay, the Drucker-Prager cap, the crushable foam. Two numbers give each its shape
 (--law names them). Least squares fits them to all tests but shear and triaxial at once. Each quantity
 of each test has the same weight. Deviations are logarithms of stresses, logarithms of densities over
@@ -14,7 +10,6 @@ state, the deviation is that of a factor of 20. For each shape the hardening is 
 follows the oedometer. E is the mean of the moduli in tension, nu 0.
 """
 
-import argparse
 import sys
 import tempfile
 import textwrap
@@ -26,14 +21,17 @@ sys.path.insert(0, str(PROJECT / "postproc"))
 
 import furrow_post  # first: says which of the next ones are missing
 
+import click
+
 from snow_laws import LAWS, Material, deviation, fit, is_fitted, is_ratio, judged
 from snow_paths import Points, predicted
 from snow_record import Row, Values, read_record, record_of, write_record
 
 from furrow_post.analyse.statistics import rms
-from furrow_post.arguments import path, words
+from furrow_post.arguments import path
+from furrow_post.cli.main import start
+from furrow_post.cli.parameters import Given, argument, command, option
 from furrow_post.formatting import yaml_text
-from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest
 from furrow_post.run.tools import Tools
 from furrow_post.study.tables import markdown
@@ -123,55 +121,63 @@ def tables(rows: Sequence[Row], laws: dict[str, Values]) -> str:
     return "\n".join([*markdown(["", "grains", *laws], each), "", *markdown(["", *laws], rest)])
 
 
-def parse() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        description=__doc__,
-        epilog="\n".join(TESTS),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument("--build", type=path, help="default: $FURROW_BUILD, or build in the tree")
-    commands = parser.add_subparsers(dest="command", required=True)
-    record = commands.add_parser("record", help="tests -> RECORD.csv")
-    record.add_argument("tests", nargs="+", type=path, help="results folders")
-    record.add_argument("-o", "--output", required=True, type=path, metavar="RECORD.csv")
-    fitted = commands.add_parser("fit", help="RECORD.csv -> MATERIAL.yaml")
-    fitted.add_argument("record", type=path)
-    shapes = "; ".join(f"{n}: {', '.join(s.name for s in law.shapes)}" for n, law in LAWS.items())
-    fitted.add_argument("--law", choices=sorted(LAWS), default="cam_clay", help=shapes)
-    fitted.add_argument("--title", type=words)
-    fitted.add_argument("-o", "--output", required=True, type=path, metavar="MATERIAL.yaml")
-    compared = commands.add_parser("compare", help="RECORD.csv, MATERIAL.yaml ... -> tables")
-    compared.add_argument("record", type=path)
-    compared.add_argument("materials", nargs="+", type=path)
-    return parser.parse_args()
+BUILD = option("--build", parse=path, help="default: $FURROW_BUILD, or build in the tree")
+
+@command(
+    argument("tests", "results folders", path, nargs=-1, required=True),
+    option("-o", "--output", required=True, parse=path, metavar="RECORD.csv", help="file to write"),
+    name="record",
+    help="Tests -> RECORD.csv: means and scatter over packings.",
+)
+def record(given: Given) -> None:
+    write_record(given.output, record_of(LaboratoryTest(folder) for folder in given.tests))
 
 
-def run(parsed: argparse.Namespace) -> None:
-    if parsed.command == "record":
-        write_record(parsed.output, record_of(LaboratoryTest(folder) for folder in parsed.tests))
-        return
-    rows = read_record(parsed.record)
+@command(
+    argument("record", "RECORD.csv", path),
+    option(
+        "--law",
+        choices=sorted(LAWS),
+        default="cam_clay",
+        show_default=True,
+        help="; ".join(f"{n}: {', '.join(s.name for s in law.shapes)}" for n, law in LAWS.items()),
+    ),
+    option("--title", help="of the material"),
+    option("-o", "--output", required=True, parse=path, metavar="MATERIAL.yaml", help="file to write"),
+    BUILD,
+    name="fit",
+    help="RECORD.csv -> MATERIAL.yaml.",
+)
+def fit_law(given: Given) -> None:
+    rows = read_record(given.record)
     judged_rows = judged(rows)
-    tools = Tools.of(Path(__file__), parsed.build)
-    with tempfile.TemporaryDirectory() as name, Points(tools, Path(name)) as points:
-        if parsed.command == "fit":
-            material = fit(LAWS[parsed.law], rows, points)
-            values = predicted(material.sections(), judged_rows, points)
-            title = parsed.title or f"Snow of {parsed.record.stem}, {material.law.title}"
-            text = material_text(title, parsed.record, material, judged_rows, values)
-            parsed.output.write_text(text, encoding="utf-8")
-            print(text)
-            return
-        laws = {
-            file.stem: predicted(sections_of(file), judged_rows, points)
-            for file in parsed.materials
-        }
+    with tempfile.TemporaryDirectory() as name, Points(Tools.of(Path(__file__), given.build), Path(name)) as points:
+        material = fit(LAWS[given.law], rows, points)
+        values = predicted(material.sections(), judged_rows, points)
+    title = given.title or f"Snow of {given.record.stem}, {material.law.title}"
+    text = material_text(title, given.record, material, judged_rows, values)
+    given.output.write_text(text, encoding="utf-8")
+    print(text)
+
+
+@command(
+    argument("record", "RECORD.csv", path),
+    argument("materials", "MATERIAL.yaml", path, nargs=-1, required=True),
+    BUILD,
+    name="compare",
+    help="RECORD.csv, MATERIAL.yaml ... -> tables of all values and deviations.",
+)
+def compare(given: Given) -> None:
+    judged_rows = judged(read_record(given.record))
+    with tempfile.TemporaryDirectory() as name, Points(Tools.of(Path(__file__), given.build), Path(name)) as points:
+        laws = {file.stem: predicted(sections_of(file), judged_rows, points) for file in given.materials}
     print(tables(judged_rows, laws))
 
 
-def main() -> None:
-    run(parse())
+def main() -> int:
+    steps = click.Group(commands=[record, fit_law, compare], help=__doc__, epilog="\b\n" + "\n".join(TESTS))
+    return start(steps, "laboratory/identify_snow.py")
 
 
 if __name__ == "__main__":
-    sys.exit(run_program("laboratory/identify_snow.py", main))
+    sys.exit(main())

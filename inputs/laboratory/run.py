@@ -7,7 +7,6 @@ Several confinements (plate: sizes in m; collapse: aspects) make several runs an
 Variables of a scene or ground (its head and grounds/NAME.lig) are set with -v.
 """
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -24,11 +23,12 @@ from checks import (
     require_variables,
 )
 
-from furrow_post.arguments import at_least, path, shield_negative_numbers, words
+from furrow_post.arguments import at_least, path, words
+from furrow_post.cli.main import start
+from furrow_post.cli.parameters import Given, argument, command, flag, option
 from furrow_post.errors import ResultsError
 from furrow_post.figures.laboratory_figure import draw_laboratory
 from furrow_post.laboratory.report import report_tests
-from furrow_post.program import run_program
 from furrow_post.read.laboratory import read_oedometer_reference
 from furrow_post.run.case import Case, Value, laboratory_case, point_case
 from furrow_post.run.executor import Executor
@@ -52,105 +52,89 @@ def law_case(name: str, test: str, material: Path, confinement: str) -> Case:
     return point_case(name, f"{material.stem}{what}", material.resolve(), paths[test])
 
 
-def parse() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("test", nargs="?", choices=sorted(SERIES))
-    parser.add_argument("--list", action="store_true", help="tests and grounds")
-    parser.add_argument("--ground", default="sand_dry", help=f"one of {', '.join(grounds())}")
-    series = ", ".join(f"{test}: {name}" for test, name in SERIES.items())
-    parser.add_argument(
-        "--series", type=words, metavar="VALUES", help=f"values, with commas: {series}"
-    )
-    parser.add_argument(
-        "--confinement", type=words, metavar="VALUES", help="the series of triaxial, extension, plane_strain and shear"
-    )
-    parser.add_argument(
-        "--continuum",
-        type=path,
-        action="append",
-        default=[],
-        metavar="MATERIAL.yaml",
-        help="the same path on a law, to lay beside",
-    )
-    parser.add_argument("--reference", type=path, help="reference.csv of an oedometer")
-    parser.add_argument(
-        "-v", nargs=2, action="append", default=[], metavar=("NAME", "VALUE"), dest="variables"
-    )
-    parser.add_argument("-o", "--output", type=path)
-    parser.add_argument("--jobs", type=at_least(1), default=1, help="runs at a time (default: 1)")
-    parser.add_argument("--build", type=path, help="default: $FURROW_BUILD, or build in the tree")
-    parsed = parser.parse_args(shield_negative_numbers(sys.argv[1:]))
-    parsed.variables = [(name, value.strip()) for name, value in parsed.variables]
-    return parsed
-
-
-def series_of(parsed: argparse.Namespace) -> list[str]:
+def series_of(given: Given) -> list[str]:
     """Values of the series, or none. @raises ResultsError"""
-    name = SERIES[parsed.test]
-    if parsed.confinement and name != "confinement":
-        raise ResultsError(f"--confinement: the series of {parsed.test} is {name}; use --series")
-    if parsed.confinement and parsed.series:
+    name = SERIES[given.test]
+    if given.confinement and name != "confinement":
+        raise ResultsError(f"--confinement: the series of {given.test} is {name}; use --series")
+    if given.confinement and given.series:
         raise ResultsError("--confinement and --series are the same here; give one of them")
-    text: str = parsed.confinement or parsed.series or ""
+    text: str = given.confinement or given.series or ""
     return [value.strip() for value in text.split(",")] if text else []
 
 
-def check(parsed: argparse.Namespace, series: list[str]) -> None:
+def check(given: Given, series: list[str]) -> None:
     """Before anything runs. @raises ResultsError"""
-    test: str = parsed.test
-    require_ground(parsed.ground)
-    require_variables(test, parsed.ground, parsed.variables)
-    require_series(test, series, parsed.ground, dict(parsed.variables))
-    for material in parsed.continuum:
+    test: str = given.test
+    require_ground(given.ground)
+    require_variables(test, given.ground, given.variables)
+    require_series(test, series, given.ground, dict(given.variables))
+    for material in given.continuum:
         if not material.is_file():
             raise ResultsError(f"--continuum {material}: no such file; name a material (YAML)")
         law_case("", test, material, CONFINEMENT)  # has this test a path of a point?
         require_law(material)
-    if parsed.reference:
-        read_oedometer_reference(parsed.reference)
+    if given.reference:
+        read_oedometer_reference(given.reference)
         if test != "oedometer":
             raise ResultsError("--reference is for oedometers; leave it out")
 
 
-def run_test(parsed: argparse.Namespace) -> None:
-    test: str = parsed.test
-    series = series_of(parsed)
-    check(parsed, series)
-    tools = Tools.of(Path(__file__), parsed.build)
-    default = PROJECT / "results" / "laboratory" / f"{test}_{parsed.ground}"
-    output: Path = (parsed.output or default).resolve()
-    executor = Executor(output, tools, parsed.jobs, again=True)
+def run_test(given: Given) -> None:
+    test: str = given.test
+    series = series_of(given)
+    check(given, series)
+    tools = Tools.of(Path(__file__), given.build)
+    default = PROJECT / "results" / "laboratory" / f"{test}_{given.ground}"
+    output: Path = (given.output or default).resolve()
+    executor = Executor(output, tools, given.jobs, again=True)
     cases = []
     for value in series or [""]:
-        variables: dict[str, Value] = {"ground": parsed.ground}
+        variables: dict[str, Value] = {"ground": given.ground}
         if value:
             variables[SERIES[test]] = value
-        variables.update(parsed.variables)
+        variables.update(given.variables)
         name = f"{SERIES[test]}_{value}" if value else ""
         cases.append(laboratory_case(name, test, PROJECT, variables))
     paths = []
-    for material in parsed.continuum:
+    for material in given.continuum:
         for value in (series if test == "triaxial" else []) or [""]:
             name = f"point_{material.stem}_{value}"
             paths.append(law_case(name, test, material, value or CONFINEMENT))
     folders = [run.folder for run in executor.completed([*cases, *paths])]
     points = [str(folder) for folder in folders[len(cases) :]]
-    found = report_tests(folders[: len(cases)], parsed.reference, points)
+    found = report_tests(folders[: len(cases)], given.reference, points)
     print(found.report)
     target = output / "laboratory.png"
     draw_laboratory(found, target)
     print(target)
 
 
-def main() -> None:
-    parsed = parse()
-    if parsed.list or not parsed.test:
+@command(
+    argument("test", choices=sorted(SERIES), required=False, metavar="[TEST]", help=f"one of {', '.join(sorted(SERIES))}"),
+    flag("--list", help="print tests and grounds"),
+    option("--ground", default="sand_dry", show_default=True, help=f"one of {', '.join(grounds())}"),
+    option("--series", metavar="VALUES", help=f"values, with commas: {', '.join(f'{t}: {n}' for t, n in SERIES.items())}"),
+    option("--confinement", metavar="VALUES", help="the series of triaxial, extension, plane_strain and shear"),
+    option("--continuum", parse=path, multiple=True, metavar="MATERIAL.yaml", help="the same path on a law, for comparison"),
+    option("--reference", parse=path, help="reference.csv of an oedometer"),
+    option("-v", "variables", nargs=2, parse=str, multiple=True, metavar="NAME VALUE", help="a variable of scene or ground"),
+    option("-o", "--output", parse=path, help="folder of the results"),
+    option("--jobs", parse=at_least(1), default=1, show_default=True, help="runs at a time"),
+    option("--build", parse=path, help="default: $FURROW_BUILD, or build in the tree"),
+    description=__doc__ or "",
+)
+def laboratory(given: Given) -> None:
+    if given.list or not given.test:
         print("tests:", ", ".join(sorted(SERIES)), "\ngrounds:", ", ".join(grounds()))
         return
-    run_test(parsed)
+    given.variables = [(name, value.strip()) for name, value in given.variables]
+    run_test(given)
+
+
+def main() -> int:
+    return start(laboratory, "laboratory/run.py")
 
 
 if __name__ == "__main__":
-    sys.exit(run_program("laboratory/run.py", main))
+    sys.exit(main())

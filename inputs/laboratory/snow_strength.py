@@ -7,7 +7,6 @@ Clusters: records/*.csv, undisturbed and pressed snow; shear is that under the s
 stress of the record. Laws: the same paths, by furrow-point. Measured: snow_strength_reference.csv.
 """
 
-import argparse
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -30,9 +29,10 @@ from snow_record import Row, read_record
 
 from furrow_post.arguments import path
 from furrow_post.arrays import Floats
+from furrow_post.cli.main import start
+from furrow_post.cli.parameters import Given, command, option
 from furrow_post.csv_table import read_rows
 from furrow_post.figures.style import KILOPASCAL, RUN_COLOURS, annotate_panel, save, use_style
-from furrow_post.program import run_program
 from furrow_post.run.tools import Tools
 from furrow_post.study.tables import markdown
 
@@ -162,18 +162,15 @@ def draw_kind(
     axes.legend(fontsize=7, loc="upper left")
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--build", type=path, help="default: $FURROW_BUILD, or build in the tree")
-    parser.add_argument(
-        "-o", "--output", type=path, default=HERE / "snow_strength.png", metavar="FIGURE"
-    )
-    parsed = parser.parse_args()
+@command(
+    option("--build", parse=path, help="default: $FURROW_BUILD, or build in the tree"),
+    option("-o", "--output", parse=path, default=HERE / "snow_strength.png", metavar="FIGURE", help="default: next to this program"),
+    description=__doc__ or "",
+)
+def strength(given: Given) -> None:
     records = {ground: read_record(HERE / "records" / f"{ground}.csv") for ground in GROUNDS}
     clusters = {ground: of_clusters(record) for ground, record in records.items()}
-    tools = Tools.of(Path(__file__), parsed.build)
+    tools = Tools.of(Path(__file__), given.build)
     with tempfile.TemporaryDirectory() as name, Points(tools, Path(name)) as points:
         laws = {
             ground: of_law(ground, min(r.confinement for r in record if r.test == "shear"), points)
@@ -185,8 +182,12 @@ def main() -> None:
     for letter, kind, axes in zip("ab", KINDS, panels):
         draw_kind(axes, kind, clusters, laws)
         annotate_panel(axes, letter, "tension" if kind == "tension" else "shear under 0.1 kPa")
-    save(figure, parsed.output)
+    save(figure, given.output)
+
+
+def main() -> int:
+    return start(strength, "laboratory/snow_strength.py")
 
 
 if __name__ == "__main__":
-    sys.exit(run_program("laboratory/snow_strength.py", main))
+    sys.exit(main())

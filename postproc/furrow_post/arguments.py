@@ -81,11 +81,6 @@ def seconds(text: str) -> float:
     return positive(text)
 
 
-def shield_negative_numbers(given: Sequence[str]) -> list[str]:
-    """Words with a blank before each negative number: argparse takes "-1e3" for an option."""
-    return [f" {word}" if is_number(word) and word.startswith("-") else word for word in given]
-
-
 def is_number(text: str) -> bool:
     try:
         float(text)

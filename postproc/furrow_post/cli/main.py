@@ -49,12 +49,17 @@ def _name(parameter: click.Parameter) -> str:
 
 
 def main(arguments: Sequence[str] | None = None, name: str = NAME) -> int:
-    """Runs a command; the result is the exit status."""
+    """Exit status of a command of furrow-post."""
+    return start(root, name, arguments)
+
+
+def start(command: click.Command, name: str, arguments: Sequence[str] | None = None) -> int:
+    """Exit status of a program that is this command; name: as a user calls it."""
     given = list(sys.argv[1:] if arguments is None else arguments)
 
     def run() -> int | None:
         try:
-            status = root.main(given, prog_name=name, standalone_mode=False)
+            status = command.main(given, prog_name=name, standalone_mode=False)
         except click.ClickException as error:
             context = error.ctx if isinstance(error, click.UsageError) else None
             place = context.command_path if context else name

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from ..arrays import Floats
 from ..csv_table import read_comments, read_rows
@@ -19,6 +20,7 @@ PULL, TORQUE, HUB_DROP = "net_traction_coefficient", "torque_coefficient", "hub_
 MOTION_RESISTANCE = "motion_resistance_coefficient"  # T/(W r) - P/W
 QUANTITIES = {PULL: "", TORQUE: "", HUB_DROP: "m", MOTION_RESISTANCE: ""}  # name -> unit
 RADIUS = "wheel_radius"
+FORCES = ("force_z", "drive_torque")
 CONDITIONS = ("load", "pressure", "depth", "speed", "slip_angle", "camber", "slope")
 REMEDY = "make it with 'inputs/run SCENE --sweep NAME=FIRST:LAST ... --samples N'"
 
@@ -37,70 +39,51 @@ class Training:
 
 def read_training(sources: Sequence[Path]) -> Training:
     """sources: folders of sweeps, or their tables. @raises ResultsError, OSError"""
-    rows: list[dict[str, str]] = []
-    units: dict[str, str] = {}
+    tables, units = [], dict[str, str]()
     for source in sources:
         table = source / TABLE if source.is_dir() else source
         if not table.is_file():
             raise ResultsError(f"{source}: has no {TABLE}; {REMEDY}")
-        rows += read_rows(table)
+        tables.append(pd.DataFrame(read_rows(table)))
         units.update(re.findall(r"^# (\w+) \[(.+)\]$", "\n".join(read_comments(table)), re.M))
-    names = _inputs(rows, sources[0])
-    found = [[*(_number(row, SET + name) for name in names), *_answers(row)] for row in rows]
-    whole = [k for k, values in enumerate(found) if all(map(math.isfinite, values))]
-    values = np.array([found[k] for k in whole]).reshape(len(whole), -1)
-    if not whole:
+    texts = pd.concat(tables, ignore_index=True)
+    runs = texts.applymap(_number).reindex(columns=dict.fromkeys([*texts.columns, *QUANTITIES, *CONDITIONS, *FORCES]))
+    names = _inputs(texts, runs, sources[0])
+    lever = runs[TORQUE] * runs[FORCES[0]]
+    runs[RADIUS] = runs[FORCES[1]] / lever.where(lever != 0)
+    runs[MOTION_RESISTANCE] = runs[TORQUE] - runs[PULL]
+    inputs = [SET + name for name in names]
+    whole = runs[np.isfinite(runs[[*inputs, *QUANTITIES, RADIUS]]).all(axis="columns")]
+    if whole.empty:
         raise ResultsError(f"{sources[0]}: no run has slip, load, pull and torque; {REMEDY}")
-    answers = values[:, len(names) :].T
-    quantities = dict(zip((PULL, TORQUE, HUB_DROP, RADIUS), answers))
-    quantities[MOTION_RESISTANCE] = quantities[TORQUE] - quantities[PULL]
-    constants = {RADIUS: float(np.median(quantities.pop(RADIUS)))}
-    for name in CONDITIONS:
-        of_runs = {_number(rows[k], name) for k in whole}
-        if name not in names and len(of_runs) == 1 and math.isfinite(value := of_runs.pop()):
-            constants[name] = value
+    shared = {name: whole[name].iloc[0] for name in CONDITIONS if name not in names and whole[name].nunique(dropna=False) == 1}
     return Training(
         names,
         tuple(units.get(name, "") for name in names),
-        values[:, : len(names)],
-        quantities,
-        constants,
-        len(rows) - len(whole),
+        whole[inputs].to_numpy(),
+        {name: whole[name].to_numpy() for name in QUANTITIES},
+        {RADIUS: float(whole[RADIUS].median()), **{name: float(value) for name, value in shared.items() if math.isfinite(value)}},
+        len(runs) - len(whole),
     )
 
 
-def _inputs(rows: Sequence[dict[str, str]], source: Path) -> tuple[str, ...]:
+def _inputs(texts: pd.DataFrame, runs: pd.DataFrame, source: Path) -> tuple[str, ...]:
     """Names of the swept numbers. @raises ResultsError"""
-    columns = dict.fromkeys(name for row in rows for name in row if name.startswith(SET))
-    names = []
-    for column in columns:
-        texts = {row.get(column, "") for row in rows}
+    swept = [column for column in texts if column.startswith(SET)]
+    for column in swept:
         name = column.removeprefix(SET)
-        if "" in texts:
-            raise ResultsError(
-                f"{source}: not every run sets '{name}'; give sweeps over the same variables"
-            )
-        if len(texts) == 1:
-            continue
-        if not all(math.isfinite(_number(row, column)) for row in rows):
-            raise ResultsError(
-                f"{source}: '{name}' has values that are no numbers; make a surrogate for each of them"
-            )
-        names.append(name)
+        if (texts[column].fillna("") == "").any():
+            raise ResultsError(f"{source}: not every run sets '{name}'; give sweeps over the same variables")
+        if texts[column].nunique() > 1 and not np.isfinite(runs[column]).all():
+            raise ResultsError(f"{source}: '{name}' has values that are no numbers; make a surrogate for each of them")
+    names = tuple(column.removeprefix(SET) for column in swept if texts[column].nunique() > 1)
     if not names:
         raise ResultsError(f"{source}: no variable of a sweep changes between its runs; {REMEDY}")
-    return tuple(names)
+    return names
 
 
-def _number(row: dict[str, str], name: str) -> float:
+def _number(text: object) -> float:
     try:
-        return float(row.get(name, ""))
+        return float(str(text))
     except ValueError:
         return math.nan
-
-
-def _answers(row: dict[str, str]) -> list[float]:
-    """Pull and torque coefficient, hub drop, radius of the wheel."""
-    pull, torque, drop = (_number(row, name) for name in (PULL, TORQUE, HUB_DROP))
-    lever = torque * _number(row, "force_z")
-    return [pull, torque, drop, _number(row, "drive_torque") / lever if lever else math.nan]

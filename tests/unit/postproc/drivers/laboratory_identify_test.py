@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""inputs/laboratory/identify.py finds the law that curves were made with."""
+"""inputs/laboratory/cap.py finds the law that curves were made with."""
 
 import contextlib
 import io
@@ -15,7 +15,7 @@ from support.laboratory import cell_rows, triaxial_stress, write_test
 
 sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
 
-import identify
+import cap
 
 TANGENT, E, NU, R, H = 1.1, 4e6, 0.2, 0.3, 2e6  # p_b = its first value + H eps
 
@@ -30,11 +30,11 @@ class CapLawTest(FolderTest):
         return LaboratoryTest(write_test(self.folder / f"triaxial_{lateral:g}", facts, rows))
 
     def test_friction_and_its_match(self) -> None:
-        found, each = identify.friction([self.triaxial(1e4), self.triaxial(5e4)])
+        found, each = cap.friction([self.triaxial(1e4), self.triaxial(5e4)])
         sine = 3 * TANGENT / (6 + TANGENT)  # triaxial compression
         self.assertEqual(len(each), 2)
         self.assertAlmostEqual(found, sine, delta=1e-3)
-        triaxial, plane = identify.MATCH["triaxial"], identify.MATCH["plane_strain"]
+        triaxial, plane = cap.MATCH["triaxial"], cap.MATCH["plane_strain"]
         self.assertAlmostEqual(triaxial.tangent(found), TANGENT, delta=4e-3)
         half = float(np.sin(np.radians(30.0)))
         self.assertAlmostEqual(plane.tangent(half), float(np.sqrt(0.75)), places=9)
@@ -43,19 +43,19 @@ class CapLawTest(FolderTest):
         for end, said in ((0.2, ""), (0.02, "ends at 2.0% of axial strain")):
             told = io.StringIO()
             with contextlib.redirect_stderr(told):
-                identify.warn_of_short_tests([self.triaxial(1e4, end)])
+                cap.warn_of_short_tests([self.triaxial(1e4, end)])
             self.assertIn(said, told.getvalue())
             self.assertEqual(bool(said), bool(told.getvalue()))
 
     def test_elasticity(self) -> None:
-        found = identify.elasticity(self.triaxial(5e4))
+        found = cap.elasticity(self.triaxial(5e4))
         np.testing.assert_allclose(found, (E, NU), rtol=1e-3)
 
     def test_eccentricity_and_hardening(self) -> None:
-        on_cap = identify.cap_stress(np.geomspace(1e3, 3e5, 3000), R, TANGENT, 0.0)
+        on_cap = cap.cap_stress(np.geomspace(1e3, 3e5, 3000), R, TANGENT, 0.0)
         K0 = float(on_cap.K0[0])
-        self.assertAlmostEqual(identify.eccentricity(K0, TANGENT), R, delta=1e-3)
-        self.assertEqual(identify.eccentricity(0.1, TANGENT), identify.SMALLEST)
+        self.assertAlmostEqual(cap.eccentricity(K0, TANGENT), R, delta=1e-3)
+        self.assertEqual(cap.eccentricity(0.1, TANGENT), cap.SMALLEST)
         # elastic and plastic volume
         elastic = (on_cap.p - on_cap.p[0]) * 3 * (1 - 2 * NU) / E
         compression = elastic + (on_cap.p_b - on_cap.p_b[0]) / H
@@ -64,8 +64,8 @@ class CapLawTest(FolderTest):
         rows = cell_rows(strain, np.column_stack((lateral, lateral, on_cap.axial)))
         rows[:, 7] = 1500.0 * np.exp(np.concatenate((compression[:1], compression)))
         folder = write_test(self.folder / "oedometer", "test oedometer ground made", rows)
-        law = identify.Law(TANGENT, 0.0, R, E, NU)
-        hardening, density = identify.hardening(LaboratoryTest(folder), law)
+        law = cap.Law(TANGENT, 0.0, R, E, NU)
+        hardening, density = cap.hardening(LaboratoryTest(folder), law)
         self.assertAlmostEqual(density, 1500.0, places=6)
         self.assertGreater(len(hardening), 6)
         for p_b, plastic in hardening:

@@ -36,7 +36,7 @@ class DriversTest(unittest.TestCase):
             with self.subTest(driver=driver):
                 done = start(driver, "--help")
                 self.assertEqual(done.returncode, 0, done.stderr)
-                self.assertIn("usage:", done.stdout)
+                self.assertIn("usage:", done.stdout.lower())
 
     def test_list_names_every_run_once(self) -> None:
         with tempfile.TemporaryDirectory() as results:
