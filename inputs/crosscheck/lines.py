@@ -2,7 +2,7 @@
 """results.csv, a line per value, and the table of the page, which is made of its lines alone."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 
 from furrow_post.analyse.budget import Budget
 from furrow_post.analyse.entry import FORMULA, BEST, MEASURED, RUN, Entry

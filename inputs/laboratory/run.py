@@ -23,7 +23,7 @@ from checks import (
     require_variables,
 )
 
-from furrow_post.arguments import at_least, path, words
+from furrow_post.arguments import at_least, path
 from furrow_post.cli.main import start
 from furrow_post.cli.parameters import Given, argument, command, flag, option
 from furrow_post.errors import ResultsError

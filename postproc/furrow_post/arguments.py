@@ -4,7 +4,7 @@
 import argparse
 import math
 import unicodedata
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 

@@ -2,7 +2,6 @@
 """Makes the runs of a list that are not there yet, several at a time; nothing else starts a run."""
 
 import enum
-import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait

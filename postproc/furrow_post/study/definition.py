@@ -24,7 +24,7 @@ cases() in its evaluate.py in the place of `runs`.
 
 import importlib.util
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import product
 from pathlib import Path

@@ -24,15 +24,6 @@ def in_columns(rows: Sequence[Sequence[str]]) -> list[str]:
     return ["  ".join(cell.rjust(width) for cell, width in zip(row, widths)) for row in rows]
 
 
-def transposed(rows: Sequence[Mapping[str, Any]], key: str) -> list[dict[str, Any]]:
-    """A row per quantity and a column per row, which is named by its value of key."""
-    quantities = [name for name in column_names(rows) if name != key]
-    return [
-        {"quantity": name, **{str(row[key]): row.get(name, "") for row in rows}}
-        for name in quantities
-    ]
-
-
 def markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
     """Lines of a table."""
 

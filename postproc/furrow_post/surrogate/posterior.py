@@ -7,7 +7,7 @@ all tests on one soil share. The sampler is that of Goodman and Weare [Goodman20
 the line through another walker, x' = y + Z (x - y).
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 

@@ -69,10 +69,6 @@ def sources_of(spec: Spec) -> list[Spec]:
     return [one for one in (*lines, spec) if "table" in one or "runs" in one]
 
 
-def tables_of(spec: Spec) -> list[str]:
-    return [one["table"] for one in sources_of(spec) if "table" in one]
-
-
 def draw(spec: Spec, sources: Sources, target: Path) -> None:
     """@raises ResultsError for a line that cannot be drawn"""
     if spec.get("style", True):

@@ -17,7 +17,7 @@ import yaml
 
 from furrow_post.analyse.fitter import Fitted, NotComputed, Parameter
 from furrow_post.analyse.law_fit import Curve, LawFit, fit_law
-from furrow_post.analyse.law_fit_report import report, write_fit
+from furrow_post.analyse.law_fit_report import report
 from furrow_post.analyse.point_curves import PointCurves
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_columns

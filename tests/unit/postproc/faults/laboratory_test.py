@@ -31,7 +31,6 @@ sys.path.insert(0, str(LABORATORY))
 TESTS = (
     ("odometer", "'odometer' is not one of"),
     ("oedometer --ground snoww", "there is no ground 'snoww'; there are sand_cmu"),
-    ("oedometer --ground=", "--ground: is empty"),
     ("repose --ground snow_bonded", "the test repose has no sintered clusters"),
     ("oedometer -v grians 100", "no line reads 'grians'; did you mean grains?"),
     ("oedometer -v steps 3", "computes 'steps' itself"),
@@ -42,7 +41,6 @@ TESTS = (
     ("oedometer -v grains 100 -v grains 200", "-v grains is given 2 times; give it once"),
     ("oedometer -v results x", "-v results: use -o for the results folder"),
     ("oedometer -v ground snow", "-v ground: use --ground"),
-    ("oedometer -v grains", "-v needs NAME VALUE"),
     ("oedometer -v grains 0", "variable grains: 0 is not above 0"),
     ("oedometer -v grains 1", "variable grains: 1 is not a whole number from 50 on"),
     ("oedometer -v grains 99.5", "variable grains: 99.5 is not a whole number"),
@@ -66,7 +64,6 @@ TESTS = (
     (f"oedometer --continuum {SOURCE}/inputs/tyres/p235_75r15.yaml", "has neither 'law' nor 'base'"),
     ("oedometer --series 1,2", "variable seed: 1 is no prime"),
     ("oedometer --confinement 1e4", "the series of oedometer is seed; use --series"),
-    ("triaxial --confinement=", "--confinement: is empty"),
     ("triaxial --confinement 1e4,,2e4", "has an empty value of confinement"),
     ("triaxial --confinement 1e4,10000", "has a value of confinement twice"),
     ("triaxial --confinement 1e4 --series 1e4", "are the same here; give one of them"),
@@ -78,7 +75,6 @@ TESTS = (
     ("oedometer --reference none.csv", "none.csv: no such file or directory"),
     ("oedometer --reference empty.csv", "empty.csv: cannot be used (no rows of such numbers)"),
     (f"triaxial --reference {REFERENCE}", "--reference is for oedometers; leave it out"),
-    ("oedometer --output=", "is empty"),
     ("oedometer -o empty.csv", "empty.csv: "),
     ("oedometer --build none", "there is no program"),
 )
@@ -241,7 +237,6 @@ class LaboratoryFaultsTest(FaultsTest):
         for text, message in NO_CALIBRATIONS:
             self.calibrate(text, message)
         self.start("calibrate", ["none.json"], "none.json: no such file or directory")
-        self.start("calibrate", ["task.json", "--runs", "0"], "--runs: 0 is below 1")
 
     def test_results_of_tests(self) -> None:
         for kind, rows in CURVES.items():
@@ -284,9 +279,6 @@ class LaboratoryFaultsTest(FaultsTest):
             (triaxial, triaxial, "is a test 'triaxial'; name the results of test 'oedometer'"),
         ):
             self.start("identify", [tests, "--oedometer", confined, "-o", "law.yaml"], message)
-        for option in ("--stress", "--cohesion"):
-            words = [triaxial, "--oedometer", oedometer, "-o", "law.yaml", option, "nan"]
-            self.start("identify", words, "'nan' is not a finite number")
         self.assertFalse(Path("law.yaml").exists())
         shutil.rmtree(triaxial)
 

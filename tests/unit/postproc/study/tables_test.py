@@ -7,7 +7,7 @@ from pathlib import Path
 
 from furrow_post.csv_table import read_comments, read_numbers, read_rows, write_rows
 from furrow_post.errors import ResultsError
-from furrow_post.study.tables import aligned, markdown, transposed
+from furrow_post.study.tables import aligned, markdown
 
 ROWS: list[dict[str, object]] = [{"run": "a", "value": 1 / 3}, {"run": "long", "error": "stopped"}]
 
@@ -18,11 +18,6 @@ class TablesTest(unittest.TestCase):
         self.assertEqual(lines[0].split(), ["run", "value", "error"])
         self.assertEqual(lines[1].split(), ["a", "0.333333"])
         self.assertEqual(len({len(line) for line in lines}), 1)
-
-    def test_transposed(self) -> None:
-        rows = transposed(ROWS, "run")
-        self.assertEqual(rows[0], {"quantity": "value", "a": 1 / 3, "long": ""})
-        self.assertEqual(rows[1], {"quantity": "error", "a": "", "long": "stopped"})
 
     def test_markdown(self) -> None:
         lines = markdown(["a", "b"], [["1", "2"]])

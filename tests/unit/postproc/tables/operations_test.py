@@ -5,7 +5,6 @@ import math
 import unittest
 from typing import Any
 
-import pandas
 
 from furrow_post.errors import ResultsError
 from furrow_post.tables.frames import frame_of, rows_of
