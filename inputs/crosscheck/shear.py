@@ -6,7 +6,6 @@ Reads the arc.csv (fix wheel/arc) of finished runs, writes their means over the 
 wheel_on_snow_shear.csv, and draws wheel_on_snow_shear.png from it. Without a folder it draws alone.
 """
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -19,9 +18,10 @@ import numpy as np
 
 from furrow_post.arguments import path
 from furrow_post.arrays import Floats
+from furrow_post.cli.main import start
+from furrow_post.cli.parameters import Given, argument, command
 from furrow_post.csv_table import read_columns, read_rows, write_rows
 from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
-from furrow_post.program import run_program
 
 HERE = Path(__file__).resolve().parent
 TABLE, FIGURE = HERE / "wheel_on_snow_shear.csv", HERE / "wheel_on_snow_shear.png"
@@ -102,16 +102,15 @@ def draw() -> None:
     save(figure, FIGURE)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument(
-        "results", nargs="?", type=path, help="folder with continuum_towed, clusters_slip_0, ..."
-    )
-    results = parser.parse_args().results
-    if results:
-        write_table(results)
+@command(
+    argument("results", "folder with continuum_towed, clusters_slip_0, ...", path, required=False),
+    description=__doc__ or "",
+)
+def shear(given: Given) -> None:
+    if given.results:
+        write_table(given.results)
     draw()
 
 
 if __name__ == "__main__":
-    sys.exit(run_program("shear.py", main))
+    sys.exit(start(shear, "shear.py"))

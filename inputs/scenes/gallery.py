@@ -1,13 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Writes the gallery of scenes, README.md beside this file, from the heads of the scenes.
+"""Writes the gallery of scenes, README.md next to this file, from the heads of the scenes."""
 
-    gallery.py                          the page
-    gallery.py --picture SCENE RESULTS  the picture of a scene, from a results folder of it
-    gallery.py --check                  refuses a page that is not what this command writes
-"""
-
-import argparse
 import io
 import sys
 import textwrap
@@ -21,9 +15,10 @@ import furrow_post  # first: says which of the next ones are missing
 import numpy as np
 from PIL import Image
 
+from furrow_post.cli.main import start
+from furrow_post.cli.parameters import Given, command, flag, option
 from furrow_post.errors import ResultsError
 from furrow_post.figures.moving import MovingPictures
-from furrow_post.program import run_program
 from furrow_post.read.motion import read_motion
 from furrow_post.scene.catalogue import GROUPS, head_of
 
@@ -126,26 +121,25 @@ def _curve(file: Path) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
     return np.asarray(canvas.buffer_rgba())[:, :, :3].copy()
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--picture", nargs=2, metavar=("SCENE", "RESULTS"))
-    parser.add_argument("--check", action="store_true")
-    arguments = parser.parse_args()
-    if arguments.picture:
-        write_picture(arguments.picture[0], Path(arguments.picture[1]))
+@command(
+    option("--picture", nargs=2, metavar="SCENE RESULTS", help="the picture of a scene, from a results folder of it"),
+    flag("--check", help="refuses a page that is not what this command writes"),
+    description=__doc__ or "",
+)
+def gallery(given: Given) -> None:
+    if given.picture:
+        write_picture(given.picture[0], Path(given.picture[1]))
         return
     text = page()
-    if not arguments.check:
+    if not given.check:
         PAGE.write_text(text, encoding="utf-8")
     elif text != PAGE.read_text(encoding="utf-8"):
         raise ResultsError(f"{PAGE}: is not what the heads of the scenes say; run {Path(__file__)}")
-    for script in HERE.glob("*.lig") if arguments.check else ():
+    for script in HERE.glob("*.lig") if given.check else ():
         picture = PICTURES / f"{script.stem}.png"
         if not picture.is_file() or picture.stat().st_size > LARGEST:
             raise ResultsError(f"{picture}: is missing, or larger than {LARGEST} bytes")
 
 
 if __name__ == "__main__":
-    sys.exit(run_program("gallery", main))
+    sys.exit(start(gallery, "gallery"))

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Types of command line arguments: numbers in a range, texts that are not empty."""
 
-import argparse
 import math
 import unicodedata
 from collections.abc import Callable
 from pathlib import Path
+
+
+class WrongText(ValueError):
+    """A text that a type does not take; the message states why."""
 
 
 def number(text: str) -> float:
@@ -13,9 +16,9 @@ def number(text: str) -> float:
     try:
         value = float(text)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a number") from None
+        raise WrongText(f"'{text}' is not a number") from None
     if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a finite number")
+        raise WrongText(f"'{text}' is not a finite number")
     return value
 
 
@@ -23,7 +26,7 @@ def positive(text: str) -> float:
     """A number above 0."""
     value = number(text)
     if value <= 0:
-        raise argparse.ArgumentTypeError(f"{text} is not above 0")
+        raise WrongText(f"{text} is not above 0")
     return value
 
 
@@ -33,7 +36,7 @@ def between(low: float, high: float) -> Callable[[str], float]:
     def value_of(text: str) -> float:
         value = number(text)
         if not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{text} does not lie between {low:g} and {high:g}")
+            raise WrongText(f"{text} does not lie between {low:g} and {high:g}")
         return value
 
     return value_of
@@ -46,9 +49,9 @@ def at_least(low: int) -> Callable[[str], int]:
         try:
             value = int(text)
         except ValueError:
-            raise argparse.ArgumentTypeError(f"'{text}' is not a whole number") from None
+            raise WrongText(f"'{text}' is not a whole number") from None
         if value < low:
-            raise argparse.ArgumentTypeError(f"{text} is below {low}")
+            raise WrongText(f"{text} is below {low}")
         return value
 
     return value_of
@@ -58,7 +61,7 @@ def fraction(text: str) -> float:
     """0.1 of "10%" or "0.1", between 0 and 1."""
     value = number(text[:-1]) / 100 if text.endswith("%") else number(text)
     if not 0 < value < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' does not lie between 0 and 100 %")
+        raise WrongText(f"'{text}' does not lie between 0 and 100 %")
     return value
 
 
@@ -66,7 +69,7 @@ def assignment(text: str) -> tuple[str, float]:
     """("load", 600.0) of "load=600"."""
     name, equals, value = text.partition("=")
     if not name.strip() or not equals:
-        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=NUMBER, e.g. load=600")
+        raise WrongText(f"'{text}' is not NAME=NUMBER, e.g. load=600")
     return name.strip(), number(value)
 
 
@@ -92,7 +95,7 @@ def is_number(text: str) -> bool:
 def words(text: str) -> str:
     """A text that is not empty."""
     if not text.strip():
-        raise argparse.ArgumentTypeError("is empty")
+        raise WrongText("is empty")
     return text
 
 

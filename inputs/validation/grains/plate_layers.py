@@ -4,8 +4,8 @@
 clusters went sideways, and how much mass is left: the mean of several packings, next to the
 laboratory's [Shoop2001]."""
 
-import argparse
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -18,9 +18,10 @@ import pandas
 
 from furrow_post.analyse.statistics import rms
 from furrow_post.arguments import path, positive
+from furrow_post.cli.main import start
+from furrow_post.cli.parameters import Given, argument, command
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_matrix, read_numbers
-from furrow_post.program import run_program
 
 RADIUS = 0.1016  # [m] of the plate
 EDGE = 0.8  # of it: beyond is the edge, as in plate_variants
@@ -75,7 +76,7 @@ def numbers(folder: Path, density: float) -> dict[str, float]:
     }
 
 
-def report(folders: list[Path], density: float) -> str:
+def report(folders: Sequence[Path], density: float) -> str:
     each = pandas.DataFrame([numbers(folder, density) for folder in folders])
     measured = read_numbers(HERE.parent / "plate_variants" / "reference.csv")[0]
     mean, real = each.mean(), pandas.Series({name: measured[name] for name in ("peak_load_N", *DENSITIES)})
@@ -85,13 +86,14 @@ def report(folders: list[Path], density: float) -> str:
     return f"{text}\nrms of ln(density) {off:.2f}; {len(each)} packings"
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("density", type=positive, help="of a cluster [kg/m3]")
-    parser.add_argument("results", type=path, nargs="+", help="results folders of packings")
-    parsed = parser.parse_args()
-    print(report(parsed.results, parsed.density))
+@command(
+    argument("density", "of a cluster [kg/m3]", positive),
+    argument("results", "results folders of packings", path, nargs=-1, required=True),
+    description=__doc__ or "",
+)
+def plate_layers(given: Given) -> None:
+    print(report(given.results, given.density))
 
 
 if __name__ == "__main__":
-    sys.exit(run_program("plate_layers.py", main))
+    sys.exit(start(plate_layers, "plate_layers.py"))

@@ -4,7 +4,6 @@
 Density is mass over volume between floor and surface. The surface is the mean of the highest tops in squares of two
 diameters, less what that is above the level of the undisturbed bed."""
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -17,8 +16,9 @@ import numpy as np
 from furrow_post.analyse.density import Interval, ground_points
 from furrow_post.arguments import path
 from furrow_post.arrays import Booleans, Floats
+from furrow_post.cli.main import start
+from furrow_post.cli.parameters import Given, argument, command
 from furrow_post.errors import ResultsError
-from furrow_post.program import run_program
 from furrow_post.read.wheel_run import WheelRun, read_wheel_run
 
 BEHIND = (-1.3, -0.6)  # [radii] from the axle: rolled over, as in furrow-post compare
@@ -90,11 +90,10 @@ def report(folder: Path) -> str:
     return "\n".join(lines)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("results", type=path, help="results folder of the run")
-    print(report(parser.parse_args().results))
+@command(argument("results", "results folder of the run", path), description=__doc__ or "")
+def density(given: Given) -> None:
+    print(report(given.results))
 
 
 if __name__ == "__main__":
-    sys.exit(run_program("track_density.py", main))
+    sys.exit(start(density, "track_density.py"))

@@ -7,7 +7,6 @@ the goals, and, weakly, the density under the wheel. Runs are made at three dept
 Every run is kept. Each trial is printed and goes to identified.csv next to this file.
 """
 
-import argparse
 import math
 import sys
 from collections.abc import Callable, Mapping
@@ -27,8 +26,9 @@ from furrow_post.analyse.fitter import Parameter, Search, fit
 from furrow_post.analyse.statistics import rms
 from furrow_post.arguments import at_least, path, positive
 from furrow_post.arrays import Floats
+from furrow_post.cli.main import start
+from furrow_post.cli.parameters import Given, command, option
 from furrow_post.csv_table import read_numbers
-from furrow_post.program import run_program
 from furrow_post.run.case import Case
 from furrow_post.run.executor import Executor
 from furrow_post.run.tools import Tools
@@ -88,22 +88,23 @@ def identify(start: tuple[float, ...], make: Make, iterations: int) -> list[dict
     return trials
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--start", nargs=3, type=positive, metavar="PA", default=SNOW.STRESSES[1:4], help="stresses at the start")
-    parser.add_argument("--iterations", type=at_least(1), default=4)
-    parser.add_argument("--results", type=path, help="default: results/snow_wheel in the source tree")
-    parser.add_argument("--build", type=path, help="build folder with the programs")
-    parsed = parser.parse_args()
-    tools = Tools.of(Path(__file__), parsed.build)
-    executor, records = Executor(parsed.results or tools.root / "results" / HERE.name, tools), []
+@command(
+    option("--start", "first", nargs=3, parse=positive, metavar="PA PA PA", default=SNOW.STRESSES[1:4], help="stresses at the start"),
+    option("--iterations", parse=at_least(1), default=4, show_default=True, help="steps of the fit"),
+    option("--results", parse=path, help="default: results/snow_wheel in the source tree"),
+    option("--build", parse=path, help="build folder with the programs"),
+    description=__doc__ or "",
+)
+def stresses(given: Given) -> None:
+    tools = Tools.of(Path(__file__), given.build)
+    executor, records = Executor(given.results or tools.root / "results" / HERE.name, tools), []
 
     def make(case: Case) -> Mapping[str, float]:
         (run,) = executor.completed([case])
         records.append(run.record)
         return {**steady(run, 0.5), "density_under": rut(run)["under"]}
 
-    trials = identify(tuple(parsed.start), make, parsed.iterations)
+    trials = identify(tuple(given.first), make, given.iterations)
     print("best:", min(trials, key=lambda trial: float(trial["sum_of_squares"])))
     with Output(HERE, page=False) as output:
         output.table("identified.csv", trials)
@@ -111,4 +112,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(run_program("snow_wheel/identify.py", main))
+    sys.exit(start(stresses, "snow_wheel/identify.py"))

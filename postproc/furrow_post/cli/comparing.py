@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Parameters of commands that compare runs, and the comparison that they ask for."""
 
-import argparse
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -9,7 +8,7 @@ from typing import Any, NamedTuple
 from ..analyse import cost_table
 from ..analyse.comparison import Comparison, compare
 from ..analyse.formulas import predictions_for
-from ..arguments import path, words
+from ..arguments import WrongText, path, words
 from ..read.results import require_different
 from ..read.wheel_run import read_wheel_run
 from .parameters import Decorator, Given, argument, flag, option
@@ -29,7 +28,7 @@ def labelled(text: str) -> Labelled:
     head, equals, tail = text.partition("=")
     if equals and not (head.strip() and tail.strip()):
         missing = "folder" if head.strip() else "label"
-        raise argparse.ArgumentTypeError(f"'{text}' has no {missing}; write LABEL=FOLDER, or FOLDER")
+        raise WrongText(f"'{text}' has no {missing}; write LABEL=FOLDER, or FOLDER")
     return Labelled(tail, head) if equals else Labelled(words(head), None)
 
 

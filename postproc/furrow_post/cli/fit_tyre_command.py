@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post fit tyre: a tyre file from a catalogue and tests."""
 
-import argparse
 import shlex
 from pathlib import Path
 
 from ..analyse.tyre_estimate import Catalogue, hub_mass
 from ..analyse.tyre_fit import MEASURED, PlateTest, TyreFit, fit_tyre, press, read_tests
 from ..analyse.tyre_size import INCH, read_size
-from ..arguments import number, path, positive
+from ..arguments import WrongText, number, path, positive
 from ..errors import ResultsError
 from .parameters import Given, argument, command, flag, option
 
@@ -32,7 +31,7 @@ def inflation(text: str) -> float:
     """A pressure of tyres [kPa]."""
     pressure, (low, high) = number(text), INFLATION
     if not low <= pressure <= high:
-        raise argparse.ArgumentTypeError(
+        raise WrongText(
             f"{text} kPa is no pressure of a tyre, which is {low:g} to {high:g} kPa; give kPa: bar times 100, "
             "psi times 6.895, Pa over 1000"
         )

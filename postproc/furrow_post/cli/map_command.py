@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post map: go and no-go, pull, speed and energy of a wheel on a terrain raster."""
 
-import argparse
 import math
 import time
 from collections.abc import Mapping
@@ -9,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..arguments import between, path, positive
+from ..arguments import WrongText, between, path, positive
 from ..arrays import Booleans, Floats
 from ..errors import ResultsError
 from ..surrogate.mobility import Vehicle
@@ -25,7 +24,7 @@ CHOSEN = ("slip", "load", "slope")  # inputs that the map finds for itself
 def _raster(text: str) -> tuple[str, Path]:
     name, equals, file = text.partition("=")
     if not name or not equals:
-        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=FILE, e.g. phi=phi.tif")
+        raise WrongText(f"'{text}' is not NAME=FILE, e.g. phi=phi.tif")
     return name, path(file)
 
 

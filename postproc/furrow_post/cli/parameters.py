@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Commands of click with arguments by this package's types, and parameters that several share."""
 
-import argparse
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from types import SimpleNamespace
@@ -10,7 +9,7 @@ from typing import Any, TypeVar
 import click
 from click.parser import OptionParser, ParsingState
 
-from ..arguments import assignment, at_least, fraction, has_control_characters, is_number, path, seconds, words
+from ..arguments import WrongText, assignment, at_least, fraction, has_control_characters, is_number, path, seconds, words
 from ..errors import ResultsError
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
@@ -28,7 +27,7 @@ class Given(SimpleNamespace):
 
 
 class Type(click.ParamType):
-    """A type by a function of the text, whose ArgumentTypeError is the message."""
+    """A type by a function of the text, whose WrongText is the message."""
 
     def __init__(self, parse: Parse) -> None:
         self.parse, self.name = parse, TYPE_NAMES.get(parse, "number")
@@ -40,7 +39,7 @@ class Type(click.ParamType):
             self.fail(f"{value!r} has a line break or another control character; leave it out", param, ctx)
         try:
             return self.parse(value)
-        except argparse.ArgumentTypeError as error:
+        except WrongText as error:
             self.fail(str(error), param, ctx)
 
 

@@ -16,7 +16,7 @@ class Outcome(NamedTuple):
 
 
 def outcome(program: Callable[[], int]) -> Outcome:
-    """Runs a program to its end, also where argparse ends it."""
+    """Runs a program to its end, also where it exits by itself."""
     printed, said = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(said):
         try:
