@@ -6,11 +6,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ..errors import ResultsError
-from ..json_text import parse_json
 from ..run.summary import ResistanceParts, Summary
 from ..read.wheel_run import WheelRun, read_wheel_run
 from ..run.process import SCREEN
-from ..run.record import FAILED, FINISHED
+from ..run.record import FAILED, FINISHED, read_record
 from .sweep_plan import Plan, read_plan
 from ..analyse.whole_error import Families
 from .sweep_quantities import Value, quantities
@@ -76,6 +75,7 @@ class Series:
     missing: list[str] = field(default_factory=list)  # runs that did not come to their end
     unread: list[Remark] = field(default_factory=list)  # runs that gave no steady values
     unsteady: list[Remark] = field(default_factory=list)  # what run_until_steady says of a run
+    makers: set[tuple[str, str]] = field(default_factory=set)  # digests of program and script of the runs
 
     @property
     def title(self) -> str:
@@ -101,7 +101,7 @@ def read_series(folder: Path, label: str | None, families: Families) -> Series:
 
 
 def _of_plan(folder: Path, label: str, plan: Plan, families: Families) -> Series:
-    series = Series(label, plan.variables)
+    series, script = Series(label, plan.variables), Path(plan.script).name
     groups: dict[tuple[str, ...], list[str]] = {}
     values: dict[tuple[str, ...], Mapping[str, str]] = {}
     for point in plan.points:
@@ -111,10 +111,11 @@ def _of_plan(folder: Path, label: str, plan: Plan, families: Families) -> Series
     for key, names in groups.items():
         ended = []
         for name in names:
-            if (folder / name / FINISHED).is_file():
+            if record := read_record(folder / name / FINISHED):
                 ended.append(folder / name)
-            elif (folder / name / FAILED).is_file():
-                series.failures.append(Remark(name, _error_of(folder / name / FAILED)))
+                series.makers.add((record.program, record.inputs.get(script, "")))
+            elif record := read_record(folder / name / FAILED):
+                series.failures.append(Remark(name, record.error))
             else:
                 series.missing.append(name)
         if ended:
@@ -148,13 +149,6 @@ def _not_reached(folder: Path) -> list[str]:
     except OSError:
         return []
     return [line.removeprefix(WARNED) for line in lines if line.startswith(WARNED)]
-
-
-def _error_of(path: Path) -> str:
-    try:
-        return str(parse_json(path.read_text(encoding="utf-8"))["error"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return f"{path}: cannot be read"
 
 
 def uniquely_labelled(series: list[Series]) -> list[Series]:

@@ -68,6 +68,8 @@ class Result:
             found += [f"{one.label}: {r.folder} failed: {r.text}" for r in one.failures]
             found += [f"{one.label}: {r.folder} gave no values: {r.text}" for r in one.unread]
             found += [f"{one.label}: {r.folder}: {r.text}" for r in one.unsteady]
+            if len(one.makers) > 1:
+                found.append(f"{one.label}: its points are of different programs or scripts; repeat the command that made the sweep")
             if one.missing:
                 names = ", ".join(one.missing)
                 found.append(f"{one.label}: {len(one.missing)} points were not run: {names}")

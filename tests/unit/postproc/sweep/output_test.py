@@ -286,6 +286,13 @@ class OutputTest(FolderTest):
         self.assertIn("1 points were not run: slip_0.3", text)
         self.assertEqual(len(result.series[0].points), 1)
 
+    def test_points_of_two_programs_are_reported(self) -> None:
+        write_pulling(self.folder / "a")
+        remark = "its points are of different programs or scripts"
+        self.assertNotIn(remark, "\n".join(evaluate([Named(self.folder / "a")], Wanted()).remarks()))
+        Record({}, "other", {}, "", "2026-01-01T00:00:00Z", 1.0, 1.5, 0.1).write(self.folder / "a" / "slip_0.1")
+        self.assertIn(remark, "\n".join(evaluate([Named(self.folder / "a")], Wanted()).remarks()))
+
     def test_what_ran_on_and_is_not_steady_is_told(self) -> None:
         write_pulling(self.folder)
         told = "WARNING: run_until_steady: not steady within 3 %: the ground ends\n"
