@@ -14,9 +14,9 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ResultsError
-from ..json_text import parse_json
 from .results import Grains, Results
 from .styles import Style
+from ..run.record import FINISHED, read_record
 from ..run.summary import SteadyValue, Summary
 from .terrain import FILE, read_terrain_fields, terrain_file
 
@@ -333,7 +333,5 @@ def _read_cost(run: WheelRun) -> None:
     cost = run.results.cost
     run.wall_time = cost.get("wall_time", float("nan"))
     run.cpu_time = run.wall_time * cost.get("ranks", 1.0)
-    try:  # the runner's own measurement does not count what other programs took
-        run.cpu_time = float(parse_json((run.folder / "run.json").read_text())["cpu_time"])
-    except (OSError, ValueError, KeyError, TypeError):
-        pass
+    if record := read_record(run.folder / FINISHED):  # it does not count what other programs took
+        run.cpu_time = record.cpu_time
