@@ -84,10 +84,13 @@ def scene(tree: Tree, command: str) -> None:
     return None
 
 
+WITH_COMMANDS = ("furrow-post", "identify_snow.py")
+
+
 def options(tree: Tree, command: str) -> None:
     """A long study or film: its help has every option of the command."""
     words = shlex.split(command)
-    program = words[: 2 if words[0].endswith("furrow-post") else 1]
+    program = words[: 2 if words[0].endswith(WITH_COMMANDS) else 1]
     said = tree.run(f"{shlex.join(program)} --help")
     for word in words:
         if re.match(r"--?[a-z]", word) and word not in said:
