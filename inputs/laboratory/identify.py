@@ -37,7 +37,8 @@ def law_of(given: Given, tests: Sequence[LaboratoryTest], confined: LaboratoryTe
     """The material. @raises ResultsError"""
     shear = shear_of(tests, MATCH[given.match])
     compressed = [test for test in tests if test.kind == "triaxial"]
-    E, nu = elasticity(min(compressed, key=lambda test: abs(test.number("confinement") - given.stress)))
+    stress: float = given.stress
+    E, nu = elasticity(min(compressed, key=lambda test: abs(test.number("confinement") - stress)))
     K0 = values_of(confined)["K0"]
     law = Law(shear.tangent, given.cohesion, eccentricity(K0, shear.tangent), E, nu)
     rows, density = hardening(confined, law)
@@ -47,10 +48,9 @@ def law_of(given: Given, tests: Sequence[LaboratoryTest], confined: LaboratoryTe
     head = (
         f"Written by inputs/laboratory/identify.py from tests on the grains of inputs/laboratory/grounds/{confined.facts['ground']}.lig: "
         f"{kinds} at {confinements} kPa, and an oedometer (K0 {K0:.2f}). It is the law of these grains, whose contacts are softer "
-        f"than a sand's: so is its modulus, taken at {given.stress / 1e3:g} kPa.",
+        f"than a sand's: so is its modulus, taken at {stress / 1e3:g} kPa.",
         *(f"{sentence}." for sentence in shear.found),
     )
-    stresses = ", ".join(f"{level / 1e3:g}" for level in LEVELS)
     parameters = {
         "density": Parameter(f"{density:.0f}", "at the start of the oedometer"),
         "d": Parameter(law.d, "not measured (the grains do not stick): keeps a free surface together"),
@@ -65,7 +65,7 @@ def law_of(given: Given, tests: Sequence[LaboratoryTest], confined: LaboratoryTe
         {"E": Parameter(f"{E:.3g}", "of the triaxial test"), "nu": Parameter(f"{nu:.2f}", "of the triaxial test")},
         tuple(float(f"{p:.4g}") for p, _ in rows),
         tuple(float(f"{strain:.4g}") for _, strain in rows),
-        Parameter("table", f"oedometer, {stresses} kPa of axial stress above its start"),
+        Parameter("table", f"oedometer, {', '.join(f'{level / 1e3:g}' for level in LEVELS)} kPa of axial stress above its start"),
     )
 
 

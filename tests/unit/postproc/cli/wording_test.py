@@ -6,6 +6,7 @@ import importlib
 import sys
 import unittest
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import NamedTuple
 
 import click
@@ -32,12 +33,15 @@ class Program(NamedTuple):
 
 def programs() -> Iterator[Program]:
     for entry in entries():
-        words = entry.path.split()
-        yield Program(f"furrow-post {entry.path}", found(entry), lambda more, words=words: main([*words, *more]))
+        yield Program(f"furrow-post {entry.path}", found(entry), partial(_post, entry.path.split()))
     for module, names in LABORATORY.items():
         for name in names:
             command = getattr(importlib.import_module(module), name)
-            yield Program(f"{module}.py", command, lambda words, c=command, m=module: start(c, f"{m}.py", words))
+            yield Program(f"{module}.py", command, partial(start, command, f"{module}.py"))
+
+
+def _post(command: list[str], words: list[str]) -> int:
+    return main([*command, *words])
 
 
 LABORATORY = {

@@ -4,7 +4,7 @@
 import contextlib
 import io
 import unittest
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from furrow_post.csv_table import read_rows
@@ -58,11 +58,12 @@ class StudyTest(FolderTest):
         (self.tree.study / "snow.yaml").write_text("{base: base.yaml}\n")
         self.tree.script.write_text("variable snow index snow.yaml\n")
         self.run_study(a1=1, a2=2)
-        for change, name in (
+        changes: tuple[tuple[Callable[[], object], str], ...] = (
             (lambda: self.tree.script.write_text("variable snow index snow.yaml\nrun 2\n"), "made.lig"),
             (lambda: base.write_text("{law: {density: 400}}\n"), "base.yaml"),
             (lambda: self.tree.install("another build"), "furrow"),
-        ):
+        )
+        for change, name in changes:
             change()
             stored.write_text("run,value\na1,7\n")
             started = len(self.tree.starts())
