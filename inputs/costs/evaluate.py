@@ -10,7 +10,7 @@ import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from furrow_post.analyse import cost, cost_table
+from furrow_post.analyse import cost_table
 from furrow_post.csv_table import read_rows, write_rows
 from furrow_post.errors import ResultsError
 from furrow_post.figures.cost_figure import Answer, draw_models
@@ -113,8 +113,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
             continue
         _, comments = cost_table.read_table(HERE / f"{table}.csv")
         cost_table.write_table(output.path(f"{table}.csv"), rows, comments)
-        assessed = cost.assess(rows, cost_table.wanted_wheel(comments))
-        print(f"{table}\n{cost.cost_report(assessed, 0.1)}\n")
+        print(f"{table}\n{cost_table.cost_report(rows)}\n")
     answers, reference = hub_drops()
     write_rows(output.path(MODELS), model_errors(answers, reference), MODELS_HEAD)
     draw_models(answers, reference, "hub drop", output.path("models.png"))

@@ -6,7 +6,7 @@
     run.py laboratory <script> <results>        inputs/laboratory/run.py, for a test or a ground
     run.py sweep <results>                      the page of sweeps, one of them killed and resumed
     run.py until_steady <results>               a run that goes on until it is steady
-    run.py error <results>                      two runs for an error that none alone reaches
+    run.py error <results>                      plans for an error and for a time, and what limits them
     run.py converge <results>                   two sizes of a scene, and a later run that takes their error
     run.py usage                                the list of scenes, and what inputs/run refuses
 
@@ -249,17 +249,19 @@ def until_steady(results):
 
 
 def error(results):
-    """The run of least error where none reaches the error; sizes of the command line win."""
+    """A whole error that the model does not allow: the plan and the end print what limits it; a time is kept."""
     folder = empty(results)
-    given = ["-v", "cell", "0.1", "-v", "distance", "0.3", "--no-pictures", "-o", folder]
-    said = inputs_run("wheel_on_snow", "--error", "1%", *given)
-    if not (folder / "summary.json").is_file():
-        sys.exit(f"there is no run:\n{said}")
-    if list(folder.glob("*.png")):
-        sys.exit("--no-pictures: the run has drawn pictures")
-    for text in ("reaches 1 %; the best is", "from the best estimate", "The estimate "):
+    given = ["-v", "distance", "0.4", "-v", "vtk", "0", "--no-pictures", "-o", folder]
+    said = inputs_run("wheel_on_snow", "--time", "1min", *given, "--dry-run")
+    plan = re.search(r"Plan: (-v cell \S+|the sizes of the scene), about (\S+) (s|min) of one core; the pilot took ", said)
+    if not plan or float(plan[2]) * (60 if plan[3] == "min" else 1) > 60 or (folder / "history.h5").exists():
+        sys.exit(f"there is no plan of a minute alone:\n{said}")
+    said = inputs_run("wheel_on_snow", "--error", "1%", "-v", "cell", "0.0667", *given)
+    for text in ("Plan: the sizes of the scene", "1 % is not within reach: the part '", "hub drop: ", "above 1 %: the part '"):
         if text not in said:
             sys.exit(f"it does not say '{text}':\n{said}")
+    if not (folder / "summary.json").is_file() or list(folder.glob("*.png")):
+        sys.exit(f"there is no run, or it has pictures:\n{said}")
 
 
 def converge(results):

@@ -2,13 +2,13 @@
 """The error of a value in parts. An unknown part is shown, and never counts as zero."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 from ..formatting import with_error
 
-SHOWN_SHARE = 0.05  # of the largest part: smaller ones are left out of a text
+SHOWN_SHARE, SHOWN_TIME = 0.05, 0.01  # of the largest part: smaller ones are left out of a text
 
 
 @dataclass(frozen=True)
@@ -60,20 +60,21 @@ class Budget:
         """Name of a part for people."""
         return {"size": self.elements, "domain": "ground"}.get(part, part)
 
-    def text(self, value: float, unit: str = "") -> str:
-        """ "94 ± 12 mm (time 0.4, cells 2, model 11; ground, material unknown)"."""
-        parts = self.parts_text()
+    def text(self, value: float, unit: str = "", names: Sequence[str] = NAMES) -> str:
+        """ "94 ± 12 mm (time 0.4, cells 2, model 11; ground, material unknown)". names: parts that count"""
+        parts = self.parts_text(names)
         return f"{self.value_text(value)} {unit}".rstrip() + (f" ({parts})" if parts else "")
 
     def value_text(self, value: float) -> str:
         """ "94 ± 12"; three digits alone where no part is known."""
         return with_error(value, self.total) if self.known else f"{value:.3g}"
 
-    def parts_text(self) -> str:
-        least = SHOWN_SHARE * max((self.part(name) for name in self.known), default=0.0)
-        shown = [name for name in self.known if self.part(name) > least or name == "time" and self.part(name) > 0]
+    def parts_text(self, names: Sequence[str] = NAMES) -> str:
+        largest = max((self.part(name) for name in self.known), default=0.0)
+        shares = {"time": SHOWN_TIME}
+        shown = [name for name in self.known if self.part(name) > shares.get(name, SHOWN_SHARE) * largest]
         texts = [f"{self.label(name)} {rounded(self.part(name))}" for name in shown]
-        unknown = ", ".join(self.label(name) for name in self.unknown)
+        unknown = ", ".join(self.label(name) for name in self.unknown if name in names)
         return "; ".join(filter(None, [", ".join(texts), f"{unknown} unknown" if unknown else ""]))
 
 

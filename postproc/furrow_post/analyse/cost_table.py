@@ -15,9 +15,10 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..csv_table import read_comments, read_rows, write_rows
+from ..csv_table import in_cells, read_comments, read_rows, write_rows
 from ..errors import ResultsError, content_of
-from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun
+from ..formatting import duration
+from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun, cells_or_grains
 from .budget import Budget
 from .grid_convergence import (
     Convergence,
@@ -122,15 +123,6 @@ def _parsed(row: dict[str, str]) -> Row:
         raise ValueError(f"run '{row['run']}': size is {row['size']}")
     shlex.split(row["options"])
     return Row(**values)
-
-
-def wanted_wheel(comments: Iterable[str]) -> str:
-    """The wheel that a table is about, from its comment "# wheel: tyre".
-
-    Empty where every wheel is judged by itself.
-    """
-    found = [line.partition(":")[2].strip() for line in comments if line.startswith("# wheel:")]
-    return found[0] if found else ""
 
 
 def write_table(path: Path, rows: Iterable[Row], comments: Sequence[str] = ()) -> None:
@@ -256,3 +248,41 @@ def families(rows: Iterable[Row]) -> dict[FamilyKey, Family]:
     for row in rows:
         groups.setdefault(row.family, []).append(row)
     return {key: Family(group) for key, group in groups.items()}
+
+
+# ---- for people
+
+
+def numerical_errors(rows: Iterable[Row]) -> list[tuple[Row, dict[str, Budget]]]:
+    """Every base run of every family, the cheapest first, with the error of each quantity."""
+    found = []
+    for family in families(rows).values():
+        for row in sorted(family.bases, key=lambda row: row.cpu_time):
+            errors = {key: family.components(key, row.size, row.value(key)[1]) for key in QUANTITY_KEYS}
+            found.append((row, {key: replace(error, elements=cells_or_grains(row.ground)) for key, error in errors.items()}))
+    return found
+
+
+def cost_report(rows: Iterable[Row]) -> str:
+    """Values with their numerical errors, parts and cost."""
+    lines = []
+    for row, errors in numerical_errors(rows):
+        kind = f"{row.ground}, {cells_or_grains(row.ground)} of {1e3 * row.size:.3g} mm, {row.model} model, {row.wheel}"
+        lines.append(f"{row.run}: {kind}, {duration(row.cpu_time)} of one core")
+        for quantity in QUANTITIES:
+            error = errors[quantity.key].scaled(quantity.scale)
+            text = error.text(quantity.scale * row.value(quantity.key)[0], quantity.unit, error.NUMERICAL)
+            lines.append(f"  {quantity.name:24} {text}")
+    return "\n".join([*lines, "", "Errors are numerical. They do not hold what the model or the soil lacks."])
+
+
+def write_errors(path: Path, rows: Iterable[Row]) -> None:
+    """The runs with their numerical errors as a table."""
+    lines = []
+    for row, errors in numerical_errors(rows):
+        line: dict[str, object] = {"run": row.run, **row.family._asdict(), "size_m": row.size, "cpu_time_s": row.cpu_time}
+        for key, error in errors.items():
+            line |= {key: row.value(key)[0], f"{key}_error": error.total}
+            line |= {f"{key}_error_{part}": error.part(part) for part in error.NUMERICAL}
+        lines.append(in_cells(line, 6))
+    write_rows(path, lines, ["# numerical standard errors, SI units, CPU seconds of one core; empty: not known"])

@@ -5,11 +5,10 @@ import shutil
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from markupsafe import Markup
 
-from ..analyse import cost, cost_table
+from ..analyse import cost_table
 from ..analyse.comparison import Comparison
 from ..analyse.comparison_report import write_comparison
 from ..errors import ResultsError
@@ -35,7 +34,6 @@ from .parameters import Given, command, prepare_page, target_option
 
 NO_FRAMES = "No run wrote frames ('vtk N' in its lines of histories)."
 MOST_IN_3D = 2  # runs that stand side by side
-WANTED_ERROR = 0.1  # relative, of the section on cost
 
 
 @command(
@@ -63,12 +61,9 @@ def _page_text(result: Comparison, errors: Path | None, scratch: Path, target: P
     runs = result.runs
     first = runs[0]
     draw_comparison(result, scratch / "compare.png")
-    costs: dict[str, Any] = {"cost": None, "advice": []}
+    cost = scratch / "cost.png" if errors else None
     if errors:
-        rows, _ = cost_table.read_table(errors)
-        assessed = cost.assess(rows)
-        draw_cost(assessed, WANTED_ERROR, scratch / "cost.png")
-        costs = {"cost": scratch / "cost.png", "advice": cost.advice(assessed, WANTED_ERROR)}
+        draw_cost(cost_table.read_table(errors)[0], scratch / "cost.png")
     shown = []
     for number, one in enumerate(runs):
         histories = scratch / f"histories_{number}.png"
@@ -92,7 +87,7 @@ def _page_text(result: Comparison, errors: Path | None, scratch: Path, target: P
         version=first.results.run.get("version", ""),
         numbers=[target.with_suffix(ending).name for ending in (".csv", ".h5")],
         **verdict_values(result),
-        **costs,
+        cost=cost,
     )
 
 

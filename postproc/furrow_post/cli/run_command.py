@@ -58,9 +58,11 @@ def _of_sweep(*names: str, help: str, **more: Any) -> Any:
         metavar="PERCENT",
         parse=fraction,
         once=True,
-        help="chooses ground, size and kind of wheel for this numerical error, e.g. 10%, from the measured runs "
-        "in inputs/costs; prints the reasons, and at the end whether the estimate was right",
+        help="chooses size and travel for this whole error of hub drop and coefficient, e.g. 10%, by a pilot run in "
+        "coarser cells; prints a forecast, and at the end whether it was reached and what limits it",
     ),
+    option("--time", metavar="TIME", parse=seconds, once=True, help="the least error within this time of one core, e.g. 10min"),
+    flag("--dry-run", help="of --error and --time: makes the pilot run and prints the plan alone"),
     option(
         "--until-steady",
         metavar="PERCENT",

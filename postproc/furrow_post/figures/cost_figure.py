@@ -11,22 +11,21 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from ..analyse import cost_table
-from ..analyse.cost import Assessed
-from ..analyse.cost_table import FamilyKey
+from ..analyse.cost_table import FamilyKey, Row
 from ..analyse.verdict import BARS, COVERAGE, QUANTITIES, Quantity
 from .style import MILLIMETRE, RUN_COLOURS, annotate_panel, save, use_style
 
 
-def draw_cost(assessed: Sequence[Assessed], error: float, target: Path) -> None:
-    """Errors against cost with the wanted relative error, and both quantities over the size."""
+def draw_cost(rows: Sequence[Row], target: Path) -> None:
+    """Numerical errors against cost, and both quantities over the size."""
     use_style()
-    families = sorted({a.row.family for a in assessed})
+    families = sorted({row.family for row in rows})
     colours = {key: RUN_COLOURS[k % len(RUN_COLOURS)] for k, key in enumerate(families)}
     figure, panels = plt.subplots(1, 3, figsize=(12, 4), layout="constrained")
-    _draw_errors(panels[0], assessed, error, colours)
+    _draw_errors(panels[0], rows, colours)
     annotate_panel(panels[0], "a", "error against cost")
     for axes, quantity, letter in zip(panels[1:], QUANTITIES, "bc"):
-        _draw_convergence(axes, assessed, quantity, colours)
+        _draw_convergence(axes, rows, quantity, colours)
         annotate_panel(axes, letter, f"{quantity.name} over the size")
     panels[1].legend(fontsize=8)
     save(figure, target)
@@ -77,42 +76,37 @@ def draw_models(
     save(figure, target)
 
 
-def _draw_errors(
-    axes: Axes, assessed: Sequence[Assessed], error: float, colours: Mapping[FamilyKey, str]
-) -> None:
+def _draw_errors(axes: Axes, rows: Sequence[Row], colours: Mapping[FamilyKey, str]) -> None:
     axes.set(xlabel="CPU time of one core [s]", ylabel="numerical error [%], worst of both")
-    known = [a for a in assessed if np.isfinite(a.error)]
+    known = []
+    for row, errors in cost_table.numerical_errors(rows):
+        error = max(budget.total / abs(row.value(key)[0]) if row.value(key)[0] else np.nan for key, budget in errors.items())
+        if all(np.isfinite(budget.size) for budget in errors.values()) and np.isfinite(error):
+            known.append((row, 100 * error))
     if not known:
         axes.text(0.5, 0.5, "no error is known", transform=axes.transAxes, ha="center")
         return
-    for a in known:
-        place, colour = (a.row.cpu_time, 100 * a.error), colours[a.row.family]
-        axes.plot(*place, "o", ms=7, color=colour, mfc=colour if a.pareto else "white")
-        size = f"{MILLIMETRE * a.row.size:.3g} mm"
-        axes.annotate(size, place, (6, 4), textcoords="offset points", fontsize=8, color="0.3")
-    front = sorted((a for a in assessed if a.pareto), key=lambda a: a.row.cpu_time)
-    times, errors = [a.row.cpu_time for a in front], [100 * a.error for a in front]
-    axes.plot(times, errors, color="0.6", lw=1, zorder=0, drawstyle="steps-post")
-    axes.axhline(100 * error, color="0.4", lw=0.8, ls=(0, (6, 4)))
+    for row, percent in known:
+        axes.plot(row.cpu_time, percent, "o", ms=7, color=colours[row.family])
+        size = f"{MILLIMETRE * row.size:.3g} mm"
+        axes.annotate(size, (row.cpu_time, percent), (6, 4), textcoords="offset points", fontsize=8, color="0.3")
     axes.set(xscale="log", yscale="log")
     axes.margins(0.15)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axis.set_major_formatter("{x:g}")
         axis.set_minor_formatter(NullFormatter())
-    legend = "filled: nothing is cheaper and better; dashed: wanted"
-    axes.text(0.03, 0.03, legend, transform=axes.transAxes, fontsize=7, color="0.4")
 
 
 def _draw_convergence(
-    axes: Axes, assessed: Sequence[Assessed], quantity: Quantity, colours: Mapping[FamilyKey, str]
+    axes: Axes, rows: Sequence[Row], quantity: Quantity, colours: Mapping[FamilyKey, str]
 ) -> None:
     """Values against size, with the curve to zero size where there is one, family by family."""
     scale = quantity.scale
-    for key, family in cost_table.families([a.row for a in assessed]).items():
+    for key, family in cost_table.families(rows).items():
         sizes = np.array([row.size for row in family.bases])
-        rows = [row.value(quantity.key) for row in family.bases]
-        values, errors = (scale * np.array(column) for column in zip(*rows))
+        pairs = [row.value(quantity.key) for row in family.bases]
+        values, errors = (scale * np.array(column) for column in zip(*pairs))
         marks = {"color": colours[key], "capsize": 3}
         axes.errorbar(
             MILLIMETRE * sizes,

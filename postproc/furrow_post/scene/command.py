@@ -2,7 +2,7 @@
 """What 'furrow-post run' does: checks all that is asked for, runs it, and shows what came out."""
 
 import importlib
-import shlex
+import math
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,14 +17,12 @@ from ..run.tools import Tools
 from ..sweep.continued import RESULTS, continued_script
 from ..sweep.sweep_plan import Plan
 from .catalogue import Variables, head_lines, quick_variables, script_of
-from .scene_choice import Chosen, choose, outcome, table_of
 from .one import SceneRun, ranks_remark, require_folder, run_scenes, show, words_of
 from .options import called, require_fitting
 from .restart import Former, continuation, read_former
 from .scene_summary import result_lines
 from .two_grounds import Post, run_two_grounds
-
-POST = "furrow-post"  # the first word of a formula's options in a table of errors
+from .wanted_error import outcome, plan
 
 
 @dataclass
@@ -35,8 +33,6 @@ class Request:
     folder: Path  # of the results
     script: Path | None = None  # None: the runs without a scene
     preset: Variables = field(default_factory=list)  # of --quick
-    table: Path | None = None  # of --error
-    chosen: Chosen | None = None  # by --error
     plan: Plan | None = None  # of --sweep
     former: Former | None = None  # of --continue
 
@@ -80,14 +76,6 @@ def checked(options: Any) -> Request:
     request.script = script_of(scene)
     if options.quick:
         request.preset = quick_variables(request.script)
-    if options.error:
-        request.table = table_of(scene)
-        request.chosen = choose(request.table, options.error)
-        scene = request.chosen.runs[0][0]
-        if scene == POST:
-            _refuse_with_formula(options)
-            return request
-        request.script = script_of(scene)
     if options.sweep:
         request.plan = _sweeps().planned(options, request.script, request.preset)
     else:
@@ -133,16 +121,14 @@ def _run(request: Request, post: Post) -> int:
         return 0
     if request.plan:
         return int(_sweeps().make_sweep(options, script, request.plan, folder))
-    if request.chosen and request.chosen.runs[0][0] == POST:
-        return _run_formula(request.chosen, post)
     if request.former and request.former.finished:
         print(f"{folder}: the run came to its end before; nothing is left to continue")
         return 0
     if request.former and not request.former.checkpoint:
         print(f"{folder}: the run was stopped before its first checkpoint; it starts again", flush=True)
     print("\n".join(head_lines(script)), flush=True)
-    if request.chosen and request.table:
-        return _run_chosen(request, request.chosen, request.table)
+    if options.error or options.time:
+        return _run_planned(request, script)
     former = request.former.variables if request.former else []
     variables = [*options.given, *former, *request.preset]
     variables = list({name: (name, value) for name, value in reversed(variables)}.values())[::-1]
@@ -165,41 +151,18 @@ def _scene_run(request: Request, script: Path, folder: Path, scene: str, variabl
     )
 
 
-def _run_chosen(request: Request, chosen: Chosen, table: Path) -> int:
-    """Options of the command line stand before those of the choice, and so count."""
-    print("\n".join(chosen.reasons), file=sys.stderr)
-    names = ("coarse", "fine") if len(chosen.runs) == 2 else ("",)
-    folders = [request.folder / name for name in names]
-    for words, folder in zip(chosen.runs, folders):
-        variables = [*request.options.given, *zip(words[2::3], words[3::3])]
-        print(f"{called()} {words_of(words[0], variables)}")
-        _run_and_show(_scene_run(request, script_of(words[0]), folder, words[0], variables), request.options)
-    print("\n".join(outcome(table, request.options.error, folders)))
+def _run_planned(request: Request, script: Path) -> int:
+    """The exit status: 1 where the run misses the error. @raises ResultsError, Failed, Interrupted"""
+    options, folder = request.options, request.folder
+    made = plan(script, options.given, folder, options.error or math.inf, options.time or math.inf)
+    print("\n".join(made.lines()), flush=True)
+    if options.dry_run:
+        return 0
+    variables = [*options.given, *made.forecast.variables]
+    print(f"{called()} {words_of(options.scene, variables)}")
+    _run_and_show(_scene_run(request, script, folder, options.scene, variables), options)
+    print("\n".join(outcome(made, folder)))
     return 0
-
-
-def _refuse_with_formula(options: Any) -> None:
-    """@raises ResultsError"""
-    of_runs = {
-        "-n": options.ranks > 1,
-        "-o": options.folder,
-        "--until-steady": options.until_steady,
-        "--checkpoint": options.checkpoint,
-    }
-    names = [f"-v {name}" for name, _ in options.given] + [name for name, given in of_runs.items() if given]
-    if names:
-        raise ResultsError(
-            f"for an error of {100 * options.error:g} % the table takes a formula, which has no "
-            f"{', '.join(names)}; leave it out, ask for a smaller error, or start 'furrow-post empirical'"
-        )
-
-
-def _run_formula(chosen: Chosen, post: Post) -> int:
-    """A command of furrow-post; its status."""
-    print("\n".join(chosen.reasons), file=sys.stderr)
-    words = chosen.runs[0]
-    print(shlex.join(words), flush=True)
-    return post(*words[1:])
 
 
 def _run_and_show(run: SceneRun, options: Any) -> None:

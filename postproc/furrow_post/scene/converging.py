@@ -11,7 +11,7 @@ from ..read.wheel_run import cells_or_grains, read_wheel_run
 from ..run.script import RESERVED, check_variables, script_variables
 from ..study.tables import in_columns
 from .catalogue import Variables, is_shipped, script_of
-from .one import SceneRun, run_scenes, words_of
+from .one import SceneRun, run_missing, words_of
 
 SIZES = ("cell", "diameter")  # variables that set the size of cells and of grains
 KEPT = (
@@ -28,7 +28,7 @@ def converge(scene: str, given: Variables, ratio: float, count: int, folder: Pat
     script = script_of(scene)
     for warning in check_variables(script, given, RESERVED):
         print(f"WARNING: {warning}")
-    sizes = _sizes(script, given)
+    sizes = sizes_of(script, given)
     fixed = [pair for pair in given if pair[0] not in sizes]
     runs = []
     for step in range(count):
@@ -36,7 +36,7 @@ def converge(scene: str, given: Variables, ratio: float, count: int, folder: Pat
         variables = [*of_size, *fixed]
         name = "_".join(f"{name}_{value}" for name, value in of_size)
         runs.append(SceneRun(script, folder / name, variables, words=words_of(scene, variables)))
-    run_scenes(folder, runs, jobs)
+    run_missing(folder, runs, jobs)
     own, results = places(script, folder)
     path = results if is_shipped(script) else own
     found = of_runs(path, script, [read_wheel_run(run.folder) for run in runs], KEPT)
@@ -44,7 +44,7 @@ def converge(scene: str, given: Variables, ratio: float, count: int, folder: Pat
     return found
 
 
-def _sizes(script: Path, given: Variables) -> dict[str, float]:
+def sizes_of(script: Path, given: Variables) -> dict[str, float]:
     """Variable -> size [m]. @raises ResultsError"""
     known = script_variables(script, dict(given))
     texts = {name: dict(given).get(name, known.defaults.get(name, "")) for name in SIZES if name in known.settable}

@@ -116,6 +116,21 @@ def run_scenes(
             raise Failed(Run(case, executor.folder(case), failure))
 
 
+def run_missing(folder: Path, scenes: Sequence[SceneRun], jobs: int = 1) -> None:
+    """Makes runs whose folders are in a folder, but those that are there with the same inputs.
+
+    @raises ResultsError, Interrupted, Failed
+    """
+    executor = Executor(folder, Tools.found(), jobs, low_priority=False, watch=True)
+    for scene in scenes:
+        require_folder(scene.folder)
+    cases = [scene.case(scene.folder.name) for scene in scenes]
+    executor.run(cases)
+    for case in cases:
+        if failure := executor.failure(case):
+            raise Failed(Run(case, executor.folder(case), failure))
+
+
 def show(folder: Path, quick: bool, shown: bool = True) -> None:
     """Draws a run with a history; shown: prints the names of the pictures."""
     if not (folder / "history.h5").is_file():

@@ -37,6 +37,7 @@ def _require_one_scene(options: Any) -> None:
         "-n": options.ranks,
         "-v": options.given,
         "--error": options.error,
+        "--time": options.time,
         "--sweep": options.sweep,
         "--until-steady": options.until_steady,
         "--checkpoint": options.checkpoint,
@@ -56,18 +57,26 @@ def _require_sweep(options: Any) -> None:
                 raise ResultsError(f"--{name} belongs to --sweep; give that too")
         if options.time_limit and not options.until_steady:
             raise ResultsError("--time-limit belongs to --until-steady or --sweep; give one of them")
-    if options.sweep and options.error:
-        raise ResultsError("--error chooses one run; with --sweep give sizes by -v")
-    if options.continues and (options.error or options.ranks):
-        raise ResultsError("--continue takes the scene's choice and ranks from the run; leave out --error and -n")
+    _require_plan(options)
     if options.sweep and (options.continues or options.checkpoint):
         raise ResultsError(
             "--checkpoint and --continue belong to one run; a sweep keeps its finished points, so the same "
             "command resumes it"
         )
-    if options.quick and options.error:
-        raise ResultsError("--quick and --error both choose sizes; give one of them")
     options.ranks = _affordable(options.ranks or 1)
+
+
+def _require_plan(options: Any) -> None:
+    """@raises ResultsError"""
+    wanted = "--error" if options.error else "--time" if options.time else ""
+    if options.dry_run and not wanted:
+        raise ResultsError("--dry-run prints the plan for --error or --time; give one of them")
+    if options.sweep and wanted:
+        raise ResultsError(f"{wanted} chooses one run; with --sweep give sizes by -v")
+    if options.continues and (wanted or options.ranks):
+        raise ResultsError(f"--continue takes sizes and ranks from the run; leave out {wanted or '-n'}")
+    if options.quick and wanted:
+        raise ResultsError(f"--quick and {wanted} both choose sizes; give one of them")
 
 
 def _affordable(ranks: int) -> int:

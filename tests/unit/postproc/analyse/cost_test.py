@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tables of runs with exact lines to zero size: errors, costs, recommendations."""
+"""Tables of runs with exact lines to zero size: errors and costs."""
 
-import dataclasses
 import math
 import tempfile
 import unittest
 from pathlib import Path
 
-from furrow_post.analyse import cost, cost_table, extrapolation
-from furrow_post.analyse.cost_table import FamilyKey
+from furrow_post.analyse import cost_table
+from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from support.tables import CONTINUUM, GRAINS, made_runs, row
 
@@ -80,128 +79,22 @@ class TableTest(unittest.TestCase):
         family = cost_table.families(rows)[GRAINS]
         self.assertIsNone(family.convergence("sinkage"))
         self.assertEqual(family.components("sinkage", 0.04).known, [])
-        with self.assertRaisesRegex(ResultsError, "add a run of another size, or longer runs"):
-            cost.recommend(cost.assess(rows), 0.1)
 
-    def test_recommends_the_cheapest_within_the_error(self) -> None:
-        # as c0.02, at three times its cost
-        slow = row("slow", "continuum", 0.02, 0.1 * 1.04, 0.2 * 0.9, 2e3, seed="", error=1e-9)
-        assessed = cost.assess(made_runs() + [slow])
-        errors = {a.row.run: a.error for a in assessed}
-        # the coefficient's 5 h is the worse, with half of the index: 1.25 times the finest's
-        index = 0.5 * 1.25 * 5 * 0.01
-        self.assertAlmostEqual(errors["c0.04"], math.hypot(0.2, index), places=3)
-        self.assertAlmostEqual(errors["c0.02"], math.hypot(0.1, index), places=3)
-        # size, packing and domain of the sinkage
-        family = cost_table.families(made_runs())[GRAINS]
-        zero, _ = family.reference("sinkage")
-        total = family.components("sinkage", 0.02, 1e-9).total / zero
-        self.assertAlmostEqual(errors["g0.02"], total, places=6)
-        self.assertEqual({a.row.run for a in assessed if not a.pareto}, {"slow", "g0.01"})
-        for wanted, name, reached in ((0.11, "c0.02", True), (0.001, "c0.01", False)):
-            choice, within = cost.recommend(assessed, wanted)
-            self.assertEqual(within, reached)
-            if reached:
-                self.assertEqual(choice.row.run, name)
-            self.assertEqual(choice.error, min(a.error for a in assessed) if not reached else choice.error)
-        grains, within = cost.recommend(assessed, total + 1e-6, {"grains"})
-        self.assertEqual((grains.row.run, within), ("g0.02", True))
+    def test_report_has_each_run_with_its_numerical_error_and_cost(self) -> None:
+        report = cost_table.cost_report(made_runs())
+        self.assertIn("c0.02: continuum, cells of 20 mm, half model, rigid wheel", report)
+        self.assertRegex(report, r"hub drop +104 ± 4 mm \(cells 4; ground unknown\)")
+        self.assertRegex(report, r"hub drop +1\d\d ± \d+ mm \(grains \d+, ground 6, packing 1\.4\)")
+        for one, errors in cost_table.numerical_errors(made_runs()):
+            family = cost_table.families(made_runs())[one.family]
+            self.assertEqual(errors["sinkage"], family.components("sinkage", one.size, one.sinkage_error))
 
-    def test_two_runs_extrapolated_where_they_are_cheaper(self) -> None:
-        assessed = cost.assess([r for r in made_runs() if r.ground == "continuum"])
-        # on exact lines a pair has no error but that of the series: 40 and 20 mm are the cheapest
-        run, within = cost.recommend(assessed, 0.04)
-        pair = extrapolation.better_pair(assessed, 0.04, run, within) or self.fail()
-        self.assertEqual([run.row.run for run in pair.runs], ["c0.04", "c0.02"])
-        self.assertAlmostEqual(pair.cpu_time, 1e-4 / 0.04**4 + 1e-4 / 0.02**4)
-        worst = assessed[0].reference_errors[pair.worst] / assessed[0].references[pair.worst]
-        self.assertAlmostEqual(pair.error, worst, places=4)
-        run, within = cost.recommend(assessed, 0.11)
-        self.assertIsNone(extrapolation.better_pair(assessed, 0.21, run, within))
-        run, within = cost.recommend(assessed, 1e-6)  # that nothing reaches
-        best = extrapolation.better_pair(assessed, 1e-6, run, within) or self.fail()
-        self.assertLess(best.error, run.error)
-        value, u = pair.at_size_zero("sinkage", (0.108, 1e-3), (0.104, 2e-3))
-        self.assertAlmostEqual(value, 0.1, places=4)
-        self.assertAlmostEqual(u, math.hypot(0.04 * 2e-3, 0.02 * 1e-3) / 0.02, places=5)
-
-    def test_a_pair_has_the_order_of_its_family(self) -> None:
-        rows = [
-            row(f"{h}", "continuum", h, 0.1 + 20 * h**2, 0.2 - 30 * h**2, 1 / h, seed="", error=1e-9)
-            for h in (0.04, 0.02, 0.01)
-        ]
-        assessed = cost.assess(rows)
-        pair = next(p for p in extrapolation.pairs(assessed) if p.coarse.row.size == 0.04)
-        value, _ = pair.at_size_zero("sinkage", (0.1 + 20 * 0.04**2, 0.0), (0.1 + 20 * 0.02**2, 0.0))
-        self.assertAlmostEqual(value, 0.1, places=4)
-        rows[1].sinkage = 0.2  # no longer monotonic: no order, no pair
-        self.assertEqual(list(extrapolation.pairs(cost.assess(rows))), [])
-
-    def test_a_pair_s_noise_and_packings_are_enlarged(self) -> None:
-        runs = [r for r in made_runs() if r.ground == "grains"]
-        for one in runs:
-            one.coefficient = 0.25 * (1 + 4 * one.size)
-        assessed = cost.assess(runs)
-        pair = next(p for p in extrapolation.pairs(assessed) if p.coarse.row.size == 0.04)
-        zero, left = pair.references["sinkage"], pair.fine.reference_errors["sinkage"]
-        parts, order = pair.fine.parts["sinkage"], pair.fine.orders["sinkage"]
-        h1, h2 = (run.row.size**order for run in pair.runs)
-        value, _ = pair.at_size_zero(
-            "sinkage", pair.coarse.row.value("sinkage"), pair.fine.row.value("sinkage")
-        )
-        enlarged = math.hypot(h1, h2) / (h1 - h2) * parts.packing
-        expected = math.hypot(value - zero, enlarged, parts.domain, left) / zero
-        self.assertAlmostEqual(pair.errors["sinkage"], expected, places=6)
-
-    def test_another_wheel_errs_by_the_difference_of_values_at_size_zero(self) -> None:
-        tyres = [
-            dataclasses.replace(
-                r,
-                run="t" + r.run,
-                wheel="tyre",
-                model="whole",
-                sinkage=1.25 * r.sinkage,
-                cpu_time=9 * r.cpu_time,
-            )
-            for r in made_runs()
-            if r.ground == "continuum"
-        ]
-        assessed = {a.row.run: a for a in cost.assess(made_runs() + tyres, "tyre")}
-        stand_in, tyre = assessed["c0.01"], assessed["tc0.01"]
-        index = 0.5 * 1.25 * 0.05
-        self.assertAlmostEqual(tyre.error, math.hypot(0.05, index), places=3)  # its own size, as before
-        self.assertEqual(tyre.models["sinkage"], 0.0)
-        self.assertAlmostEqual(stand_in.models["sinkage"], 0.2, places=4)  # 0.1 m for 0.125 m
-        own = math.hypot(0.2 * 0.01 / 0.125, 0.5 * 1.25 * 0.2 * 0.01 / 0.125)
-        expected = math.hypot(0.2, own, stand_in.reference_errors["sinkage"] / 0.125)
-        self.assertAlmostEqual(stand_in.errors["sinkage"], expected, places=3)
-        self.assertAlmostEqual(stand_in.references["sinkage"], 0.125, places=4)
-        self.assertTrue(math.isnan(assessed["g0.02"].error))  # no tyre on grains to be judged by
-        choice, _ = cost.recommend(list(assessed.values()), 0.11)
-        self.assertEqual(choice.row.run, "tc0.02")
-        self.assertEqual(cost_table.wanted_wheel(["# made", "# wheel: tyre"]), "tyre")
-
-    def test_size_and_cost_beyond_the_table(self) -> None:
-        # coefficient error 5 h and half of the index, in proportion to h: 1 % at h; cost 1e-4/h^4
-        size = 0.01 * 0.01 / math.hypot(0.05, 0.5 * 1.25 * 0.05)
-        continuum = [r for r in made_runs() if r.ground == "continuum"]
-        needed, *_ = cost.needed(cost.assess(continuum), 0.01)
-        self.assertEqual(needed.family, FamilyKey("continuum", "half", "rigid wheel"))
-        self.assertAlmostEqual(needed.size, size, delta=2e-5)
-        self.assertAlmostEqual(needed.cpu_time / (1e-4 / size**4), 1, delta=0.05)
-
-    def test_size_for_an_error_follows_the_observed_order(self) -> None:
-        # errors in proportion to the root of the size: a quarter of the size for half the error
-        rows = [
-            row(f"h{h}", "continuum", h, 0.1, 0.2 * (1 - math.sqrt(h)), 1e-4 / h**4, seed="", error=1e-9)
-            for h in (0.04, 0.02, 0.01)
-        ]
-        assessed = cost.assess(rows)
-        finest = min(assessed, key=lambda a: a.row.size)
-        self.assertAlmostEqual(finest.orders["coefficient"], 0.5, places=2)
-        whole, half = (cost.needed(assessed, part * finest.error)[0].size for part in (1.0, 0.5))
-        self.assertAlmostEqual(whole, 0.01, places=5)
-        self.assertAlmostEqual(half / whole, 0.25, places=2)
+    def test_written_errors_have_their_parts(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            cost_table.write_errors(Path(folder) / "t.csv", made_runs())
+            row = read_rows(Path(folder) / "t.csv")[0]
+        parts = [float(row[f"sinkage_error_{part}"] or 0) for part in ("time", "size", "domain", "packing")]
+        self.assertAlmostEqual(float(row["sinkage_error"]), math.hypot(*parts), 6)
 
     def test_written_table_comes_back(self) -> None:
         with tempfile.TemporaryDirectory() as folder:

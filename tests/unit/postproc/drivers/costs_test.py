@@ -8,16 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from furrow_post.analyse import cost_table
-from furrow_post.cli import run_command
 from furrow_post.csv_table import rows_text
-from furrow_post.errors import ResultsError
 from furrow_post.scene.catalogue import script_of
-from furrow_post.scene.scene_choice import choose
-from furrow_post.scene.command import POST, checked
-from furrow_post.scene.options import require_fitting
 from furrow_post.study.definition import evaluation_of
 from support.command import SOURCE
-from support.evaluation import options
 
 FOLDER = SOURCE / "inputs" / "costs"
 driver: Any = evaluation_of(FOLDER)
@@ -43,26 +37,13 @@ class CostsTest(unittest.TestCase):
                     parts = family.components("sinkage", family.bases[-1].size, 0.0)
                     self.assertTrue(all(map(math.isfinite, parts.numerical())), parts)
 
-    def test_a_formula_height_field_or_ground_is_chosen_by_its_error(self) -> None:
+    def test_errors_of_the_models_are_those_of_the_cross_check(self) -> None:
         table, rows = FOLDER / driver.MODELS, driver.model_errors(*driver.hub_drops())
         self.assertEqual(table.read_text(encoding="utf-8"), rows_text(rows, driver.MODELS_HEAD))
-        for error, first in ((0.5, POST), (0.3, "wheel_continuum"), (0.01, "wheel_continuum")):
-            with self.subTest(error=error):
-                words = choose(table, error).runs[0]
-                self.assertEqual(Path(words[0]).stem, first)
         for row in rows:
             with self.subTest(run=row["run"], ground=row["ground"]):
                 scene = shlex.split(str(row["options"]))[0].replace("{inputs}", str(FOLDER.parent))
-                self.assertTrue(scene == POST or script_of(scene).is_file())
-
-    def test_a_formula_refuses_variables_of_a_scene(self) -> None:
-        given = options("run", run_command.run, ["wheel_on_scm", "--error", "50%"])
-        require_fitting(given)
-        self.assertIsNotNone(checked(given).chosen)
-        given = options("run", run_command.run, ["wheel_on_scm", "--error", "50%", "-v", "load", "500"])
-        require_fitting(given)
-        with self.assertRaisesRegex(ResultsError, "has no -v load; leave it out"):
-            checked(given)
+                self.assertTrue(scene == "furrow-post" or script_of(scene).is_file())
 
     def test_models_are_compared_with_the_finest_continuum(self) -> None:
         answers, (value, error) = driver.hub_drops()

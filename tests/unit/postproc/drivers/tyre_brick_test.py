@@ -14,8 +14,7 @@ from math import asin, cos, pi, radians, sin
 
 import numpy as np
 
-from furrow_post.analyse import measured_choice
-from furrow_post.csv_table import read_comments, read_rows
+from furrow_post.csv_table import read_rows
 from support.command import SOURCE
 from support.evaluation import VALIDATION
 
@@ -153,26 +152,6 @@ class Table6Test(unittest.TestCase):
                 error = float(row[what]) / float(known[what]) - 1
                 name = what.removesuffix("_cm2").removesuffix("_cm") + "_error"
                 self.assertAlmostEqual(float(row[name]), error, delta=2e-4)  # both are rounded
-
-
-class ChoiceTest(unittest.TestCase):
-    """The tables that --error chooses from."""
-
-    def test_each_tyre_is_worth_it_somewhere(self) -> None:
-        for scene, error, tyre, scene_of_it in (
-            ("tyre_on_plane", 0.2, "tyre/darnell", "tyre_on_plane"),
-            ("tyre_on_plane", 0.15, "tyre/darnell", "tyre_on_plane"),
-            ("tyre_on_plane", 0.12, "tyre/brick", "brick_tyre_on_plane"),
-            ("tyre_on_plane", 0.1, "tyre/brick", "brick_tyre_on_plane"),
-            ("brick_tyre_on_plane", 0.7, "tyre/darnell", "tyre_on_plane"),
-            ("brick_tyre_on_plane", 0.1, "tyre/brick", "brick_tyre_on_plane"),
-        ):
-            with self.subTest(scene=scene, error=error):
-                table = HERE / f"errors_{scene}.csv"
-                self.assertTrue(measured_choice.measurement(read_comments(table)))
-                chosen = measured_choice.recommend(measured_choice.read_compared(table), error)
-                self.assertLessEqual(chosen.error, error)
-                self.assertEqual((chosen.kind, chosen.options.split()[0]), (tyre, scene_of_it))
 
 
 if __name__ == "__main__":
