@@ -14,6 +14,12 @@ def _tests(frame: pandas.DataFrame) -> list[Test]:
     return [model_error.test_of({name: str(cell) for name, cell in row.items()}) for row in rows_of(frame)]
 
 
+def scored(frame: pandas.DataFrame, tables: Any, constants: Any) -> pandas.DataFrame:
+    """Adds the whole error of predictions by the studies before them; empty where no test is near."""
+    others = model_error.regimes_of(test for test in _tests(tables["measured.csv"]) if test.study != "predictions")
+    return frame.assign(scored_error=[model_error.scored_error(others, row) for row in rows_of(frame)])
+
+
 def regimes(frame: pandas.DataFrame, tables: Any, constants: Any) -> pandas.DataFrame:
     return pandas.DataFrame(model_error.regime_rows(_tests(frame)), dtype=object)
 

@@ -124,7 +124,7 @@ RULES: tuple[tuple[str, Callable[[Tree, str], None]], ...] = (
     (r"(\w+=\S+ |mpirun -n \d+ )?build/tests/benchmarks/", benchmark),
     (r"tests/benchmarks/\w+\.py$", run),
     (r"tests/benchmarks/\w+\.py ", options),
-    (r"(postproc/)?furrow-post (film|flow|plan|laboratory|converge|cost|sweep|study) ", options),
+    (r"(postproc/)?furrow-post (film|flow|laboratory|converge|cost|sweep|study) ", options),
     (r"inputs/\S+\.py --list$", run),
     (r"inputs/(costs|crosscheck|laboratory|validation)/\S+\.py", options),
     (r"furrow-resistance --together ", options),  # OWN_RUN has one wheel

@@ -247,11 +247,22 @@ def read_tests(path: Path) -> list[Test]:
 
 def test_of(row: Mapping[str, str]) -> Test:
     """Of a row of measured.csv."""
-    features: dict[str, Any] = {name: row[name] for name in MISMATCH}
-    features.update({name: _number(row[name]) for name in SCALES})
-    case = Case(**features)
+    case = case_of_row(row)
     values = (int(row["tests"]), float(row["difference"]), float(row["error"]), _number(row["mean"]))
     return Test(row["study"], row["label"], row["quantity"], case, *values)
+
+
+def scored_error(regimes: Sequence[Regime], row: Mapping[str, Any]) -> str:
+    """Error of a prediction with the columns of a case, what (quantity), noise and over (scale); empty: no test is near."""
+    error = model_error(regimes, row["what"], case_of_row(row))
+    return f"{math.hypot(error.value, row['noise']) * row['over']:.2g}" if error else ""
+
+
+def case_of_row(row: Mapping[str, Any]) -> Case:
+    """Of the columns of measured.csv."""
+    features: dict[str, Any] = {name: row[name] for name in MISMATCH}
+    features.update({name: _number(str(row[name])) for name in SCALES})
+    return Case(**features)
 
 
 def _number(text: str) -> float:
