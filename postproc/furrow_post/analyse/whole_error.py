@@ -3,7 +3,7 @@
 
 Cells or grains: of the runs of the scene in a table, else of the scene's convergence, else of the nearest series of
 sizes.csv. The size counts over the width of the wheel, and an error grows in proportion to it beyond the largest of
-the series. Step and contact of a continuum: scheme.csv. Model: model_error.py. Depths have relative errors, coefficients
+the series. Width of a continuum: the study ground_size. Step and contact of a continuum: scheme.csv. Model: model_error.py. Depths have relative errors, coefficients
 absolute ones; forces those of their coefficients times the vertical force.
 """
 
@@ -29,7 +29,7 @@ from .model_error import MISMATCH, OF_RUN, RELATIVE, Case, known_regimes, model_
 Families = Mapping[FamilyKey, Family]
 SNOW = 700.0  # [kg/m3] bulk density below which a ground is snow
 STRAIGHT = 0.02  # slip within which a driven wheel is not braked
-SIZES, SCHEME = "sizes.csv", "scheme.csv"
+SIZES, SCHEME, EFFECTS = "sizes.csv", "scheme.csv", "ground_size/effects.csv"
 DEPTHS = ("hub_drop", "rut_depth")
 COEFFICIENTS = ("resistance_coefficient", "net_traction_coefficient")
 FORCES = ("drawbar_pull", "tractive_force", "force_x")  # coefficient times vertical force
@@ -114,6 +114,27 @@ def read_scheme(path: Path) -> dict[tuple[str, str], tuple[float, str]]:
         return {(r["part"], key): (float(r[column]), r["what"]) for r in read_rows(path) for key, column in columns}
 
 
+@lru_cache(maxsize=2)
+def read_effects(path: Path) -> dict[tuple[str, str], tuple[float, float, float]]:
+    """(kind of ground, "sinkage" or "coefficient") -> a, c and residual of a exp(-x/c), the change by the sides of the
+    ground under a wheel over x, their distance in widths of the wheel. @raises ResultsError"""
+    keys = {"hub_drop_m": "sinkage", "net_traction": "coefficient"}
+    with content_of(path, "write it again with 'furrow-post study ground_size'"):
+        rows = [row for row in read_rows(path) if row["body"] == "wheel" and row["edge"] == "width"]
+        return {(r["kind"], keys[r["quantity"]]): (float(r["a"]), float(r["c"]), float(r["residual"])) for r in rows}
+
+
+def width_of_ground(run: WheelRun, case: Case, key: str) -> Budget:
+    """What the sides of a continuum change: of a depth relative."""
+    path = _validation(EFFECTS)
+    effect = read_effects(path).get((case.ground, key)) if path and run.ground == "continuum" else None
+    if not effect or len(run.domain) < 2:
+        return Budget()
+    a, c, residual = effect
+    x = 0.5 * (run.domain[1] / run.number("wheel_width") - 1.0)
+    return Budget(domain=math.hypot(a * math.exp(-x / c), residual), sources={"domain": f"ground_size: sides {x:.2g} widths away"})
+
+
 def _validation(name: str) -> Path | None:
     inputs = inputs_folder()
     path = inputs / "validation" / name if inputs else None
@@ -188,6 +209,8 @@ class _Parts:
         key = "sinkage" if name in DEPTHS else "coefficient" if name in COEFFICIENTS else ""
         scale = abs(value.mean) if name in (*DEPTHS, "tyre_deflection") else 1.0
         parts = like_wheels(self.run, self.case, key).scaled(scale) if key else Budget()
+        sides = width_of_ground(self.run, self.case, key).scaled(scale) if key else Budget()
+        parts = replace(parts, domain=sides.domain, sources={**parts.sources, **sides.sources})
         parts = self._of_no_random(parts)
         parts = self._of_scene(parts, name, value, key)
         parts = replace(parts, time=value.standard_error, held=self._held(name, value))

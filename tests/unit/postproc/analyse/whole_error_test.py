@@ -7,6 +7,7 @@ import unittest
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import numpy as np
 
@@ -134,6 +135,21 @@ class RunTest(FolderTest):
         self.assertEqual(coefficient.unknown, ["domain", "material"])
         self.assertIn("cmu_sand predictions".replace(" ", ", "), coefficient.sources["model"])
         self.assertIn("convergence: sand, slip 0", coefficient.sources["size"])
+
+    def test_width_of_the_ground_counts_by_the_rule_of_its_study(self) -> None:
+        effects = self.folder / "effects.csv"
+        effects.write_text(
+            "kind,body,edge,quantity,a,c,residual,runs\nsand,wheel,width,hub_drop_m,-0.8,0.5,0.01,9\n"
+            "sand,wheel,depth,hub_drop_m,9,9,9,9\nsand,plate,width,hub_drop_m,9,9,9,9\n"
+        )
+        run = self.on_sand()
+        run.domain = (2.0, 3 * WIDTH)  # a width on each side
+        usual = whole_error._validation
+        with mock.patch.object(whole_error, "_validation", lambda name: effects if name == whole_error.EFFECTS else usual(name)):
+            found = budgets(run)
+        self.assertAlmostEqual(found["hub_drop"].domain, 0.05 * math.hypot(0.8 * math.exp(-2), 0.01))
+        self.assertEqual(found["hub_drop"].sources["domain"], "ground_size: sides 1 widths away")
+        self.assertIn("domain", found["resistance_coefficient"].unknown)
 
     def test_pull_has_the_error_of_its_coefficient_times_the_load(self) -> None:
         found = budgets(self.on_sand())
