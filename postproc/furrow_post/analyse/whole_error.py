@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The whole error of each value of a run: where its parts come from.
 
-Cells or grains: of the runs of the scene in a table, else of the scene's convergence, else of the nearest series of
-sizes.csv. The size counts over the width of the wheel, and an error grows in proportion to it beyond the largest of
+Cells or grains: of the scene's convergence; else of a table of its runs or of the nearest series of sizes.csv, the
+larger one. The size counts over the width of the wheel, and an error grows in proportion to it beyond the largest of
 the series. Width of a continuum: the study ground_size. Step and contact of a continuum: scheme.csv. Model: model_error.py. Depths have relative errors, coefficients
 absolute ones; forces those of their coefficients times the vertical force.
 """
@@ -232,12 +232,15 @@ class _Parts:
 
     def _of_scene(self, parts: Budget, name: str, value: SteadyValue, key: str) -> Budget:
         """Of the runs of this scene in other sizes, where there are any."""
-        if self.stored and (error := self.stored.size_error(name, self.run.size, value.mean)) is not None:
+        error = self.stored.size_error(name, self.run.size, value.mean) if self.stored else None
+        if self.stored and error is not None:
             parts = replace(parts, size=error, sources={**parts.sources, "size": self.stored.source})
         if not self.family or not key or name == "rut_depth":
             return parts
         known = self.family.components(key, self.run.size, value.standard_error)
         numbers = {part: known.part(part) for part in ("size", "domain", "packing") if math.isfinite(known.part(part))}
+        if error is not None or numbers.get("size", math.inf) < parts.size:
+            numbers.pop("size", None)  # tables of inputs/costs are of runs without cell averages, which hide a part of it
         return replace(parts, **numbers, sources={**parts.sources, **dict.fromkeys(numbers, "table of runs of the scene")})
 
     def _held(self, name: str, value: SteadyValue) -> float:

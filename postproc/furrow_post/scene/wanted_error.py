@@ -38,7 +38,7 @@ REMEDIES = {
         "sand": "measure the pull at one slip, or ring shear at your pressure",
         "road": "measure the deflection at your load and pressure",
     },
-    "size": "give it more time with --time",
+    "size": "leave out -v for its size, or give more time with --time",
     "time": "roll further, with --until-steady",
     "packing": "average packings, with --sweep and --packings",
     "held": "raise the damping of the rig, or roll further",

@@ -13,6 +13,7 @@ import numpy as np
 
 from furrow_post.analyse import convergence, model_error, whole_error
 from furrow_post.analyse.budget import Budget, rounded
+from furrow_post.analyse.cost_table import FamilyKey, families
 from furrow_post.analyse.model_error import Case, Test, leave_one_study_out, read_tests, regimes_of
 from furrow_post.analyse.whole_error import budgets, case_of, headline, like_wheels, report
 from furrow_post.csv_table import read_rows
@@ -20,6 +21,7 @@ from furrow_post.errors import ResultsError
 from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
 from support.command import SOURCE
 from support.folder import FolderTest
+from support.tables import CONTINUUM, row
 from support.runs import RADIUS, WIDTH, rig, rigid_wheel, style, write_run
 
 VALIDATION = SOURCE / "inputs" / "validation"
@@ -135,6 +137,16 @@ class RunTest(FolderTest):
         self.assertEqual(coefficient.unknown, ["domain", "material"])
         self.assertIn("cmu_sand predictions".replace(" ", ", "), coefficient.sources["model"])
         self.assertIn("convergence: sand, slip 0", coefficient.sources["size"])
+
+    def test_a_table_of_runs_counts_where_it_shows_more_than_like_wheels(self) -> None:
+        run = self.on_sand()
+        usual = budgets(run)["hub_drop"].size
+        key = FamilyKey(run.ground, run.model, run.wheel)
+        for step, larger in ((0.001, False), (0.02, True)):
+            rows = [row(f"{h}", "continuum", h, 0.05 + step * k, 0.2, 1.0, seed="", error=1e-6) for k, h in enumerate((0.05, 0.1))]
+            found = budgets(run, {key: families(rows)[CONTINUUM]})["hub_drop"]
+            self.assertEqual(found.size > usual, larger)
+            self.assertEqual(found.sources["size"] == "table of runs of the scene", larger)
 
     def test_width_of_the_ground_counts_by_the_rule_of_its_study(self) -> None:
         effects = self.folder / "effects.csv"
