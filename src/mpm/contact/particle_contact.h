@@ -40,15 +40,21 @@ struct ContactLosses {
 struct ContactHistory {
   /// Whether the particle touched in the last step.
   bool touches() const { return gap < 0.0; }
-  /// The particle no longer touches.
-  void end_contact() {
+  /// The particle bounces: it does not touch, but is no farther than its reach.
+  /// @param path  along the surface in the last step [m]
+  void lift(double path) {
     spring.setZero();
-    slip = 0.0;
     gap = 0.0;
+    slip += path;
+  }
+  /// The particle has left the surface.
+  void end_contact() {
+    lift(0.0);
+    slip = 0.0;
   }
 
   Vector3 spring = Vector3::Zero();  ///< stretch of the tangential spring [m]
-  double slip = 0.0;                 ///< path along the surface since the contact began [m]
+  double slip = 0.0;                 ///< path along the surface since the first touch [m]
   double stiffness = 0.0;            ///< of the springs in the last step [N/m]
   double gap = 0.0;                  ///< in the last step [m]; 0: the particle did not touch
   double reach_excess = 0.0;         ///< e of NarrowPhase

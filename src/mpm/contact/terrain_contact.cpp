@@ -53,7 +53,8 @@ void TerrainContact::search() {
   begun_ = true;
 }
 
-/// Leaves out the candidates that cannot have come near enough since the search.
+/// Leaves out the candidates that cannot have come near enough since the search. A particle that
+/// has slipped leaves the surface at twice its reach only.
 void TerrainContact::select_active() {
   active_.clear();
   active_particles_.clear();
@@ -61,10 +62,11 @@ void TerrainContact::select_active() {
   for (std::size_t n = 0; n < candidates.size(); ++n) {
     const ParticleIndex& particle = candidates[n].particle;
     ContactHistory& history = history_of(particle);
+    const double reach =
+        NarrowPhase::largest_reach(group_of(particle).particles, particle.particle, history);
     // one that touches may be inside, farther than its reach
     if (!history.touches() &&
-        search_.lower_bound(candidates[n]) >
-            NarrowPhase::largest_reach(group_of(particle).particles, particle.particle, history)) {
+        search_.lower_bound(candidates[n]) > (history.slip > 0.0 ? 2.0 : 1.0) * reach) {
       history.end_contact();
       continue;
     }
@@ -73,18 +75,44 @@ void TerrainContact::select_active() {
   }
 }
 
+/// Mean slip of the touching ones among the active particles, from number n on, of one cell [m].
+/// @param end  of these active particles
+double TerrainContact::mean_slip_in_cell(std::size_t n, std::size_t& end) {
+  const auto cell = [&](std::size_t m) {
+    const ParticleIndex& particle = active_particles_[m];
+    return std::pair(particle.group,
+                     group_of(particle).particles.data(column::cell)[particle.particle]);
+  };
+  double sum = 0.0;
+  int touching = 0;
+  for (end = n; end < active_particles_.size() && cell(end) == cell(n); ++end) {
+    const ContactHistory& history = history_of(active_particles_[end]);
+    if (!history.touches()) continue;
+    sum += history.slip;
+    ++touching;
+  }
+  return touching > 0 ? sum / touching : 0.0;
+}
+
 template <class Law>
 void TerrainContact::add_forces(const Law& law, double dt) {
-  for (std::size_t n = 0; n < active_.size(); ++n) {
+  double slip_in_cell = 0.0;
+  for (std::size_t n = 0, end_of_cell = 0; n < active_.size(); ++n) {
+    if (n == end_of_cell) slip_in_cell = mean_slip_in_cell(n, end_of_cell);
     const ParticleIndex& particle = active_particles_[n];
     const ParticleGroup& group = group_of(particle);
     ContactHistory& history = history_of(particle);
     Vector3 velocity;
     const ContactPoint contact = find_contact(n, history, velocity);
     if (contact.gap >= 0.0) {
-      history.end_contact();
+      const double reach = contact.distance - contact.gap;
+      if (contact.gap > reach || history.slip == 0.0)
+        history.end_contact();
+      else
+        history.lift(last_dt_ * velocity.cross(contact.normal).norm());
       continue;
     }
+    if (history.slip == 0.0) history.slip = slip_in_cell;
     law.update_stiffness(group, particle.particle, history, step_.losses);
     history.gap = contact.gap;
     history.normal = contact.normal;

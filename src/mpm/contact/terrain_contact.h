@@ -71,6 +71,7 @@ class TerrainContact : public Contact {
   ContactHistory& history_of(const ParticleIndex& particle);
   void search();
   void select_active();
+  double mean_slip_in_cell(std::size_t n, std::size_t& end);
   template <class Law>
   void add_forces(const Law& law, double dt);
   ContactPoint find_contact(std::size_t n, ContactHistory& history, Vector3& velocity);

@@ -151,7 +151,7 @@ TEST(Friction, GrowsWithTheSlip) {
   EXPECT_EQ((Friction{0.5, 0.0}.limit(100.0, 0.0)), 50.0);
 }
 
-TEST(ContactHistory, ForgetsSpringSlipAndGapWhenTheContactEnds) {
+TEST(ContactHistory, ForgetsSpringAndGapWhenItLiftsAndSlipWhenTheContactEnds) {
   ContactHistory history;
   history.spring = {1, 2, 3};
   history.slip = 4;
@@ -159,9 +159,11 @@ TEST(ContactHistory, ForgetsSpringSlipAndGapWhenTheContactEnds) {
   history.gap = -6;
   history.reach_excess = 7;
   EXPECT_TRUE(history.touches());
-  history.end_contact();
+  history.lift(1.0);
   EXPECT_FALSE(history.touches());
   EXPECT_EQ(history.spring, Vector3::Zero());
+  EXPECT_EQ(history.slip, 5.0);
+  history.end_contact();
   EXPECT_EQ(history.slip, 0.0);
   EXPECT_EQ(history.stiffness, 5.0);
   EXPECT_EQ(history.gap, 0.0);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mpm/contact/terrain_contact.h"
 
+#include <cmath>
+#include <optional>
+
 #include <gmock/gmock.h>
 
 #include "bodies/rigid_plate.h"
@@ -138,6 +141,77 @@ TEST(TerrainContact, GapFollowsTheMotionWhenTheStepChanges) {
     plate.surface().x.row(2).array() -= dt;
     path += dt;
   }
+}
+
+/// A plate that slides on ground at rest with T/N = mu (1 - exp(-j/k)).
+struct SlidingPlate {
+  static constexpr double cell = 0.025, reach = cell / 8.0, dt = 1e-3;  // 4 particles along a cell
+
+  SlidingPlate() {
+    TerrainParameters parameters =
+        box(material_of(elastic(1e6, 0.2, 500)), {-0.1, -0.1, -0.1}, {0.1, 0.1, 0.0}, cell);
+    parameters.z = even(-0.1, 0.1, cell);
+    parameters.gravity = Vector3::Zero();
+    parameters.particles_per_cell = {4, 4, 4};
+    ground.emplace(parameters, Communicator());
+    law.friction = 0.5;
+    law.slip_length = 0.01;
+    law.stiffness = 0.1;
+    law.damping = 0.0;
+  }
+  void touch() {
+    contact.emplace(plate, *ground, law, false, "foot");
+    contact->apply(dt);
+  }
+  void move(const Vector3& path, int steps) {
+    for (int n = 0; n < steps; ++n) {
+      plate.surface().v.colwise() = Vector3(path / (steps * dt));
+      plate.surface().x.colwise() += Vector3(path / steps);
+      contact->apply(dt);
+    }
+  }
+  double mobilised() const { return std::abs(contact->force().x()) / contact->force().z(); }
+  static double closed_form(double slip) { return 0.5 * (1.0 - std::exp(-slip / 0.01)); }
+
+  std::optional<ContinuumTerrain> ground;
+  RigidPlate plate{{PlateShape::square, 0.5, 0.05, 4}, {0, 0, -1e-4}};  // wider than the ground
+  ContactParameters law;
+  std::optional<TerrainContact> contact;
+};
+
+/// The plate slides by 10 mm, rises, slides by 3 mm, comes back and slides by 2 mm: a particle that
+/// was no farther than its reach has slipped by 15 mm.
+TEST(TerrainContact, SlipOutlivesABounceAndEndsWithTheContact) {
+  const auto mobilised_after_rising = [](double reaches) {
+    SlidingPlate sliding;
+    sliding.touch();
+    sliding.move({0.01, 0, 0}, 10);
+    sliding.move({0, 0, reaches * SlidingPlate::reach}, 20);
+    sliding.move({0.003, 0, 0}, 10);
+    EXPECT_EQ(sliding.contact->force(), Vector3::Zero());
+    sliding.move({0, 0, -reaches * SlidingPlate::reach}, 20);
+    sliding.move({0.002, 0, 0}, 10);
+    return sliding.mobilised();
+  };
+  EXPECT_NEAR(mobilised_after_rising(0.5), SlidingPlate::closed_form(0.015), 0.02);
+  EXPECT_NEAR(mobilised_after_rising(3.0), SlidingPlate::closed_form(0.002), 0.02);
+}
+
+/// Every second row of particles lies a spacing lower. It touches after 10 mm of slip of the other
+/// rows and begins with it.
+TEST(TerrainContact, AParticleThatTouchesLateBeginsWithTheSlipOfItsCell) {
+  constexpr double spacing = 2.0 * SlidingPlate::reach;
+  SlidingPlate sliding;
+  carve(*sliding.ground, [](const Vector3& x) {
+    return x.z() < -spacing || std::fmod(x.x() + 0.1, 2.0 * spacing) > spacing;
+  });
+  sliding.touch();
+  sliding.move({0.01, 0, 0}, 10);
+  const double contacts = sliding.contact->contacts();
+  sliding.move({0, 0, -1.8 * spacing}, 20);
+  sliding.move({0.008, 0, 0}, 40);
+  EXPECT_GT(sliding.contact->contacts(), 1.5 * contacts);
+  EXPECT_NEAR(sliding.mobilised(), SlidingPlate::closed_form(0.018), 0.01);
 }
 
 /// A script may remove a contact and define it once more, with another friction.
