@@ -16,7 +16,7 @@ from ..errors import ResultsError
 from .results import Results, Surface, read_effective_input, read_surface
 from .styles import Styles
 from .terrain import is_half, read_terrain_fields, read_terrain_history, terrain_file
-from .vtk import Series, read_series, read_vtp
+from .vtk import Frames, read_frames, read_vtp
 
 REMEDY = (
     "repeat the run with 'vtk N' (steps between frames) in its lines wheel/history and "
@@ -40,7 +40,7 @@ class Cloud:
 
     kind: str  # "grains" or "continuum"
     mirrored: bool  # a half model: what stands at y > 0 stands at y < 0 too
-    series: Series | None
+    series: Frames | None
     end: Points | None = None  # of a run without frames
 
     def at(self, time: float) -> Points:
@@ -55,7 +55,7 @@ class Cloud:
 class Body:
     """A wheel, tyre or plate over time: frames of a series, or its end."""
 
-    series: Series | None
+    series: Frames | None
     end: Surface | None = None  # of a run without frames
 
     def at(self, time: float) -> Surface:
@@ -88,15 +88,15 @@ class Motion:
 def read_motion(folder: Path) -> Motion:
     """@raises ResultsError for a folder without results, and for damaged ones"""
     folder = folder.parent if folder.is_file() else folder
-    grains, terrain = (read_series(folder / "vtk" / f"{name}.pvd") for name in ("grains", "terrain"))
+    grains, terrain = (read_frames(folder / "vtk" / f"{name}.pvd") for name in ("grains", "terrain"))
     results = Results(folder) if (folder / "history.h5").is_file() else None
     wheels = [folder, *(_further_wheels(results) if results else ())]
-    rolling = [one for wheel in wheels if (one := read_series(wheel / "vtk" / "wheel.pvd"))]
+    rolling = [one for wheel in wheels if (one := read_frames(wheel / "vtk" / "wheel.pvd"))]
     if results is None and terrain is None and not terrain_file(folder).is_file():
         raise ResultsError(f"{folder}: has no results; name the results folder of a run")
     styles = results.styles() if results else Styles([])
     soil, wheel = styles.of_kind("terrain"), styles.of_kind("wheel")
-    field = read_series(folder / "vtk" / "scm.pvd")
+    field = read_frames(folder / "vtk" / "scm.pvd")
     bodies, clouds = [Body(one) for one in (*rolling, *([field] if field else []))], []
     if not rolling and grains is None and terrain is None:
         if results:

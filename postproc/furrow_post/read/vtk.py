@@ -24,7 +24,7 @@ APPENDED = b'<AppendedData encoding="raw">'
 
 
 @dataclass(frozen=True)
-class Series:
+class Frames:
     """Frames of one thing in the order of time: times[k] [s] is that of files[k]."""
 
     times: Floats
@@ -44,7 +44,7 @@ class PolyData:
     fields: dict[str, Any]  # name -> (n) or (n, 3)
 
 
-def read_series(collection: Path) -> Series | None:
+def read_frames(collection: Path) -> Frames | None:
     """The frames that a .pvd lists; None where there is no such file, or it lists none.
 
     @raises ResultsError for a file that is no collection
@@ -58,7 +58,7 @@ def read_series(collection: Path) -> Series | None:
     outside = [file for file in files if not file.resolve().is_relative_to(collection.parent.resolve())]
     if outside:
         raise ResultsError(f"{collection}: names {outside[0]}, outside of its folder; {REMEDY}")
-    return Series(times, files) if files else None
+    return Frames(times, files) if files else None
 
 
 def read_vtp(file: Path) -> PolyData:

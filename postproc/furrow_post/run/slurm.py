@@ -36,7 +36,7 @@ exec {command} --point "${{points[$SLURM_ARRAY_TASK_ID]}}"
 
 
 @dataclass(frozen=True)
-class Job:
+class ArrayJob:
     """An array job that was submitted."""
 
     number: str
@@ -46,11 +46,11 @@ class Job:
         (folder / JOB).write_text(json.dumps(asdict(self)) + "\n", encoding="utf-8")
 
 
-def read_job(folder: Path) -> Job | None:
+def read_job(folder: Path) -> ArrayJob | None:
     """The last one of a sweep, or None."""
     try:
         content = parse_json((folder / JOB).read_text(encoding="utf-8"))
-        return Job(content["number"], tuple(content["points"]))
+        return ArrayJob(content["number"], tuple(content["points"]))
     except (OSError, ValueError, KeyError, TypeError):
         return None
 
@@ -86,7 +86,7 @@ def batch_text(
     )
 
 
-def submit(folder: Path, text: str, points: Sequence[str]) -> Job:
+def submit(folder: Path, text: str, points: Sequence[str]) -> ArrayJob:
     """folder: of the job's files. @raises ResultsError with what sbatch says"""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / SCRIPT).write_text(text, encoding="utf-8")
@@ -94,12 +94,12 @@ def submit(folder: Path, text: str, points: Sequence[str]) -> Job:
     if done.returncode:
         said = " ".join(done.stderr.split()) or f"status {done.returncode}"
         raise ResultsError(f"sbatch refuses {folder / SCRIPT}: {said}")
-    job = Job(done.stdout.strip().split(";")[0], tuple(points))
+    job = ArrayJob(done.stdout.strip().split(";")[0], tuple(points))
     job.write(folder)
     return job
 
 
-def is_queued(job: Job) -> bool:
+def is_queued(job: ArrayJob) -> bool:
     """Whether a task of it waits or runs. @raises ResultsError where Slurm does not answer"""
     done = _slurm("squeue", "--noheader", "--jobs", job.number, "--format", "%T")
     if done.returncode and "Invalid job id" not in done.stderr:
@@ -117,7 +117,7 @@ def _slurm(*words: str) -> subprocess.CompletedProcess[str]:
         ) from None
 
 
-def gather(job: Job, executor: Executor, cases: Sequence[Case]) -> None:
+def gather(job: ArrayJob, executor: Executor, cases: Sequence[Case]) -> None:
     """Waits until the job has ended and tells of each point that ends. @raises Interrupted"""
     left = {case.name: case for case in cases if case.name in job.points}
     left = {name: case for name, case in left.items() if executor.state(case) is State.MISSING}
@@ -149,7 +149,7 @@ def _begun(executor: Executor, case: Case) -> bool:
     return executor.folder(case).is_dir()
 
 
-def lost(job: Job, executor: Executor, cases: Sequence[Case]) -> list[str]:
+def lost(job: ArrayJob, executor: Executor, cases: Sequence[Case]) -> list[str]:
     """A sentence for each point whose task ended without a record of its run."""
     folder = executor.results / FOLDER
     found = []

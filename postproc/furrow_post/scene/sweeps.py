@@ -12,7 +12,7 @@ from ..run.case import Case
 from ..run.tools import Tools
 from ..run.executor import Executor, State
 from ..run import slurm
-from ..sweep.cases import Request, case_of, plan_of
+from ..sweep.cases import SweepRequest, case_of, plan_of
 from ..sweep.sweep_files import Named, Wanted, evaluate, report_lines, write_sweep
 from ..sweep.sweep_plan import Plan, read_plan
 from .catalogue import Variables
@@ -32,7 +32,7 @@ def wanted_of(options: Any, script: Path) -> Wanted:
 
 def planned(options: Any, script: Path, preset: Variables) -> Plan:
     """The points that are asked for; prints warnings. @raises ResultsError"""
-    request = Request(
+    request = SweepRequest(
         script,
         options.sweep,
         options.given,

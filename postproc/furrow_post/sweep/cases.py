@@ -26,7 +26,7 @@ DRIVEN = {"slip": "mode slip slip {}", "torque": "mode torque torque {}"}  # val
 
 
 @dataclass(frozen=True)
-class Request:
+class SweepRequest:
     """What the command line asks for."""
 
     script: Path
@@ -40,7 +40,7 @@ class Request:
     samples: int = 0  # points in the box of the variables; 0: all combinations of values
 
 
-def plan_of(request: Request) -> tuple[Plan, list[str]]:
+def plan_of(request: SweepRequest) -> tuple[Plan, list[str]]:
     """The plan, and warnings. @raises ResultsError for what the script does not take; OSError"""
     if request.samples:
         points = sampled(request.sweep, request.samples)
@@ -93,7 +93,7 @@ def _word_of(settable: Sequence[str], name: str, value: str) -> tuple[str, str]:
 
 
 def _seeds(
-    request: Request,
+    request: SweepRequest,
     swept: Sequence[str],
     known: ScriptVariables,
     fixed: Mapping[str, str],

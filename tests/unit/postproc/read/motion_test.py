@@ -8,7 +8,7 @@ import numpy as np
 
 from furrow_post.errors import ResultsError
 from furrow_post.read.motion import read_motion
-from furrow_post.read.vtk import read_series, read_vtp
+from furrow_post.read.vtk import read_frames, read_vtp
 from support.folder import FolderTest
 from support.motion import (
     FRAMES,
@@ -76,7 +76,7 @@ class MotionTest(FolderTest):
             read_motion(self.folder / "still")
         with self.assertRaisesRegex(ResultsError, "has no results; name the results folder"):
             read_motion(self.folder)
-        self.assertIsNone(read_series(self.folder / "wheel.pvd"))
+        self.assertIsNone(read_frames(self.folder / "wheel.pvd"))
 
     def test_damaged_frames_are_named(self) -> None:
         motion = read_motion(write_moving_run(self.folder / "run"))

@@ -47,7 +47,7 @@ class SlurmTest(FolderTest):
             patch.start()
             self.addCleanup(patch.stop)
 
-    def submitted(self, cases: list[Case], lost: str = "") -> slurm.Job:
+    def submitted(self, cases: list[Case], lost: str = "") -> slurm.ArrayJob:
         """A job whose tasks make the runs but that of this name."""
         task = self.folder / "task.py"
         lines = [
@@ -115,7 +115,7 @@ class SlurmTest(FolderTest):
 
     def test_a_job_that_the_queue_has_forgotten_has_ended(self) -> None:
         with mock.patch.dict(os.environ, self.path):
-            self.assertFalse(slurm.is_queued(slurm.Job("12", ("a",))))
+            self.assertFalse(slurm.is_queued(slurm.ArrayJob("12", ("a",))))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from furrow_post.errors import ResultsError
 from furrow_post.run.executor import Executor, State
-from furrow_post.sweep.cases import Request, case_of, plan_of
+from furrow_post.sweep.cases import SweepRequest, case_of, plan_of
 from furrow_post.sweep.sweep_plan import Plan, read_plan
 from support.fake import FakeTree
 from support.folder import FolderTest
@@ -46,7 +46,7 @@ class CasesTest(FolderTest):
         self.results = self.folder / "results"
 
     def plan(self, *sweep: str, **more: object) -> Plan:
-        return plan_of(replace(Request(self.tree.script, sweep), **more))[0]
+        return plan_of(replace(SweepRequest(self.tree.script, sweep), **more))[0]
 
     def executor(self) -> Executor:
         return Executor(self.results, self.tree.tools)
@@ -64,7 +64,7 @@ class CasesTest(FolderTest):
     def test_refusals(self) -> None:
         for words, message in REFUSED:
             with self.subTest(words), self.assertRaises(ResultsError) as refused:
-                plan_of(replace(Request(self.tree.script, ()), **words))
+                plan_of(replace(SweepRequest(self.tree.script, ()), **words))
             self.assertIn(message, str(refused.exception))
 
     def test_a_script_without_seed_or_results(self) -> None:
