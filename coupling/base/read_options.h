@@ -16,10 +16,13 @@ inline std::vector<std::string> args_after_style(int narg, char** arg) {
   return {arg + std::min(narg, 3), arg + narg};
 }
 
-/// The options of a fix line; former names of keywords are reported. @throws InputError
+/// The options of a fix line. Former names of keywords and unusual values cause a warning with the
+/// line of the script. @throws InputError
 inline Options read_options(LAMMPS_NS::LAMMPS& lammps, const Schema& schema, int narg, char** arg) {
   Options options = schema.read(args_after_style(narg, arg));
-  for (const std::string& warning : options.warnings()) warn(lammps, warning);
+  const std::string position = script_position(lammps);
+  for (const std::string& warning : options.warnings())
+    warn(lammps, position.empty() ? warning : warning + "\n  at " + position);
   return options;
 }
 

@@ -31,15 +31,23 @@ std::optional<double> to_number(const std::string& text) {
   return value;
 }
 
-/// Why a text is no number.
 /// What a key means, and how values in other units become its own.
 std::string remedy_of(const Key& key) {
   const UsualRange* usual = find_usual_range(key.name, key.unit);
-  const std::string hint = usual ? "give SI units: " + usual->hint : "";
+  const std::string hint = usual ? usual->remedy() : "";
   if (key.meaning.empty() || key.meaning == key.name) return hint;
   return "it is: " + key.meaning + (hint.empty() ? "" : "; " + hint);
 }
 
+/// Of the first number outside of the key's usual range; empty where there is none.
+std::string doubt_of(const Key& key, const std::vector<double>& numbers) {
+  const UsualRange* usual = find_usual_range(key.name, key.unit);
+  for (const double number : numbers)
+    if (usual && !usual->contains(number)) return usual->doubt(number);
+  return {};
+}
+
+/// Why a text is no number.
 std::string no_number(const std::string& text) {
   double value = 0.0;
   const char* begin = text.data() + (!text.empty() && text.front() == '+' ? 1 : 0);
@@ -205,6 +213,8 @@ void Schema::accept(Options& options, const Key& key, const std::vector<std::str
       value.numbers.push_back(*number);
     }
   }
+  if (const std::string doubt = doubt_of(key, value.numbers); given && !doubt.empty())
+    options.warnings_.push_back(where + " " + doubt);
   options.values_[key.name] = std::move(value);
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Values that soils and snow have. A value far outside has probably another unit. Programs print
-/// this table as JSON, from which Python reads it.
+/// Values that soils, snow and rubber have, by key. A value outside has probably another unit:
+/// Schema warns of it. Programs print this table as JSON, from which Python reads it. Keys whose
+/// values depend on others, such as strengths on the density, are not here: plausibility.h looks at
+/// them together.
 
 #include <string>
 #include <vector>
@@ -18,6 +20,11 @@ struct UsualRange {
   std::string hint;  ///< how other units become this one: "kPa times 1000"
 
   bool contains(double value) const { return range.contains(value) || (zero && value == 0.0); }
+  /// "give SI units: g/cm3 times 1000"
+  std::string remedy() const;
+  /// "is 0.3 kg/m3; usual is 40 to 3000 kg/m3; give SI units: g/cm3 times 1000"; empty for a usual
+  /// value
+  std::string doubt(double value) const;
 };
 
 const std::vector<UsualRange>& usual_ranges();

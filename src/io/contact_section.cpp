@@ -63,12 +63,14 @@ void insert_contact_file(YamlTree& file, const std::string& path) {
   if (!section || section->kind != YamlTree::Kind::text) return;
   const auto other = std::filesystem::path(path).parent_path() / section->text;
   std::error_code absent;
-  if (std::filesystem::exists(other, absent)) {
-    *section = read_yaml(other.string());
-  } else {
-    *section = YamlTree();
-    section->kind = YamlTree::Kind::map;
-  }
+  if (!std::filesystem::exists(other, absent))
+    throw InputError(
+        section->origin + ": keyword 'contact'",
+        fmt::format("names the file {}, which is not there", other.string()),
+        "a file next to this one, or a section with a part for each material of a body",
+        "copy the contact file along with this one, or remove the line: a contact then needs "
+        "'friction' and 'slip_length' on its line");
+  *section = read_yaml(other.string());
 }
 
 GroundContact contact_of(const YamlTree& file) {

@@ -18,8 +18,8 @@
 
 namespace furrow {
 
-/// Replaces the path in a section `contact` of this file by the content of that file. A file that
-/// was copied without it has no contact, of which contact lines warn. @throws InputError
+/// Replaces the path in a section `contact` of this file by the content of that file.
+/// @throws InputError, also where that file is absent
 void insert_contact_file(YamlTree& file, const std::string& path);
 /// Of a file in which insert_contact_file() has worked; empty without a section. @throws InputError
 GroundContact contact_of(const YamlTree& file);

@@ -152,7 +152,10 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
         chosen ? text_of(*map, "type", "a word").text : section.choices.front().type;
     const SectionChoice choice =
         with_place(chosen ? chosen->origin : map->origin, [&] { return section.choice(name); });
-    with_place(map->origin, [&] { return read_map(choice.schema, *map, {"type"}); });
+    const Options options =
+        with_place(map->origin, [&] { return read_map(choice.schema, *map, {"type"}); });
+    result.warnings.insert(result.warnings.end(), options.warnings().begin(),
+                           options.warnings().end());
     std::vector<std::string> aside;
     if (section.name == "law") aside.push_back("type");
     if (map != &nothing) result.sections[section.name] = entries_of(*map, aside);
@@ -163,6 +166,7 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
     check_plausible(*material);
     return 0;
   });
+  if (!result.warnings.empty()) return result;  // one of the keys is the reason of what follows
   for (const std::string& doubt : doubts(*material))
     result.warnings.push_back(fmt::format("{}: {}", path, doubt));
   const MaterialOptions options = read_sections(model, result.sections);

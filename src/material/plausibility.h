@@ -16,7 +16,8 @@ namespace furrow {
 /// moduli at which rounding dominates the stress
 void check_plausible(const Material& material);
 
-/// Warnings about density and stiffness that are unusual for ground or tyre, a sentence each.
+/// Warnings about stiffness and density that are unusual together for ground or tyre, a sentence
+/// each.
 std::vector<std::string> doubts(const Material& material);
 
 /// The same about the values of the sections "elasticity" and "hardening" of a material file.

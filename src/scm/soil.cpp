@@ -18,8 +18,7 @@ constexpr double largest_angle = 60.0;  // degrees
 const Range exponents{0.0, 3.0, true, false};
 // Soils of [Wong2008] and snow have c to 7e4 Pa and K to 0.04 m, compacted sand c of 7e5 Pa
 const Range cohesions = Range::closed(0.0, 1e6), shear_lengths{0.0, 0.3, true, false};
-constexpr double no_cohesion = 1e-6;         // [Pa] a fit gives this for 0
-constexpr double least_shear_length = 1e-3;  // [m]; soils of [Wong2008] have 5 mm and more
+constexpr double no_cohesion = 1e-6;  // [Pa] a fit gives this for 0
 // Bekker's pressure at this sinkage under a contact of this width [m]: snow has 2 kPa, heavy clay
 // 1.1 MPa [Wong2008]; 10 times less and more
 constexpr double usual_sinkage = 0.05, usual_width = 0.1;
@@ -189,20 +188,15 @@ void check(const Soil& soil, const std::string& where) {
 
 std::vector<std::string> doubts(const Soil& soil) {
   std::vector<std::string> found;
-  if (soil.cohesion > no_cohesion && soil.cohesion < usual_range("c").range.lower)
-    found.push_back(fmt::format(
-        "the cohesion c is {:g} Pa; soils have 0, or {:g} Pa and more; give Pa, not kPa",
-        soil.cohesion, usual_range("c").range.lower));
+  const double cohesion = soil.cohesion > no_cohesion ? soil.cohesion : 0.0;
+  for (const auto& [key, value] : {std::pair("c", cohesion), std::pair("K", soil.shear_length)})
+    if (const std::string doubt = usual_range(key).doubt(value); !doubt.empty())
+      found.push_back(fmt::format("the parameter {} {}", key, doubt));
   if (const double share = std::abs(soil.k_c) / (usual_width * std::abs(soil.k_phi));
       soil.k_c != 0.0 && soil.k_phi != 0.0 && share < least_share_of_k_c)
     found.push_back(fmt::format(
         "k_c is {:g}, {:.1g} of k_phi times a width of {:g} m; soils have {:g} or more, or 0; {}",
         soil.k_c, share, usual_width, least_share_of_k_c, si_of_modulus));
-  if (soil.shear_length < least_shear_length)
-    found.push_back(
-        fmt::format("the shear displacement K is {:.2g} m; soils have 0.005 to 0.025 m: the "
-                    "traction at small slips is too large; give a measured 'K' in m",
-                    soil.shear_length));
   return found;
 }
 

@@ -3,6 +3,7 @@
 
 import ctypes
 import json
+import os
 import shlex
 import tempfile
 import uuid
@@ -13,6 +14,7 @@ from pathlib import Path
 from ..arguments import path
 from ..errors import ResultsError
 from ..programs import find_program
+from ..run.case import with_named_files
 from ..run.script import script_variables
 from ..scene.restart import BEGIN, FROM
 from .parameters import Given, argument, command, option
@@ -53,10 +55,22 @@ def fmu(given: Given) -> None:
         archive.writestr("modelDescription.xml", description)
         archive.writestr("resources/furrow.json", json.dumps(contents, indent=2))
         archive.write(library, f"binaries/{PLATFORMS[version]}/{LIBRARY}")
-        for each in (script, *files):
-            archive.write(each, f"resources/{each.name}")
+        for name, each in resources((script, *files)).items():
+            archive.write(each, f"resources/{name}")
     states = "with" if contents["keeps_states"] else "without"
     print(f"{target} ({len(variables)} variables of the script, {states} states)")
+
+
+def resources(files: Sequence[Path]) -> dict[str, Path]:
+    """Files by their path in the FMU, with those that they name. @raises ResultsError"""
+    found: dict[str, Path] = {}
+    for file in files:
+        for each in with_named_files(file):
+            name = os.path.relpath(each, file.resolve().parent)
+            if name.startswith(".."):
+                raise ResultsError(f"{file}: names {name}, which is not below its folder; an FMU keeps files there")
+            found[name] = each
+    return found
 
 
 def _library() -> Path:

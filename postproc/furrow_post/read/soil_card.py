@@ -387,13 +387,15 @@ def _of_chrono(path: Path, text: str) -> SoilCard:
 
 
 def contact_of(path: Path, content: Mapping[str, Any]) -> dict[str, Any] | None:
-    """Of a card or material file, whose section `contact` may name a file."""
+    """Of a card or material file, whose section `contact` may name a file. @raises ResultsError where that is absent"""
     contact: dict[str, Any] | str | None = content.get("contact")
     if not isinstance(contact, str):
         return contact
     file = path.parent / contact
     if not file.is_file():
-        return None
+        raise ResultsError(
+            f"{path}: contact names the file {file}, which is not there; copy it along with this one, or remove the line"
+        )
     found: dict[str, Any] = yaml.safe_load(file.read_text(encoding="utf-8"))
     return found
 

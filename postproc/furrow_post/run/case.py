@@ -136,6 +136,13 @@ def _files_among(names: Iterable[str], *folders: Path) -> Iterator[Path]:
             yield Path(os.path.realpath(path))
 
 
+def with_named_files(path: Path) -> list[Path]:
+    """A file, and those that it names if it is YAML: bases, contacts, and what they name."""
+    found: dict[Path, None] = {}
+    _add_with_named(path.resolve(), found)
+    return list(found)
+
+
 def _add_with_named(path: Path, found: dict[Path, None]) -> None:
     if path in found:
         return

@@ -208,7 +208,7 @@ def from_bekker(
 ) -> NewMaterial:
     """k_c [N/m^(n+1)], k_phi [N/m^(n+2)], c [Pa], phi [degrees], K [m]; radius [m] of the plate at
     which the material shall have the curve."""
-    for name, value in (("k_c", k_c), ("k_phi", k_phi), ("n", n), ("c", c), ("phi", phi), ("K", K)):
+    for name, value in (("k_c", k_c), ("k_phi", k_phi), ("Bekker's n", n), ("c", c), ("phi", phi), ("K", K)):
         require_plausible(name, value)
     if density is not None:
         require_plausible("density", density)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Every keyword of every style, law and tyre file, missing, misspelt, of another type, outside of its
 range, with too few or too many values: the message has the place, the keyword, what is allowed, and a
-remedy. The keywords come from the programs (furrow --keys, furrow-point laws --json).
+remedy. Every keyword with a usual range, with a value outside: one warning has the place, the keyword,
+the range and a hint of the unit. The keywords come from the programs (furrow --keys, furrow-point laws --json).
 
     wording.py <folder of the programs>
 """
@@ -27,6 +28,9 @@ LINES = len(BOX.splitlines())
 OTHERS = {"fix ave/time", "fix furrow/expected_states", "fix furrow/system", "fix wall/gran/body", "model snow/bond"}
 FIRST = {"command bed", "command read_restart"}  # stand before the box, with a file as first argument
 UNKNOWN = "nonsense"
+SOIL = {"k_c": 15600, "k_phi": 2407400, "n": 1.1, "c": 250, "phi": 31.9, "K": 0.0114}
+FIELD = "fix x all terrain/scm length 3 width 0.6 cell 0.02 "  # the style that has keys with usual ranges
+OUTSIDE = 1e-3  # of the end of a range
 
 
 def wrong_values(key, in_script=False):
@@ -54,9 +58,33 @@ def wrong_values(key, in_script=False):
         yield ["1.5"] * count, "is 1.5"
 
 
+def unusual_values(key):
+    """Values outside of a key's usual range that it takes, each with what the warning says."""
+    usual = key["usual"]
+    unit = f" {usual['unit']}" if usual["unit"] else ""
+    zero = ", or 0" if usual["zero"] else ""
+    said = f"; usual is {usual['lower']:g} to {usual['upper']:g}{unit}{zero}; {'give SI units: ' if unit else ''}{usual['hint']}"
+    for end, value in ("lower", usual["lower"] - OUTSIDE * abs(usual["lower"])), ("upper", usual["upper"] * (1 + OUTSIDE)):
+        if end not in key or (key["lower"] < value if end == "lower" else value < key["upper"]):
+            yield float(f"{value:.9g}"), f" is {value:g}{unit}{said}"
+
+
+def unusual_soils(table, furrow, declared):
+    """Lines of a height field with one unusual value each."""
+    having = {subject for subject, keys in declared.items() if any("usual" in key for key in keys.values())}
+    table.expect("styles", having == {"fix terrain/scm"}, f"usual ranges in {having}")
+    for name, key in declared["fix terrain/scm"].items():
+        for value, problem in unusual_values(key) if "usual" in key else ():
+            line = FIELD + " ".join(f"{each} {number}" for each, number in {**SOIL, name: value}.items())
+            said = run_script(furrow, table.folder, f"{BOX}{line}\n").text
+            found = [row for row in said.splitlines() if "WARNING" in row and f"keyword '{name}'{problem}" in row]
+            table.expect(line, len(found) == 1 and f"/script.lig, line {LINES + 1}" in said, said)
+
+
 def styles(table, furrow):
     """Lines of a script with one fault each."""
     declared = json.loads(run([furrow, "--keys"], table.folder).text)
+    unusual_soils(table, furrow, declared)
     tested = 0
     for subject, keys in declared.items():
         kind, _, style = subject.partition(" ")
@@ -121,7 +149,7 @@ def laws(table, point):
     made = examples(point, table.folder)
     table.expect("laws", set(made) == set(declared), f"materials of {sorted(made)}, laws {sorted(declared)}")
     answers = Answers(point, table.folder)
-    tested = 0
+    tested, warned = 0, set()
 
     def check(name, content, *texts):
         nonlocal tested
@@ -139,6 +167,18 @@ def laws(table, point):
                     value = wrong if key["kind"] == "numbers" else wrong[0]
                     changed = {**sections, section: {**values, name: value}}
                     check(f"{law}, {section}, {name}: {wrong[0]}", changed, f"keyword '{name}'", problem, "it is: ", "line ")
+                for value, problem in unusual_values(key) if "usual" in key else ():
+                    listed = values.get(name)
+                    changed = value if key["kind"] != "numbers" else [value, *listed[1:]] if value < listed[1] else [*listed[:-1], value]
+                    file = table.folder / "made.yaml"
+                    file.write_text(yaml.safe_dump({**sections, section: {**values, name: changed}}, sort_keys=False))
+                    answer = run([point, "show", file, "--json"], table.folder)
+                    if answer.status:  # sections that no longer belong together are an error
+                        continue
+                    said = json.loads(answer.text)["warnings"]
+                    right = len(said) == 1 and said[0].startswith(f"{file}, line ") and f"keyword '{name}'{problem}" in said[0]
+                    table.expect(f"{law}, {section}, {name}: {value:g}", right, said)
+                    warned.add(name)
                 if key["required"] and name in values:
                     rest = {other: value for other, value in values.items() if other != name}
                     check(f"{law}, {section} without {name}", {**sections, section: rest}, f"keyword '{name}' is missing", "it is: ")
@@ -147,6 +187,9 @@ def laws(table, point):
         check(f"{law}: unknown section", {**sections, UNKNOWN: {"a": 1}}, UNKNOWN, "line ")
     answers.close()
     table.expect("laws", tested > 200, f"{tested} files only")
+    known = {name for law in declared.values() for choices in law["sections"].values() for keys in choices.values()
+             for name, key in keys.items() if "usual" in key}
+    table.expect("usual ranges", warned == known > {"density", "E"}, f"warnings of {sorted(warned)}, usual ranges of {sorted(known)}")
 
 
 def tyres(table, tyre):

@@ -43,6 +43,28 @@ TEST(Options, ReadsGivenValuesAndDefaults) {
   EXPECT_EQ(options.effective().size(), 6u);
 }
 
+/// Once for a list, never for a default, and only in the unit of the table.
+TEST(Options, WarnsOfValuesOutsideOfTheUsualRange) {
+  Schema schema("law made");
+  schema.number("density", "kg/m3", Range::positive(), "density").by_default(1.0);
+  schema.numbers("rho", 0, "kg/m3", Range::positive(), "densities").optional();
+  schema.number("c", "Pa", Range::non_negative(), "cohesion").optional();
+  schema.number("E", "kPa", Range::positive(), "modulus in another unit").optional();
+  const auto warnings = [&](const char* line) { return schema.read(test::words(line)).warnings(); };
+  EXPECT_THAT(warnings("rho 40 3000 c 0 E 1"), ::testing::IsEmpty());
+  EXPECT_THAT(
+      warnings("density 0.3"),
+      ::testing::ElementsAre("law made, keyword 'density' is 0.3 kg/m3; usual is 40 to 3000 "
+                             "kg/m3; give SI units: g/cm3 times 1000, kN/m3 times 102"));
+  EXPECT_THAT(warnings("rho 200 0.3 0.4 c 5"),
+              ::testing::ElementsAre(HasSubstr("'rho' is 0.3 kg/m3"),
+                                     HasSubstr("'c' is 5 Pa; usual is 20 to 5e+06 Pa, or 0; ")));
+  const std::vector<Entry> file = {{"density", {"2000"}, ""}, {"c", {"5"}, "made.yaml, line 3"}};
+  EXPECT_THAT(
+      schema.read(file).warnings(),
+      ::testing::ElementsAre(HasSubstr("made.yaml, line 3: law made, keyword 'c' is 5 Pa")));
+}
+
 TEST(Options, RefusesWithKeywordAllowedAndRemedy) {
   EXPECT_THAT(message_of("diametre 1"),
               HasSubstr("no keyword 'diametre'; allowed: diameter, shoulder"));

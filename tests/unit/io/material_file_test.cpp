@@ -40,6 +40,11 @@ class MaterialFileTest : public ::testing::Test {
   std::string file(const std::string& text, const std::string& name = "sand.yaml") {
     return scratch_.file(name, text);
   }
+  /// Text of a shipped material, to be written to another folder.
+  static std::string shipped(const std::string& name) {
+    const std::string folder = FURROW_SOURCE_DIR "/inputs/materials/";
+    return with(read_text_file(folder + name + ".yaml"), "contact: ", "contact: " + folder);
+  }
   std::string refusal(const std::string& text) {
     return scratch_.without_folder(error_of([&] { read_material_file(file(text)); }));
   }
@@ -94,7 +99,19 @@ TEST_F(MaterialFileTest, RefusesContactInOtherUnits) {
   EXPECT_THAT(refused("label: estimated", "label: guess"),
               HasSubstr("measured, estimated, assumed"));
   EXPECT_THAT(refused("rubber:", "wood:"), HasSubstr("'wood'"));
-  EXPECT_TRUE(read_material_file(file(sand + "contact: absent.yaml\n")).contact.empty());
+}
+
+/// A copy of a material that leaves its contact behind, also as the base of another.
+TEST_F(MaterialFileTest, RefusesContactFileThatIsAbsent) {
+  const std::string fault =
+      "sand.yaml, line 16: keyword 'contact' names the file absent.yaml, which is not there; "
+      "allowed: a file next to this one, or a section with a part for each material of a body; "
+      "copy the contact file along with this one, or remove the line";
+  EXPECT_THAT(refusal(sand + "contact: absent.yaml\n"), HasSubstr(fault));
+  file("base: sand.yaml\n", "over.yaml");
+  EXPECT_THAT(
+      scratch_.without_folder(error_of([&] { read_material_file(scratch_.path("over.yaml")); })),
+      HasSubstr(fault));
 }
 
 TEST_F(MaterialFileTest, EffectiveValuesReadBackAsTheSameLaw) {
@@ -259,19 +276,33 @@ TEST_F(MaterialFileTest, BasesThatLeadInACircleAreShown) {
 
 TEST_F(MaterialFileTest, WhatIsUnusualIsReadWithAWarning) {
   EXPECT_THAT(read_material_file(file(sand)).warnings, ::testing::IsEmpty());
-  EXPECT_THAT(read_material_file(file(with(sand, "density: 1800", "density: 5000"))).warnings,
-              ::testing::ElementsAre(HasSubstr("sand.yaml: the density is 5000 kg/m3; ground and "
-                                               "rubber have one in [10, 3000]")));
+  const std::string text = with(sand, "density: 1800", "density: 1.8");
+  EXPECT_THAT(
+      read_material_file(file(text)).warnings,
+      ::testing::ElementsAre(HasSubstr(
+          "sand.yaml, line 4: law drucker_prager_cap, keyword 'density' is 1.8 kg/m3; usual "
+          "is 40 to 3000 kg/m3; give SI units: g/cm3 times 1000, kN/m3 times 102")));
+  // Key by key, and in a base
+  file(with(text, "E: 689e6", "E: 689"), "base.yaml");
+  EXPECT_THAT(
+      read_material_file(file("base: base.yaml\nlaw: {beta: 0.25}\n")).warnings,
+      ::testing::ElementsAre(HasSubstr("base.yaml, line 4: "),
+                             HasSubstr("sand.yaml, line 2: law drucker_prager_cap, keyword "
+                                       "'beta' is 0.25 degree; usual is 4 to 80"),
+                             HasSubstr("base.yaml, line 9: elasticity linear, keyword 'E' is "
+                                       "689 Pa; usual is 20000 to 1e+11 Pa; give SI units: "
+                                       "kPa times 1000, MPa times 1e6")));
 }
 
 TEST_F(MaterialFileTest, CapOfAnotherUnitIsReadWithAWarning) {
-  const std::string snow = read_text_file(FURROW_SOURCE_DIR "/inputs/materials/fresh_snow.yaml");
+  const std::string snow = shipped("fresh_snow");
   EXPECT_THAT(read_material_file(file(snow)).warnings, ::testing::IsEmpty());
   const auto warned = [&](const std::string& text, const std::string& warning) {
     EXPECT_THAT(read_material_file(file(text)).warnings, ::testing::Contains(HasSubstr(warning)));
   };
   warned(with(snow, "beta: 65 ", "beta: 1.134 "),
-         "beta is 1.134 degrees; 1.134 radians are 65 degrees; give degrees");
+         "keyword 'beta' is 1.134 degree; usual is 4 to 80 degree, or 0; give SI units: radians "
+         "times 57.3");
   warned(with(snow, "R: 1e-2", "R: 1e6"), "R is 1e+06; caps of soils and snow have 0.0001 to 5");
   warned(with(snow, "d: 5e3", "d: 5e7"), "d is 5e+07 Pa; ice and weak rock have up to 5e+06 Pa");
   const std::string kilopascal =
@@ -281,8 +312,7 @@ TEST_F(MaterialFileTest, CapOfAnotherUnitIsReadWithAWarning) {
          "the hardening ends with p = 1156.4 Pa at 813.8 kg/m3; ground of that density has a "
          "strength of at least 10000 Pa; give Pa, not kPa");
   // field snow, whose law is another
-  const std::string field = read_text_file(FURROW_SOURCE_DIR "/inputs/materials/field_snow.yaml");
-  EXPECT_THAT(read_material_file(file(field)).warnings, ::testing::IsEmpty());
+  EXPECT_THAT(read_material_file(file(shipped("field_snow"))).warnings, ::testing::IsEmpty());
 }
 
 /// All shipped materials, from fresh snow to dense sand and rubber.
@@ -340,20 +370,20 @@ TEST_F(MaterialFileTest, OtherUnitsAreReadWithAWarning) {
   };
   const Case cases[] = {
       // E in kPa
-      {"fresh_snow", "elasticity: {E: 13.79e3}", "compression waves have 9.63 m/s"},
-      {"field_snow", "elasticity: {E: 13.79e3}", "compression waves have 9.19 m/s"},
-      {"dry_sand", "elasticity: {E: 4.78e3}", "compression waves have 1.8"},
+      {"fresh_snow", "elasticity: {E: 13.79e3}", "keyword 'E' is 13790 Pa; usual is 20000 "},
+      {"field_snow", "elasticity: {E: 13.79e3}", "keyword 'E' is 13790 Pa; usual is 20000 "},
+      {"dry_sand", "elasticity: {E: 4.78e3}", "keyword 'E' is 4780 Pa; usual is 20000 "},
       // 144.8 kPa at the initial compaction of 0.001, over E/1.5
       {"mccormick_sand", "elasticity: {E: 689e3}",
        "the hardening begins with 0.315 times the bulk modulus of the elasticity, 4.59e+05 Pa"},
       {"compacted_sand_elastic", "elasticity: {E: 50e3}", "compression waves have 6.11 m/s"},
-      {"rubber", "law: {G: 1e3, bulk: 49.667e3}", "G is 1000 Pa; rubber has one in [20000, 1"},
+      {"rubber", "law: {G: 1e3, bulk: 49.667e3}", "keyword 'G' is 1000 Pa; usual is 10000 "},
       // E in mPa
       {"fresh_snow", "elasticity: {E: 13.79e9}", "compression waves have 9.63e+03 m/s"},
       {"dry_sand", "elasticity: {E: 4.78e9}",
        "the bulk modulus of the elasticity is 1.03e+04 times"},
       {"compacted_sand_elastic", "elasticity: {E: 50e9}", "compression waves have 6.11e+03 m/s"},
-      {"rubber", "law: {G: 1e9, bulk: 49.667e9}", "G is 1e+09 Pa; rubber has one"},
+      {"rubber", "law: {G: 1e9, bulk: 49.667e9}", "compression waves have 6.81e+03 m/s"},
       // strengths in kPa
       {"mccormick_sand", "hardening: {p: [138, 172, 434, 896, 1655, 2758, 4137, 6895, 13447]}",
        "the bulk modulus of the elasticity is 3.42e+04 times that"},
@@ -385,8 +415,9 @@ TEST_F(MaterialFileTest, OtherUnitsAreReadWithAWarning) {
        "e0 is 47.2 in hardening: without voids the ground would have 8.676e+04 kg/m3"},
       {"fresh_snow_foam", "elasticity: {e0: 350}\nhardening: {e0: 350}", "e0 is 350 in elasticity"},
       // tan(beta) for beta, and a large ratio
-      {"fresh_snow", "law: {beta: 2.14}", "beta is 2.14 degrees; ground with friction has 4 to 75"},
-      {"fresh_snow_cam_clay", "law: {M: 7}", "M is 7; "},
+      {"fresh_snow", "law: {beta: 2.14}", "keyword 'beta' is 2.14 degree; usual is 4 to 80 "},
+      {"fresh_snow_cam_clay", "law: {M: 7}",
+       "keyword 'M' is 7; usual is 0.07 to 5; M is a ratio q/p, no angle"},
   };
   for (const Case& unit : cases) {
     const std::string text =
@@ -403,17 +434,16 @@ TEST_F(MaterialFileTest, OtherUnitsAreReadWithAWarning) {
 }
 
 TEST_F(MaterialFileTest, TwoSectionsOfOneCompressionLineHaveOneKappa) {
-  const std::string path = FURROW_SOURCE_DIR "/inputs/materials/fresh_snow_foam.yaml";
-  EXPECT_THAT(read_material_file(path).warnings, ::testing::IsEmpty());
-  const std::string changed = with(read_text_file(path), "kappa: 0.005      #", "kappa: 0.05 #");
+  const std::string foam = shipped("fresh_snow_foam");
+  EXPECT_THAT(read_material_file(file(foam)).warnings, ::testing::IsEmpty());
+  const std::string changed = with(foam, "kappa: 0.005      #", "kappa: 0.05 #");
   EXPECT_THAT(read_material_file(file(changed)).warnings,
               ::testing::ElementsAre(HasSubstr("kappa is 0.005 in elasticity and 0.05 in "
                                                "hardening")));
 }
 
 TEST_F(MaterialFileTest, SectionsOfAFoamThatHardlyBelongTogetherAreReadWithAWarning) {
-  const std::string foam =
-      read_text_file(FURROW_SOURCE_DIR "/inputs/materials/fresh_snow_foam.yaml");
+  const std::string foam = shipped("fresh_snow_foam");
   EXPECT_THAT(read_material_file(file(with(foam, "pc0: 113.76 ", "pc0: 113.76e3"))).warnings,
               ::testing::Contains(HasSubstr("sigma0/pc0 is 0.00242, usual is a number in [0.3, "
                                             "2.8]; the sections hardly belong to one")));

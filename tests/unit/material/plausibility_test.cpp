@@ -48,14 +48,9 @@ TEST(Plausibility, WhatNoMatterHasIsRefusedWithTheNumbers) {
 TEST(Plausibility, WhatIsUnusualIsDoubted) {
   const auto doubts_of = [](const char* text) { return doubts(*material_of(text)); };
   EXPECT_THAT(doubts_of("elastic density 1600 elasticity linear E 5e6 nu 0.2"), IsEmpty());
-  EXPECT_THAT(doubts_of("elastic density 5000 elasticity linear E 5e6 nu 0.2"),
-              ElementsAre(HasSubstr("the density is 5000 kg/m3; ground and rubber have one in [10, "
-                                    "3000]")));
-  // g/cm3 for kg/m3, MPa for Pa
-  EXPECT_THAT(doubts_of("elastic density 1.6 elasticity linear E 5e6 nu 0.2"),
-              ElementsAre(HasSubstr("the density is 1.6 kg/m3")));
-  EXPECT_THAT(doubts_of("elastic density 200 elasticity linear E 13.79 nu 0.3"),
-              ElementsAre(HasSubstr("compression waves have 0.305 m/s at a pressure of 10 kPa")));
+  // kPa for Pa, in an E that rubber may have
+  EXPECT_THAT(doubts_of("elastic density 2000 elasticity linear E 2e4 nu 0.3"),
+              ElementsAre(HasSubstr("compression waves have 3.67 m/s at a pressure of 10 kPa")));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace furrow {
 namespace {
 
 // Of shear failure q/p is below 3; ellipses that fit the lateral stress of snow have 3 to 4.
-constexpr double usual_M = 5.0, largest_M = 20.0;
+constexpr double largest_M = 20.0;
 
 std::unique_ptr<Material> create_cohesive_cam_clay(const MaterialOptions& sections) {
   const Options& o = sections.at("law").options;
@@ -36,15 +36,6 @@ std::unique_ptr<Material> create_cohesive_cam_clay(const MaterialOptions& sectio
   return std::make_unique<CohesiveCamClay>(o.number("density"), parameters, eps_vol_pl_0);
 }
 
-std::vector<std::string> doubts_of_cam_clay(const MaterialOptions& sections) {
-  const double M = sections.at("law").options.number("M");
-  if (M <= usual_M) return {};
-  return {
-      fmt::format("M is {:g}; soils have 0.7 to 1.8 and snow up to {:g}; M is a ratio q/p, no "
-                  "angle",
-                  M, usual_M)};
-}
-
 }  // namespace
 
 MaterialModel CohesiveCamClay::model() {
@@ -63,7 +54,6 @@ MaterialModel CohesiveCamClay::model() {
   model.meaning = "crushing snow: ellipse and cohesion growing by compaction (Gaume et al., 2018)";
   model.sections = {law_section(schema), elasticity_section(), hardening_section()};
   model.create = create_cohesive_cam_clay;
-  model.doubts = doubts_of_cam_clay;
   const std::string table =
       " hardening table p 500 2e4 4e5 2.4e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate";
   model.examples = {

@@ -54,7 +54,6 @@ std::unique_ptr<Material> create_drucker_prager_cap(const MaterialOptions& secti
 }
 
 constexpr double usual_R = 5.0;
-constexpr double usual_beta = 4.0;             // [degrees] of a friction angle of 2
 constexpr double usual_cohesion = 5e6;         // [Pa] of ice and weak rock
 constexpr double usual_stiffness_ratio = 0.1;  // d/E; clay has up to 0.02 [Bowles1996]
 // Fresh snow of 50 kg/m3 has a shear strength of 90 Pa [Jamieson2001]
@@ -63,17 +62,8 @@ constexpr double usual_cohesion_of_snow = 20.0, snow_density = 600.0;  // [Pa], 
 /// Other units, and sections that belong to two grounds.
 std::vector<std::string> doubts_of_cap(const MaterialOptions& sections) {
   const Options& law = sections.at("law").options;
-  const double beta = law.number("beta"), d = law.number("d"), R = law.number("R");
+  const double d = law.number("d"), R = law.number("R");
   std::vector<std::string> sentences;
-  if (beta <= 0.5 * pi)
-    sentences.push_back(
-        fmt::format("beta is {:g} degrees; {:g} radians are {:.3g} degrees; give degrees", beta,
-                    beta, degrees(beta)));
-  else if (beta < usual_beta)
-    sentences.push_back(
-        fmt::format("beta is {:g} degrees; ground with friction has {:g} to 75; give degrees, not "
-                    "tan(beta), which would be of {:.3g} degrees",
-                    beta, usual_beta, degrees(std::atan(beta))));
   if (R > usual_R)
     sentences.push_back(
         fmt::format("R is {:g}; caps of soils and snow have 0.0001 to {:g}", R, usual_R));

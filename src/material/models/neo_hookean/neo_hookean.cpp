@@ -4,23 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 namespace furrow {
-
-namespace {
-
-// Of rubber, by a wide margin: 0.3 to 5 MPa [Treloar1975]
-const Range usual_shear_modulus = Range::closed(2e4, 1e8);  // [Pa]
-
-std::vector<std::string> doubts_of_rubber(const MaterialOptions& sections) {
-  const double G = sections.at("law").options.number("G");
-  if (usual_shear_modulus.contains(G)) return {};
-  return {
-      fmt::format("G is {:g} Pa; rubber has one {} Pa; give Pa", G, usual_shear_modulus.text())};
-}
-
-}  // namespace
 
 MaterialModel NeoHookean::model() {
   Schema schema("law neo_hookean");
@@ -36,7 +20,6 @@ MaterialModel NeoHookean::model() {
     return std::make_unique<NeoHookean>(o.number("density"),
                                         NeoHookeanParameters{o.number("G"), o.number("bulk")});
   };
-  model.doubts = doubts_of_rubber;
   model.examples = {"density 1100 G 1e6 bulk 5e7"};
   return model;
 }

@@ -16,6 +16,8 @@ from support.folder import FolderTest
 
 TRUTH = {"k_c": -4e3, "k_phi": 5e5, "n": 0.6, "c": 400.0, "phi": 30.0, "K": 0.006}
 CONE = (2e4, 8e5)  # [Pa] at the surface, [Pa/m]
+MATERIALS = SOURCE / "inputs" / "materials"
+SAND = (MATERIALS / "dry_sand_smooth.yaml").read_text().replace("contact: ", f"contact: {MATERIALS}/")
 GRAIN_CONE = 30.0  # index over weight density and size, of grains without size
 SPEED_STRESS = 500.0  # [Pa] at 1 m/s, by the root of the speed
 STAND_IN = f"""#!/usr/bin/python3 -S
@@ -125,7 +127,7 @@ class CardCommandTest(FolderTest):
 
     def test_runs_are_kept_and_repeated_when_the_ground_changes(self) -> None:
         ground = self.folder / "ground.yaml"
-        ground.write_text((SOURCE / "inputs/materials/dry_sand_smooth.yaml").read_text(), encoding="utf-8")
+        ground.write_text(SAND, encoding="utf-8")
         words = ("make", ground, "--quick", "--sizes", 0.1, 0.2, "-o", "card")
         self.soil(*words)
         first = self.runs()
@@ -138,7 +140,7 @@ class CardCommandTest(FolderTest):
 
     def test_runs_are_repeated_when_the_base_of_the_ground_changes(self) -> None:
         base, ground = self.folder / "base.yaml", self.folder / "ground.yaml"
-        base.write_text((SOURCE / "inputs/materials/dry_sand_smooth.yaml").read_text(), encoding="utf-8")
+        base.write_text(SAND, encoding="utf-8")
         ground.write_text("base: base.yaml\n", encoding="utf-8")
         words = ("make", ground, "--quick", "--sizes", 0.1, 0.2, "-o", "card")
         self.soil(*words)
