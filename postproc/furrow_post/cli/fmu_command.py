@@ -69,7 +69,7 @@ def resources(files: Sequence[Path]) -> dict[str, Path]:
             name = os.path.relpath(each, file.resolve().parent)
             if name.startswith(".."):
                 raise ResultsError(f"{file}: names {name}, which is not below its folder; an FMU keeps files there")
-            found[name] = each
+            found[file.name if each == file.resolve() else name] = each
     return found
 
 

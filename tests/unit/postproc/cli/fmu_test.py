@@ -16,6 +16,8 @@ class FmuTest(FolderTest):
             (self.folder / name).write_text(text)
         script, material = self.folder / "wheel.lig", self.folder / "snow.yaml"
         self.assertEqual(resources([script, material]), {name: (self.folder / name).resolve() for name in texts})
+        (self.folder / "link.lig").symlink_to(script)
+        self.assertEqual(list(resources([self.folder / "link.lig"])), ["link.lig"])  # as the FMU calls it
         with self.assertRaisesRegex(ResultsError, r"old.yaml: names \.\./steel.yaml, which is not below its folder"):
             resources([script, self.folder / "base" / "old.yaml"])
 
