@@ -307,6 +307,10 @@ def report(folder: Path) -> str:
     if not summary.headline:
         raise ResultsError(f"{folder}: has no steady values in summary.json; run longer")
     lines = ["± is one standard error of all that is known; in brackets its parts"]
+    try:
+        read_wheel_run(folder)
+    except ResultsError as error:
+        lines.append(f"  only the error over time is known: {error}")
     sources: dict[str, dict[str, None]] = {}
     for name in summary.headline:
         value, budget = summary.quantity(name), known[name]

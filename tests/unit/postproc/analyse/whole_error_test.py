@@ -215,6 +215,7 @@ class RunTest(FolderTest):
         (self.folder / "part" / "history.h5").unlink()
         found = whole_error.budgets_of(Path(self.folder / "part"))["hub_drop"]
         self.assertEqual((found.known, found.time), (["time"], 1e-3))
+        self.assertRegex(report(self.folder / "part"), "only the error over time is known: .*history.h5")
 
 
 if __name__ == "__main__":
