@@ -62,7 +62,7 @@ class StudiesFaultsTest(FaultsTest):
                     words = ["--evaluate", "--results", results]
                     found = outcome(lambda: run_study(study, words))
                     self.expect(f"{folder.name}: {content}", found, results)
-        self.assertEqual(len(STUDIES), 26)
+        self.assertEqual(len(STUDIES), 27)
         self.assertNotIn("FURROW_TRACEBACK", os.environ)
 
 
