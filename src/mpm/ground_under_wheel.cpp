@@ -6,16 +6,11 @@
 
 namespace furrow {
 
-namespace {
-
-/// Up to two digits.
 double rounded_up(double value) {
   constexpr double round_off = 1e-9;
   const double digits = std::pow(10.0, 1.0 - std::floor(std::log10(value)));
   return std::ceil(value * digits - round_off) / digits;
 }
-
-}  // namespace
 
 GroundSize ground_under_wheel(double radius, double width, double depth) {
   const double sunk = std::min(depth, radius);

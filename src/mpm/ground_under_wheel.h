@@ -17,4 +17,7 @@ struct GroundSize {
 /// @param radius, width  of the wheel [m]; @param depth  of the ground [m]
 GroundSize ground_under_wheel(double radius, double width, double depth);
 
+/// A length [m] up to two digits, as a remedy names it.
+double rounded_up(double value);
+
 }  // namespace furrow
