@@ -93,7 +93,7 @@ def _ground(g: Given) -> TerrainValues:
     given = {name: getattr(g, name) for name in GROUND if getattr(g, name) is not None}
     for name, value in given.items():
         if name not in ("c1", "c2"):
-            require_plausible(name, value)
+            require_plausible("Bekker's n" if name == "n" else name, value)
     if g.terrain:
         ground = terrain_of_card(Path(g.terrain)) if g.terrain.endswith(CARD) else terrain(g.terrain)
     else:

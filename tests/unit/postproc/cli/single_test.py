@@ -148,7 +148,7 @@ class SingleRunTest(SharedFolderTest):
     def test_help_names_the_subcommands(self) -> None:
         done = run_post("--help")
         self.assertEqual(done.returncode, 0, done.stderr)
-        for name in ("resistance", "picture", "terrain", "compare", "choose", "sidewall"):
+        for name in ("resistance", "picture", "terrain", "compare", "budget", "sidewall"):
             self.assertIn(name, done.stdout)
 
 
