@@ -137,6 +137,10 @@ def examples(point, folder):
             continue
         content = json.loads(run([point, "show", file, "--json"], folder).text)
         found.setdefault(content["law"], content["sections"])
+    found.setdefault("drucker_prager", {
+        "law": {"type": "drucker_prager", "density": 1800, "d": 5e3, "beta": 20, "psi": 0},
+        "elasticity": {"type": "linear", "E": 1e7, "nu": 0.3},
+    })
     found.setdefault("elastic", {
         "law": {"type": "elastic", "density": 1500},
         "elasticity": {"type": "linear", "E": 1e7, "nu": 0.3},

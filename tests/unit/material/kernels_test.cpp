@@ -11,6 +11,7 @@
 #include "material/models/cohesive_cam_clay/cohesive_cam_clay.h"
 #include "material/models/cohesive_cap/cohesive_cap.h"
 #include "material/models/crushable_foam/crushable_foam.h"
+#include "material/models/drucker_prager/drucker_prager.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "material/models/neo_hookean/neo_hookean_parameters.h"
 #include "material/models/norsand/norsand.h"
@@ -97,6 +98,8 @@ TEST(Kernels, InstructionSetsAgree) {
         "norsand density 1600 e0 0.7 M 1.2 gamma 0.8 lambda 0.02 chi 3.5 H 100 G 4e7 n 0.45 nu "
         "0.2 " +
         more);
+  expect_instruction_sets_to_agree<DruckerPrager, DruckerPragerKernels>(
+      "drucker_prager density 200 d 5e3 beta 30 psi 10 elasticity linear E 13.79e6 nu 0.3");
   expect_instruction_sets_to_agree<CrushableFoam, CrushableFoamKernels>(
       "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity porous elasticity.kappa 0.005 "
       "elasticity.e0 3.5 pt_el 113.76 nu 0.3 hardening exponential pc0 113.76 lambda 0.35 "

@@ -48,9 +48,15 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Refusal{"mud density 1",
                 {"unknown law 'mud'",
-                 "drucker_prager_cap, crushable_foam, cohesive_cam_clay, cohesive_cap, norsand, "
-                 "elastic, "
-                 "neo_hookean"}},
+                 "drucker_prager_cap, drucker_prager, crushable_foam, cohesive_cam_clay, "
+                 "cohesive_cap, norsand, elastic, neo_hookean"}},
+        Refusal{"drucker_prager density 200 d 5e3 beta 20 psi 21" + elastic,
+                {"keyword 'psi' is 21 degrees", "at most beta, 20 degrees"}},
+        Refusal{"drucker_prager density 200 d 0 beta 0" + elastic,
+                {"keyword 'd' and beta are both 0: the ground has no strength"}},
+        Refusal{"drucker_prager density 200 d 5e3 beta 20 elasticity porous kappa 0.01 e0 1 pt_el "
+                "1e5 nu 0.3",
+                {"section 'elasticity', keyword 'type' is porous", "linear"}},
         Refusal{"drucker_prager_cap density 200 beta 22.53 R 0.02" + elastic + table,
                 {"law drucker_prager_cap, keyword 'd' is missing", "cohesion"}},
         Refusal{yield + " K 0.7" + elastic + table,
