@@ -18,6 +18,7 @@ class FixPlateRigid : public FixBody, public MotionController {
   void apply(double time, double dt) override;
   double full_speed() const { return ramp_.end(); }  ///< time from which it has its speed [s]
   bool turns() const { return spin_ != 0.0; }
+  const Vector3& direction() const { return direction_; }  ///< of the motion, of unit length
 
  protected:
   // For plates of other shapes.

@@ -40,6 +40,7 @@ constexpr double aligned = 0.7, covered_share = 0.05, behind = 0.5;
 constexpr double longest_window = 30.0, longest_track = 200.0, widest_terrain = 30.0,
                  deepest_terrain = 10.0;
 constexpr double cells_of_a_lug = 2.5;  // in height and spacing of grousers
+constexpr double sideways = 0.5;        // largest vertical part of a tool's direction
 constexpr double near_end = 0.75;       // diameters of the wheel
 // Of surcharge and weight, either over the other.
 constexpr double surcharge_ratio = 2.0;
@@ -511,10 +512,15 @@ Found cells_show_the_body(const Scene&, FixContactContinuum& contact) {
   const Pair pair = describe(contact);
   const Grid& grid = contact.terrain_fix().terrain().grid();
   // Half of the ground has half of the cells.
-  const double across =
-      (pair.terrain.half_model() ? 2.0 : 1.0) * cells_within(grid.axis(1), pair.body_y);
-  const double along =
-      (is_wheel(pair.body) ? 0.5 : 1.0) * pair.body_x.length() / grid.axis(0).shortest();
+  double across = (pair.terrain.half_model() ? 2.0 : 1.0) * cells_within(grid.axis(1), pair.body_y);
+  double along = (is_wheel(pair.body) ? 0.5 : 1.0) * pair.body_x.length() / grid.axis(0).shortest();
+  // A tool that moves sideways shows its height in place of its thickness.
+  const auto* tool = dynamic_cast<const FixPlateRigid*>(&pair.body);
+  if (tool && std::abs(tool->direction().z()) < sideways) {
+    const auto [lower, upper] = pair.body.body().surface().bounds();
+    (std::abs(tool->direction().x()) > std::abs(tool->direction().y()) ? along : across) =
+        cells_within(grid.axis(2), {lower.z(), upper.z()});
+  }
   return judge_cells(pair.terrain.options(), pair.body, across, along,
                      "choose smaller cells, and a larger fine_width if there is one");
 }

@@ -58,7 +58,7 @@ Schema schema_of_line(LAMMPS_NS::LAMMPS& lammps, int narg, char** arg) {
 }
 
 /// Short cells where the body of the keyword 'edges' ends: at both sides of a wheel, which travels
-/// along x; all around and below another body.
+/// along x; all around and below another body. A body that is as wide as the ground has no side.
 void refine_edges(LAMMPS_NS::LAMMPS& lammps, const Options& options,
                   TerrainParameters& parameters) {
   if (!options.given("edges")) {
@@ -75,13 +75,15 @@ void refine_edges(LAMMPS_NS::LAMMPS& lammps, const Options& options,
   const Body& body = find_fix<FixBody>(lammps, options, "edges", followable).body();
   const auto [lower, upper] = body.surface().bounds();
   const auto refine = [&](AxisLayout& axis, std::vector<double> edges) {
-    axis.edges = std::move(edges);
+    for (const double edge : edges)
+      if (edge > axis.lower + same_length * cell && edge < axis.upper - same_length * cell)
+        axis.edges.push_back(edge);
     axis.edge_cell = shortest;
   };
   refine(parameters.y, {lower.y(), upper.y()});
   if (dynamic_cast<const WheelHub*>(&body)) return;
   refine(parameters.x, {lower.x(), upper.x()});
-  refine(parameters.z, {parameters.surface});
+  refine(parameters.z, {std::min(lower.z(), parameters.surface), parameters.surface});
 }
 
 std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
