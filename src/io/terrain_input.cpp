@@ -368,6 +368,12 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
               "and energy over their work; without: all is computed")
       .optional();
   schema
+      .flag(
+          "thin_parts",
+          "ground before and behind blades, grousers and other parts thinner than 2.5 cells moves "
+          "apart")
+      .by_default("no");
+  schema
       .numbers("blocks", 2, "", Range::closed(1.0, max_blocks),
                "blocks along x and along y that the ranks share; by default chosen by Furrow")
       .optional()
@@ -435,6 +441,7 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
   ground.scheme.cell_average = options.flag("cell_average");
   ground.scheme.residual_share = residual_share(options, ground.layers);
   if (options.given("sleep_tolerance")) ground.sleep_tolerance = options.number("sleep_tolerance");
+  ground.thin_parts = options.flag("thin_parts");
   ground.blocks = read_blocks(options);
   return ground;
 }

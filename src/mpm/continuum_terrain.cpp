@@ -70,6 +70,22 @@ std::optional<ActiveGround> make_active(const TerrainParameters& parameters,
                       energy);
 }
 
+/// Those parts of a terrain have velocity fields themselves, or one. @throws InputError
+std::optional<DividedGround> make_divided(const TerrainParameters& parameters,
+                                          Discretisation& discretisation,
+                                          const std::string& where) {
+  if (!parameters.thin_parts) return {};
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(where + ", keyword 'thin_parts'", "is given with " + what,
+                     "ground of one piece that is all computed and carries no grains",
+                     "remove one of the two");
+  };
+  if (parameters.slide) refuse("a slide surface");
+  if (parameters.sleep_tolerance > 0.0) refuse("'sleep_tolerance'");
+  if (parameters.surface_mesh) refuse("'surface_mesh yes'");
+  return DividedGround(discretisation, parameters.boundary);
+}
+
 }  // namespace
 
 ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Communicator& ranks,
@@ -85,8 +101,10 @@ ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Co
       loads_(discretisation_, remap_),
       slide_(parameters.slide),
       active_(make_active(parameters, discretisation_, boundary_, energy_, where)),
+      divided_(make_divided(parameters, discretisation_, where)),
       step_(discretisation_, boundary_, distribution_, remap_, loads_, energy_, parameters.gravity,
-            parameters.scheme, slide_ ? &*slide_ : nullptr, active_ ? &*active_ : nullptr),
+            parameters.scheme, slide_ ? &*slide_ : nullptr, active_ ? &*active_ : nullptr,
+            divided_ ? &*divided_ : nullptr),
       window_(parameters, discretisation_, distribution_, boundary_, fill_, energy_, where) {
   fill(where);
   step_.capture_initial_tractions();
@@ -109,6 +127,7 @@ void ContinuumTerrain::place_surface_mesh() {
 }
 
 void ContinuumTerrain::sort_particles() {
+  if (divided_) divided_->sort();
   distribution_.sort();
   if (active_) active_->rebuild();
   if (free_surface_.exists()) free_surface_.attach(discretisation_.groups);
@@ -154,8 +173,10 @@ void ContinuumTerrain::step(double dt, const Matrix3X& surface_forces) {
     const bool moved = window_.move();
     if (moved) place_surface_mesh();
     const bool decided = active_ && active_->decide();
-    if (moved || decided || distribution_.sorting_due()) sort_particles();
+    if (moved || decided || distribution_.sorting_due() || (divided_ && divided_->sorting_due()))
+      sort_particles();
   }
+  if (divided_) divided_->end_step();
   if (free_surface_.exists()) {
     step_.grid_to_particles();
     free_surface_.update(discretisation_.groups, loads_, ranks());
@@ -228,6 +249,7 @@ void ContinuumTerrain::checkpoint(Checkpoint& state) {
   checkpoint_boundary(state);
   discretisation_.exchange.checkpoint(state, ranks());
   if (active_) active_->checkpoint(state);
+  if (divided_) divided_->checkpoint(state);
   distribution_.checkpoint_drift(state);
   distribution_.checkpoint_values(state, *std::exchange(rank_numbers_, nullptr));
   if (!state.saving()) resume();
@@ -260,6 +282,7 @@ void ContinuumTerrain::match_layer(const TerrainLayer& layer, Checkpoint& state)
 /// What follows from the restored particles and nodes.
 void ContinuumTerrain::resume() {
   if (active_) active_->resume();
+  if (divided_) divided_->resume();
   step_.restore_stress_forces();
   if (!free_surface_.exists()) return;
   place_surface_mesh();

@@ -13,6 +13,7 @@
 #include "mpm/active_ground.h"
 #include "mpm/boundary.h"
 #include "mpm/discretisation.h"
+#include "mpm/divided_ground.h"
 #include "mpm/free_surface_mesh.h"
 #include "mpm/moving_window.h"
 #include "mpm/multirate.h"
@@ -35,6 +36,7 @@ namespace furrow {
 ///   TerrainStep           one step; RemapControl: when particles and grid are remapped
 ///   PointLoads            forces at points and the motion there: contact
 ///   ActiveGround          ground at rest that is not computed
+///   DividedGround         ground on both sides of thin parts
 ///   MovingWindow          ground that moves along with a body, and the rut behind it
 ///   FreeSurfaceMesh       triangles for grains that lie on the terrain
 ///   Multirate             one step of the terrain for several of these grains
@@ -115,6 +117,15 @@ class ContinuumTerrain : public Body {
   /// Null: all of the ground is computed.
   const ActiveGround* active() const { return active_ ? &*active_ : nullptr; }
 
+  // ---- thin parts; not collective
+  // ----------------------------------------------------------------
+
+  /// Thin parts of a body divide the ground in the next step, if parameters().thin_parts; to be
+  /// called before each step. Surface and parts must live until then.
+  void divide_by(const Surface& surface, const std::vector<ThinPart>& parts) {
+    if (divided_) divided_->divide_by(surface, parts);
+  }
+
   // ---- moving window; not collective ------------------------------------------------------------
 
   /// The middle of the terrain follows this x [m], by whole cells or slabs, from the next remap on.
@@ -143,6 +154,7 @@ class ContinuumTerrain : public Body {
   PointLoads loads_;
   std::optional<SlideContact> slide_;
   std::optional<ActiveGround> active_;
+  std::optional<DividedGround> divided_;
   TerrainStep step_;
   MovingWindow window_;
   FreeSurfaceMesh free_surface_;

@@ -23,7 +23,8 @@ struct AwakeNodes {
 /// `grid` stores the nodes of partition.local_nodes(); `groups` holds this rank's particles.
 struct Discretisation {
   Grid grid;
-  /// one for each layer, from the top; with a slide surface, first those of its inner side
+  /// one for each layer, from the top; with a slide surface, first those of its inner side; with
+  /// thin parts, so for each field
   std::vector<ParticleGroup> groups;
   Partition partition;
   NodeExchange exchange = {};

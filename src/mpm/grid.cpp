@@ -19,6 +19,7 @@ Grid::Grid(Axis x, Axis y, Axis z, int fields)
 void Grid::store(const NodeBlock& columns) {
   if (columns == stored_) return;
   stored_ = columns;
+  if (copies_) copies_ = NodeBlock{};
   const std::size_t count = saved_length(columns) / saved_numbers;
   const auto renew = [count](auto& values) {
     values = {};
@@ -35,12 +36,36 @@ double Grid::shortest_cell() const {
 }
 
 template <class Visit>
-void Grid::for_nodes(const NodeBlock& block, Visit&& visit) const {
-  for (int field = 0; field < fields_; ++field)
+void Grid::for_nodes(const NodeBlock& all, Visit&& visit) const {
+  for (int field = 0; field < fields_; ++field) {
+    const NodeBlock block = field > 0 && copies_ ? overlap(all, *copies_) : all;
     for (int i = block.x.from; i < block.x.to; ++i)
       for (std::size_t n = index(i, block.y.from, 0, field), end = index(i, block.y.to, 0, field);
            n < end; ++n)
         visit(n);
+  }
+}
+
+void Grid::store_copies(const NodeBlock& columns) {
+  if (copies_)
+    for (int field = 1; field < fields_; ++field)
+      for (int i = copies_->x.from; i < copies_->x.to; ++i)
+        for (int j = copies_->y.from; j < copies_->y.to; ++j) {
+          if (columns.contains(i, j)) continue;
+          for (int k = 0; k < nodes(2); ++k) {
+            const std::size_t n = index(i, j, k, field);
+            sums_[n] = {};
+            motions_[n] = {};
+            displacements_[n] = {};
+          }
+        }
+  copies_ = overlap(columns, stored_);
+}
+
+void Grid::copy_motion(int i, int j, int k, int from, int to) {
+  const std::size_t n = index(i, j, k, to), source = index(i, j, k, from);
+  std::copy_n(motions_[source].velocity, 3, motions_[n].velocity);
+  displacements_[n] = displacements_[source];
 }
 
 void Grid::clear_sums(const NodeBlock& block) {

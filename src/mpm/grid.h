@@ -2,13 +2,14 @@
 #pragma once
 /// The background grid on three axes: sums of the particles at its nodes, and the motion of the
 /// nodes. Ground that slides on a surface inside of it has two velocity fields, one for each side
-/// (slide_contact.h); otherwise there is one. A rank stores only the columns of nodes that its
-/// particles reach.
+/// (slide_contact.h), and ground that thin parts divide has three (divided_ground.h); otherwise
+/// there is one. A rank stores only the columns of nodes that its particles reach.
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/rank_numbers.h"
@@ -72,6 +73,11 @@ class Grid {
   const NodeBlock& stored() const { return stored_; }
 
   int fields() const { return fields_; }
+  /// Only these columns have other fields than the first; the values of columns that leave are zero
+  /// again. Without a call all columns have all fields.
+  void store_copies(const NodeBlock& columns);
+  /// The copy of a field gets the motion of another one, but no mass.
+  void copy_motion(int i, int j, int k, int from, int to);
   const Axis& axis(int a) const { return axes_[static_cast<std::size_t>(a)]; }
   int nodes(int a) const { return axis(a).nodes(); }
   NodeBlock all_nodes() const { return {{0, nodes(0)}, {0, nodes(1)}}; }
@@ -130,6 +136,7 @@ class Grid {
   std::array<Axis, 3> axes_;
   int fields_;
   NodeBlock stored_;
+  std::optional<NodeBlock> copies_;  // columns of the other fields than the first; none: all
   std::vector<NodeSum> sums_;
   std::vector<NodeMotion> motions_;
   std::vector<NodeDisplacement> displacements_;

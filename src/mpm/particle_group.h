@@ -17,8 +17,8 @@ struct ParticleRange {
   std::size_t from = 0, to = 0;
 };
 
-/// All particles of one material (one layer) on this rank; of those on one side of a slide surface,
-/// where there is one.
+/// All particles of one material (one layer) on this rank; of those on one side of a slide surface
+/// or in one region between thin parts, where there are any.
 struct ParticleGroup {
   std::shared_ptr<const Material> material;
   Particles particles;

@@ -78,6 +78,7 @@ struct TerrainParameters {
   int remap_interval = 16;
   TransferScheme scheme = {};
   std::optional<SlideSurface> slide = {};  ///< along which the ground slides on itself
+  bool thin_parts = false;                 ///< of bodies divide the ground (divided_ground.h)
   bool surface_mesh = false;               ///< carries triangles on its free surface, for grains
   std::size_t surface_mesh_every = 1;      ///< particles from node to node of these triangles
   bool multirate = false;  ///< one step for as many of these grains as the stable step holds
@@ -95,7 +96,7 @@ struct TerrainParameters {
     return {patch == 0 ? 0 : patches[patch - 1].first_layer,
             (patch < patches.size() ? patches[patch].first_layer : layers.size()) - 1};
   }
-  int velocity_fields() const { return slide ? 2 : 1; }
+  int velocity_fields() const { return thin_parts ? 3 : slide ? 2 : 1; }
 };
 
 }  // namespace furrow

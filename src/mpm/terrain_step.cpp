@@ -21,7 +21,7 @@ TerrainStep::TerrainStep(Discretisation& discretisation, Boundary& boundary,
                          ParticleDistribution& distribution, RemapControl& remap, PointLoads& loads,
                          TerrainEnergy& energy, const Vector3& gravity,
                          const TransferScheme& scheme, const SlideContact* slide,
-                         ActiveGround* active)
+                         ActiveGround* active, DividedGround* divided)
     : discretisation_(discretisation),
       boundary_(boundary),
       distribution_(distribution),
@@ -32,6 +32,7 @@ TerrainStep::TerrainStep(Discretisation& discretisation, Boundary& boundary,
       scheme_(scheme),
       slide_(slide),
       active_(active),
+      divided_(divided),
       kernels_(transfer_kernels()) {
   allocate(chunk);
 }
@@ -74,6 +75,7 @@ void TerrainStep::advance(double dt) {
 void TerrainStep::begin_remap_interval(double dt) {
   remap_.begin_interval(dt);
   set_quadrature_positions(0.5 * (remap_.steps_left() - 1) * dt);
+  if (divided_) divided_->begin_interval();
   clear_displacement();
   particles_to_grid();
 }
@@ -81,6 +83,11 @@ void TerrainStep::begin_remap_interval(double dt) {
 /// Those of the stress are on the nodes already.
 void TerrainStep::sum_nodal_forces() {
   loads_.scatter_to_grid();
+  complete_sums();
+}
+
+void TerrainStep::complete_sums() {
+  if (divided_) divided_->join_sums();
   discretisation_.add_shared_sums();
 }
 
@@ -102,6 +109,7 @@ void TerrainStep::move_nodes(double dt) {
     node_totals_.momentum += totals.momentum;
     node_totals_.kinetic_energy += totals.kinetic_energy;
   });
+  if (divided_) divided_->copy_motion();
   remap_.grid_moved();
 }
 
@@ -123,7 +131,8 @@ void TerrainStep::count_energies(double dt) {
 
 void TerrainStep::end_step(double dt) {
   discretisation_.exchange.count_step();
-  distribution_.add_drift(remap_.count_step(dt));
+  const double travel = remap_.count_step(dt);
+  distribution_.add_drift(divided_ ? std::max(travel, divided_->speed_of_parts() * dt) : travel);
   if (!remap_.interval_running()) grid_to_particles();
 }
 
@@ -159,9 +168,10 @@ void TerrainStep::particles_to_grid() {
                                     group.material->density()) > 0)
         distribution_.report_outside(group);
     });
-  discretisation_.add_shared_sums();
+  complete_sums();
   discretisation_.for_awake_nodes(
       [&](const NodeBlock& local, const NodeBlock&) { grid.compute_velocities(local); });
+  if (divided_) divided_->copy_motion();
   if (active_) active_->stop_border();
   if (scheme_.residual_share > 0.0)
     for (ParticleGroup& group : discretisation_.groups)

@@ -37,6 +37,7 @@
 #include "mpm/active_ground.h"
 #include "mpm/boundary.h"
 #include "mpm/discretisation.h"
+#include "mpm/divided_ground.h"
 #include "mpm/particle_distribution.h"
 #include "mpm/point_loads.h"
 #include "mpm/remap_control.h"
@@ -52,11 +53,11 @@ class TerrainStep {
  public:
   /// The other parts must outlive the step.
   /// @param gravity  [m/s^2]; @param slide  null: the ground is of one piece
-  /// @param active  null: all of the ground is computed
+  /// @param active  null: all of the ground is computed; @param divided  null: no thin parts
   TerrainStep(Discretisation& discretisation, Boundary& boundary,
               ParticleDistribution& distribution, RemapControl& remap, PointLoads& loads,
               TerrainEnergy& energy, const Vector3& gravity, const TransferScheme& scheme,
-              const SlideContact* slide, ActiveGround* active);
+              const SlideContact* slide, ActiveGround* active, DividedGround* divided);
 
   /// From t_n to t_n + dt [s]. Afterwards particles are up to date only if
   /// remap.interval_running() is false. @throws StateError when a particle leaves the grid or a
@@ -77,6 +78,7 @@ class TerrainStep {
   // ---- phases of advance(), in its order
   void begin_remap_interval(double dt);
   void sum_nodal_forces();
+  void complete_sums();
   void accelerate_nodes(double dt);
   void move_nodes(double dt);
   void update_particles(double dt);
@@ -107,6 +109,7 @@ class TerrainStep {
   TransferScheme scheme_;
   const SlideContact* slide_;
   ActiveGround* active_;
+  DividedGround* divided_;
   const TransferKernels& kernels_;
   NodeTotals node_totals_;  // of this rank's nodes after they have moved
 

@@ -10,6 +10,7 @@
 
 #include "bodies/body.h"
 #include "bodies/contact.h"
+#include "geometry/thin_parts.h"
 #include "mpm/contact/contact_law.h"
 #include "mpm/contact/contact_parameters.h"
 #include "mpm/contact/contact_search.h"
@@ -87,6 +88,7 @@ class TerrainContact : public Contact {
   ContactSearch search_;
   NarrowPhase narrow_phase_;
   std::optional<SymmetryMirror> mirror_;
+  std::vector<ThinPart> thin_parts_;             // of the body, where they divide the ground
   std::vector<ParticleColumn> history_columns_;  // of each particle group
 
   // Candidates that may touch now, and their motions.

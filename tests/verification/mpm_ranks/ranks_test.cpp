@@ -13,6 +13,7 @@
 #include "../../unit/mpm/terrain_scene.h"
 #include "bodies/rigid_plate.h"
 #include "core/error.h"
+#include "tests/support/bar.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/max_error.h"
 
@@ -59,6 +60,7 @@ struct Variant {
   double sleep_tolerance = 0.0;
   double upper = 0.2;   // end of the bed along x [m]
   double speed = -2.0;  // of the plate [m/s]
+  bool thin = false;    // a wall in the place of the plate, which divides the ground
 };
 
 /// A plate pressed into snow beside the middle of a bed with absorbing sides, then shaken:
@@ -66,12 +68,18 @@ struct Variant {
 struct Scene {
   Scene(const Communicator& ranks, const Variant& variant, const BlockLayout& blocks = {})
       : ground(parameters(variant, blocks), ranks),
-        plate({PlateShape::square, 0.1, 0.05, 4}, {0.03, 0.0, 0.1 + 1e-4}),
+        plate(tool(variant.thin)),
         contact(plate, ground, ContactParameters{}, true, "foot"),
         speed(variant.speed) {
     system.add(plate, "plate");
     system.add(ground, "ground");
     system.add(contact, "foot");
+  }
+  static RigidPlate tool(bool thin) {
+    const PlateGeometry square{PlateShape::square, 0.1, 0.05, 4};
+    const Vector3 place(0.03, 0.0, 0.1 + 1e-4);
+    return thin ? RigidPlate(square, test::bar({0.03, 0.1, 0.1}), place)
+                : RigidPlate(square, place);
   }
   static TerrainParameters parameters(const Variant& variant, const BlockLayout& blocks) {
     const double cell = 0.02;
@@ -89,6 +97,7 @@ struct Scene {
     p.surface_mesh = variant.sheet;
     p.blocks = blocks;
     p.sleep_tolerance = variant.sleep_tolerance;
+    p.thin_parts = variant.thin;
     if (variant.slide) p.slide = SlideSurface{SlideBox{0.03, 0.0, 0.1, 0.1}, 0.3};
     set_boundary(p, {variant.ends, variant.ends, "smooth", "absorbing", "rough", "free"});
     return p;
@@ -251,6 +260,8 @@ INSTANTIATE_TEST_SUITE_P(Ranks, Variants,
                          ::testing::Values(Variant{"at_rest", false, false, true, "absorbing"},
                                            Variant{"moving", true, false, false, "smooth"},
                                            Variant{"sliding", false, true, false, "smooth"},
+                                           Variant{"divided", true, false, false, "absorbing",
+                                                   snow(), 0.0, 0.2, -2.0, true},
                                            Variant{"all", true, true, false, "absorbing"}),
                          [](const auto& one) { return one.param.name; });
 
@@ -261,6 +272,12 @@ TEST_P(Variants, GiveTheAnswerOfOne) {
     EXPECT_GT(one->contact.contacts(), 20.0);
     if (GetParam().slide) {
       EXPECT_GT(one->ground.slide_loss(), 0.0);
+    }
+    if (GetParam().thin) {
+      double copies = 0.0;  // of the velocity of nodes: particles that use one
+      for (const ParticleGroup& group : one->ground.groups())
+        copies += group.field > 0 ? static_cast<double>(group.particles.size()) : 0.0;
+      EXPECT_GT(copies, 20.0);
     }
     if (GetParam().window) {
       EXPECT_GT(one->ground.travelled(), 0.03);
