@@ -48,9 +48,9 @@ TESTS = (  # of a record
 
 
 def sections_of(path: Path) -> str:
-    """A material file without its title. @raises OSError"""
+    """A material file without its title and the file of its contact. @raises OSError"""
     lines = path.read_text(encoding="utf-8").splitlines()
-    return "\n".join(line for line in lines if not line.startswith("title:")) + "\n"
+    return "\n".join(line for line in lines if not line.startswith(("title:", "contact:"))) + "\n"
 
 
 def deviations(rows: Sequence[Row], values: Values) -> dict[tuple[str, str], tuple[float, int]]:
