@@ -125,7 +125,7 @@ class WheelCase:
             yield number_line(self.case, FLOW, name, getattr(result, name))
 
     def draw(self, output: Output) -> None:
-        """The case's figure, and the table that furrow-post plan takes."""
+        """The case's figure, and the table of its runs, which furrow-post cost reads."""
         draw_comparison(self.compared(BASE), output.path(f"{self.case}.png"))
         comment = "# Runs of the case with their size, domain, packing: what its errors come from."
         cost_table.write_table(output.path(f"{self.case}_runs.csv"), self.table, [comment])

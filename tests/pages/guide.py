@@ -102,9 +102,8 @@ class Session:
             return command
         scene = words[2]
         script = scene if scene.endswith(".lig") else f"inputs/scenes/{scene}.lig"  # of this tree
-        if "--error" in words:  # the choice; the run takes minutes
-            error = words[words.index("--error") + 1]
-            return f"postproc/furrow-post choose inputs/costs/{scene}.csv --error {error}"
+        if "--error" in words:  # scenes.error makes pilot and run
+            return f"postproc/furrow-post variables -- {script}"
         if "--sweep" in words:
             return f"{command} --no-build --check"
         given = {words[k + 1]: words[k + 2] for k, word in enumerate(words) if word == "-v"}
