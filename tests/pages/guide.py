@@ -96,6 +96,8 @@ class Session:
         words = shlex.split(command)
         if words[:2] == ["postproc/furrow-post", "sweep"]:  # the tests of sweeps draw
             return "postproc/furrow-post sweep --help"
+        if words[:2] == ["furrow-post", "budget"]:  # a shortened run has no steady values
+            return "furrow-post budget --help"
         if words[:2] == ["furrow-tyre", "fit"] and "--tests" in words:  # drivers.tyre_files fits them
             return f"{command} --check"
         if words[:2] != ["bash", "inputs/run"] or "--help" in words:
