@@ -10,7 +10,7 @@ The run that continues gives the histories of the run in one, bit for bit. The s
 deeper, with less resistance than the first. Of two wheels each carries its own load, and keeps its
 own energy and momentum. Snow: a second wheel behind the first finds what the second pass of the
 first finds; sinkage and resistance coefficient of wheels and passes differ by no more than three
-standard errors of their difference.
+standard errors of their difference, and the sinkage by what the load of the other wheel adds.
 """
 
 import json
@@ -27,6 +27,9 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 COVERAGE = 3.0  # standard errors
 SWING = 0.02
+# [m] Boussinesq's P (1 - nu^2)/(pi E r): the load of the other wheel of two_axles.lig, 1 m away, lowers
+# elastic ground that is infinitely deep by this; E is that of the material times modulus_scale
+NEIGHBOUR = 6237 * (1 - 0.3**2) / (math.pi * 0.25 * 13.79e6 * 1.0)
 ROUNDING = 1e-10  # of the largest energy, force, moment
 LOADS = {"": 40.0, "rear": 30.0}  # of sand_axles.lig [N]
 LOAD_ERROR = 0.1  # of the load: the mean over a short way
@@ -91,6 +94,7 @@ def check_alike(what, one, other, share=0.0):
     for name, (mean, error) in one.items():
         other_mean, other_error = other[name]
         allowed = COVERAGE * math.hypot(error, other_error) + share * abs(mean)
+        allowed += NEIGHBOUR if name == "hub_drop" else 0.0
         print(f"{what}, {name}: {mean:.5g}, {other_mean:.5g}, allowed difference {allowed:.2g}")
         assert abs(mean - other_mean) <= allowed, f"{what}: {name} {mean:.5g} and {other_mean:.5g}"
 
