@@ -26,8 +26,10 @@ ROUNDING = 1e-9  # of the largest value
 
 
 def material(path, stress):
-    """The sand with its stresses times a factor, digits kept."""
+    """The sand with its stresses times a factor, digits kept, and without its contact, which has a
+    length."""
     sand = yaml.safe_load(SAND.read_text())
+    del sand["contact"]
     sand["title"] = path.stem
     sand["law"]["d"] = float(sand["law"]["d"]) * stress
     sand["elasticity"]["E"] = float(sand["elasticity"]["E"]) * stress
