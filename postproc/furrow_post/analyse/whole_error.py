@@ -254,16 +254,23 @@ class _Parts:
 
 def budgets_of(folder: Path) -> dict[str, Budget]:
     """Of a results folder. Of one that is no complete run of a wheel only the error over time is known."""
+    return _budgets_and_doubt(folder)[0]
+
+
+def _budgets_and_doubt(folder: Path) -> tuple[dict[str, Budget], str]:
+    """With the reason why the run is not complete, else ""."""
     try:
-        return budgets(read_wheel_run(folder))
-    except ResultsError:
-        summary = Summary(folder)
-        known = {name: summary.quantity(name) for name in summary.quantities}
-        return {
-            name: replace(IMPOSED) if value.imposed else Budget(time=value.standard_error)
-            for name, value in known.items()
-            if value
-        }
+        return budgets(read_wheel_run(folder)), ""
+    except ResultsError as error:
+        doubt = str(error)
+    summary = Summary(folder)
+    known = {name: summary.quantity(name) for name in summary.quantities}
+    of_time = {
+        name: replace(IMPOSED) if value.imposed else Budget(time=value.standard_error)
+        for name, value in known.items()
+        if value
+    }
+    return of_time, doubt
 
 
 # ---- for people and programs
@@ -303,14 +310,12 @@ def headline(folder: Path) -> str:
 
 def report(folder: Path) -> str:
     """The headline quantities with their parts, and the nearest tests. @raises ResultsError without steady values"""
-    summary, known = Summary(folder), budgets_of(folder)
+    summary, (known, doubt) = Summary(folder), _budgets_and_doubt(folder)
     if not summary.headline:
         raise ResultsError(f"{folder}: has no steady values in summary.json; run longer")
     lines = ["± is one standard error of all that is known; in brackets its parts"]
-    try:
-        read_wheel_run(folder)
-    except ResultsError as error:
-        lines.append(f"  only the error over time is known: {error}")
+    if doubt:
+        lines.append(f"  only the error over time is known: {doubt}")
     sources: dict[str, dict[str, None]] = {}
     for name in summary.headline:
         value, budget = summary.quantity(name), known[name]

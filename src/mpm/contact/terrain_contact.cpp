@@ -98,9 +98,10 @@ double TerrainContact::mean_slip_in_cell(std::size_t n, std::size_t& end) {
     return std::pair(particle.group,
                      group_of(particle).particles.data(column::cell)[particle.particle]);
   };
+  const auto this_cell = cell(n);
   double sum = 0.0;
   int touching = 0;
-  for (end = n; end < active_particles_.size() && cell(end) == cell(n); ++end) {
+  for (end = n; end < active_particles_.size() && cell(end) == this_cell; ++end) {
     const ContactHistory& history = history_of(active_particles_[end]);
     if (!history.touches()) continue;
     sum += history.slip;
