@@ -7,10 +7,9 @@
 
 namespace furrow {
 
-/// Ground as its edges see it.
-/// sand  flows, and its strength grows with the pressure
-/// clay  flows at a strength that does not grow, or is elastic
-/// snow  compacts in place, by more than a tenth under 20 kPa without lateral strain
+/// Kinds of ground that sides and base affect differently. Snow compacts in place, by more than a
+/// tenth under 20 kPa without lateral strain. Sand flows, and its strength grows with the pressure.
+/// Clay flows at a strength that does not grow. Elastic ground counts as clay.
 enum class GroundKind { sand, clay, snow };
 GroundKind ground_kind(const Material& material);
 const char* name_of(GroundKind kind);

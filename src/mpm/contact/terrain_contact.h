@@ -23,10 +23,10 @@ namespace furrow {
 /// Composition of ContactSearch (which particles are near), NarrowPhase (which of them touch, and
 /// where), ContactLaw (with what force) and, in a half model, SymmetryMirror.
 ///
-/// The force of a particle acts at the closest point of the surface on both sides: on the surface
-/// by barycentric weights, on the ground as a point load through the particle's weights, so that
-/// force and moment are kept. Each rank finds the contacts of its particles; the forces on the
-/// surface are summed over the ranks.
+/// The force of a particle acts at the closest point of the surface. The surface takes it by
+/// barycentric weights, the ground as a point load through the particle's weights. Force and moment
+/// are therefore equal on both sides. Each rank finds the contacts of its particles; the forces on
+/// the surface are summed over the ranks.
 class TerrainContact : public Contact {
  public:
   /// Body and terrain must outlive the contact. Not collective.

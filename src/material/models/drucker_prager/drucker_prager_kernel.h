@@ -2,9 +2,11 @@
 #pragma once
 /// Kernel of the Drucker-Prager law: return mapping in closed form. Equations: drucker_prager.h.
 ///
-/// A trial state beyond the line by f returns along the flow, with a plastic shear strain y.
-///   q = q_tr - 3 G y,  p = p_tr + K tan(psi) y,  y = f/(3 G + K tan(beta) tan(psi))
-/// A state that would pass the apex returns to it.
+/// The elastic trial state (p_tr, q_tr) lies beyond the shear line by f. It returns along the flow
+/// by the plastic shear strain y:
+///   y = f/(3 G + K tan(beta) tan(psi)).
+///   q = q_tr - 3 G y,  p = p_tr + K tan(psi) y.
+/// A state that would pass the apex of the cone returns to the apex.
 
 #include "material/block_update.h"
 #include "material/elasticity/elasticity_kernel.h"
