@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Traction and resistance of a tyre, and the vehicle cone index, from the cone index of the soil.
+"""Traction, resistance and sinkage of a tyre, and the vehicle cone index, from the cone index of the soil.
 
 All take the cone index CI [Pa] as mean of the first 15 cm. b: width, d: diameter, h: section
 height, delta: deflection of the tyre on hard ground, W: load.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from ..errors import ResultsError
@@ -28,8 +29,12 @@ class Traction:
     slip: float
     load: float  # [N]
     gross: float  # torque over rolling radius and load
-    resistance: float  # motion resistance over load
+    resistance: float  # motion resistance over load, at this slip
     outside: tuple[str, ...] = ()
+    sinkage: float = math.nan  # [m] at this slip
+    towed_resistance: float = math.nan  # motion resistance over load of a towed wheel
+    towed_sinkage: float = math.nan  # [m]
+    mark: str = ""  # what of the formula is known from memory or assumed
 
     @property
     def net(self) -> float:
@@ -45,8 +50,13 @@ class Traction:
             ("net traction coefficient", f"{self.net:.4f}"),
             ("drawbar pull", f"{self.net * self.load:.4g} N"),
             ("motion resistance", f"{self.resistance * self.load:.4g} N"),
+            ("sinkage", f"{1e3 * self.sinkage:.4g} mm"),
+            ("towed: resistance", f"{self.towed_resistance:.4f}"),
+            ("towed: sinkage", f"{1e3 * self.towed_sinkage:.4g} mm"),
         )
-        lines = [f"{self.method}  ({self.source})", *(f"  {name:27} {value}" for name, value in rows)]
+        known = [(name, value) for name, value in rows if not value.startswith("nan")]
+        lines = [f"{self.method}  ({self.source})", *(f"  {name:27} {value}" for name, value in known)]
+        lines += [f"  MARK: {self.mark}"] if self.mark else []
         return "\n".join([*lines, *(f"  EXTRAPOLATED: {limit}" for limit in self.outside)])
 
 
@@ -168,7 +178,8 @@ VTI_SOURCE = "Vehicle-Terrain Interface of ERDC, in MAVS (2024), vehicles/vti/fi
 def vti_clay(rating: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
     """Fine-grained soil by its rating cone index RCI [Pa]: N_c = RCI b d/(W (1 - delta/h)^1.5 (1 +
     b/d)^0.75), self-propelled slip s_0 = 21/N_c^2.5 + 0.005, GT/W = 0.5 log10(s/s_0) (1 + b/d)^0.25 +
-    12/N_c^2 + 0.007, R/W = 5.07/N_c^1.71 + 0.011. @raises OutOfRange"""
+    12/N_c^2 + 0.007 up to 1, R/W = 5.07/N_c^1.71 + 0.011. With N_z = N_c (1 + b/d)^0.75 the sinkage is 1.64 d
+    (s_0^0.19/N_z)^1.21, of a towed wheel d (2.66/N_z^1.64 - 0.0063). @raises OutOfRange"""
     method = "VTI, clay"
     tyre.require(method, deflected=True)
     require_positive(method, cone_index=rating)
@@ -179,9 +190,159 @@ def vti_clay(rating: float, tyre: Tyre, slip: float, extrapolate: bool = False) 
     why = "below it the tyre does not propel itself"
     outside = require_range(method, [Limit("slip", slip, free, 1.0, "", why)], extrapolate)
     require_positive(method, slip=slip)
-    gross = 0.5 * math.log10(slip / free) * shape**0.25 + 12 / number**2 + 0.007
+    gross = min(0.5 * math.log10(slip / free) * shape**0.25 + 12 / number**2 + 0.007, 1.0)
     resistance = 5.07 / number**1.71 + 0.011
-    return Traction(method, VTI_SOURCE, number, slip, tyre.load, gross, resistance, outside)
+    deep = number * shape**0.75
+    return Traction(
+        method,
+        VTI_SOURCE,
+        number,
+        slip,
+        tyre.load,
+        gross,
+        resistance,
+        outside,
+        sinkage=1.64 * tyre.diameter * (free**0.19 / deep) ** 1.21,
+        towed_sinkage=tyre.diameter * max(2.66 / deep**1.64 - 0.0063, 0.0),
+        mark="the source gives sinkage without a unit; read as a share of the diameter",
+    )
+
+
+DROVE_SAND_SOURCE = (
+    "Mason et al. (2016, 2018), Williams et al. (2017), DROVE records of dry sand, in MAVS (2024), "
+    "vehicles/vti/coarse_grained.cpp"
+)
+
+
+def drove_sand(cone_index: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
+    """Dry sand. Contact pressure CP = W/(2 b sqrt(d a - a^2) (b/h)^0.52) with a = delta + 0.026 d, q = CP/CI,
+    GT/W = -0.5 + (T + 0.5)/(1 + A exp(-7 s))^(1/C), T = 0.42 + 0.009/q, A = 0.76 + 0.014/q, C = 1.56 - 0.022/q;
+    R/W = 0.4 q + 0.6 s - 0.03, towed 0.21 q + 0.04. Sinkage 14 d/N, towed 22 d/(N/(1 - b/d))^1.125 with
+    N = CI (b d)^1.5/((1 - delta/h) W), in inches. @raises OutOfRange"""
+    method = "DROVE, sand"
+    tyre.require(method, deflected=True)
+    require_positive(method, cone_index=cone_index)
+    b, d = tyre.width, tyre.diameter
+    chord = tyre.deflection + 0.026 * d
+    contact = tyre.load / (2 * b * math.sqrt(d * chord - chord**2) * (b / tyre.section_height) ** 0.52)
+    q = contact / cone_index
+    limits = [
+        _slip_limit(slip),
+        Limit("contact pressure over cone index", q, 0.03, 1.0, "", "firmer sand has no largest traction"),
+        Limit("width over diameter", b / d, 0.0, 0.9, "", "a towed wheel sinks without limit at 1"),
+    ]
+    outside = require_range(method, limits, extrapolate)
+    exponent = 1.56 - 0.022 / q
+    if exponent <= 0 or b >= d:
+        raise ResultsError(f"{method}: has no value here: {'; '.join(outside)}")
+    most, steep = 0.42 + 0.009 / q, 0.76 + 0.014 / q
+    gross = -0.5 + (most + 0.5) / (1 + steep * math.exp(-7 * slip)) ** (1 / exponent)
+    number = cone_index * (b * d) ** 1.5 / ((1 - tyre.deflection_ratio) * tyre.load) / INCH
+    return Traction(
+        method,
+        DROVE_SAND_SOURCE,
+        number,
+        slip,
+        tyre.load,
+        gross,
+        0.4 * q + 0.6 * slip - 0.03,
+        outside,
+        sinkage=14 * d / number,
+        towed_resistance=0.21 * q + 0.04,
+        towed_sinkage=22 * d / (number / (1 - b / d)) ** 1.125,
+    )
+
+
+MACLAURIN_SOURCE = "E. B. Maclaurin (1990, 1997), after M. Saarilahti (2002)"
+
+
+def maclaurin(cone_index: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
+    """N = CI b^0.8 d^0.8 delta^0.4/W; R/W = 0.017 + 0.453/N; at 20 % slip NT/W = 0.817 - 3.2/(N + 1.91), at
+    other slips none; rut of the first pass 0.224 d/N^1.25. @raises OutOfRange"""
+    method = "Maclaurin"
+    tyre.require(method, deflected=True)
+    require_positive(method, cone_index=cone_index)
+    size = (tyre.width * tyre.diameter) ** 0.8 * tyre.deflection**0.4
+    number = cone_index * size / tyre.load
+    limits = [_slip_limit(slip), Limit("mobility number", number, 1.85, math.inf, "", "below it a tyre is stuck")]
+    outside = require_range(method, limits, extrapolate)
+    resistance = 0.017 + 0.453 / number
+    at_slip = math.isclose(slip, 0.2)
+    gross = 0.817 - 3.2 / (number + 1.91) + resistance if at_slip else math.nan
+    return Traction(
+        method,
+        MACLAURIN_SOURCE,
+        number,
+        slip,
+        tyre.load,
+        gross,
+        resistance,
+        outside,
+        sinkage=0.224 * tyre.diameter / number**1.25,
+        mark="traction and resistance from memory",
+    )
+
+
+@dataclass(frozen=True)
+class Formulas:
+    """All formulas of a kind of soil for one tyre."""
+
+    soil: str
+    answers: tuple[Traction, ...]
+    refused: tuple[str, ...]  # formulas without an answer, with the cause
+
+    def band(self, quantity: str) -> tuple[float, float, float] | None:
+        """Mean, least and greatest of the formulas within their ranges; None without any."""
+        values = [getattr(answer, quantity) for answer in self.answers if not answer.outside]
+        values = [value for value in values if math.isfinite(value)]
+        return (sum(values) / len(values), min(values), max(values)) if values else None
+
+    def report(self) -> str:
+        head = ("", "gross", "resistance", "net", "sinkage [mm]", "towed", "towed [mm]")
+        units = {"sinkage": 1e3, "towed_sinkage": 1e3}
+        names = ("gross", "resistance", "net", "sinkage", "towed_resistance", "towed_sinkage")
+
+        def row(title: str, values: list[float]) -> str:
+            cells = [
+                "-" if not math.isfinite(value) else f"{units.get(name, 1) * value:.{0 if name in units else 3}f}"
+                for name, value in zip(names, values, strict=True)
+            ]
+            return f"{title:16}" + "".join(f"{cell:>13}" for cell in cells)
+
+        lines = [f"{head[0]:16}" + "".join(f"{cell:>13}" for cell in head[1:])]
+        for answer in self.answers:
+            sign = "!" if answer.outside else "*" if answer.mark else ""
+            lines.append(row(f"{answer.method} {sign}", [getattr(answer, name) for name in names]))
+        bands = [self.band(name) or (math.nan,) * 3 for name in names]
+        lines += [row(title, [band[k] for band in bands]) for k, title in enumerate(("mean", "least", "greatest"))]
+        lines.append("Forces over the load. Mean, least and greatest are those of the formulas within their range.")
+        lines += [f"* {answer.method}: {answer.mark}" for answer in self.answers if answer.mark]
+        lines += [f"! {a.method}: EXTRAPOLATED: {limit}" for a in self.answers for limit in a.outside]
+        return "\n".join([*lines, *(f"! {cause}" for cause in self.refused)])
+
+
+def formulas_for(
+    soil: str, cone_index: float, tyre: Tyre, slip: float, radial: bool = False
+) -> Formulas:
+    """`soil`: sand or clay. A formula answers outside of its range too, with a mark. @raises ResultsError
+    without any answer"""
+    on_clay: tuple[Callable[[], Traction], ...] = (
+        lambda: wismer_luth(cone_index, tyre, slip, True),
+        lambda: brixius(cone_index, tyre, slip, radial, True),
+        lambda: gee_clough(cone_index, tyre, slip, True),
+        lambda: vti_clay(cone_index, tyre, slip, True),
+        lambda: maclaurin(cone_index, tyre, slip, True),
+    )
+    on_sand: tuple[Callable[[], Traction], ...] = (lambda: drove_sand(cone_index, tyre, slip, True),)
+    answers, refused = [], []
+    for formula in {"clay": on_clay, "sand": on_sand}[soil]:
+        try:
+            answers.append(formula())
+        except ResultsError as error:
+            refused.append(str(error))
+    if not answers:
+        raise ResultsError("; ".join(refused))
+    return Formulas(soil, tuple(answers), tuple(refused))
 
 
 VCI_SOURCE = "J. D. Priddy and W. E. Willoughby, J. Terramechanics (2006), doi 10.1016/j.jterra.2004.10.001"

@@ -47,7 +47,7 @@ GROUND = {  # option -> unit and meaning; alone or in place of a value of --terr
 }
 KINDS = {"slip": between(0.0, 1.0), "axles": at_least(1), "tyres": at_least(2)}
 FLAGS = {  # option -> meaning
-    "radial": "a radial tyre (brixius)",
+    "radial": "a radial tyre (brixius, by_cone_index)",
     "manual": "manual transmission (vci)",
     "chains": "tyres with chains (vci)",
 }
@@ -134,6 +134,10 @@ def _vehicle_cone_index(g: Given) -> Report:
     return cone_formulas.vehicle_cone_index(cone_formulas.WheeledVehicle(*vehicle))
 
 
+def _by_cone_index(g: Given) -> Report:
+    return cone_formulas.formulas_for(g.soil, g.cone_index, _tyre(g), g.slip, g.radial)
+
+
 def _on_cone(formula: Callable[[float, cone_formulas.Tyre, float, bool], Report]) -> Any:
     return lambda g: formula(g.cone_index, _tyre(g), g.slip, g.extrapolate)
 
@@ -151,6 +155,9 @@ METHODS = {
     "brixius": Method((*ON_CONE, *DEFLECTED), ("radial",), _brixius),
     "gee_clough": Method((*ON_CONE, *DEFLECTED), (), _on_cone(cone_formulas.gee_clough)),
     "vti_clay": Method((*ON_CONE, *DEFLECTED), (), _on_cone(cone_formulas.vti_clay)),
+    "drove_sand": Method((*ON_CONE, *DEFLECTED), (), _on_cone(cone_formulas.drove_sand)),
+    "maclaurin": Method((*ON_CONE, *DEFLECTED), (), _on_cone(cone_formulas.maclaurin)),
+    "by_cone_index": Method((*ON_CONE, *DEFLECTED, "soil"), ("radial",), _by_cone_index),
     "vci": Method(VEHICLE, (*DEFLECTED, "manual", "chains"), _vehicle_cone_index),
     "snow_traction": Method(("load", "contact_area", "surface"), (), _snow_traction),
 }
@@ -169,12 +176,13 @@ METHODS = {
         choices=list(empirical.TRACTION),
         help="of snow_traction; packed: a snow road, or more than four passes",
     ),
+    option("--soil", choices=["sand", "clay"], help="of by_cone_index, which prints all formulas of this soil with their band"),
     *(flag(f"--{name}", help=meaning) for name, meaning in FLAGS.items()),
     flag("--extrapolate", help="answer outside of the range of validity too, and report it"),
 )
 def empirical_(given: Given) -> None:
     method = METHODS[given.method]
-    names = {name for name in (*OPTIONS, *GROUND, "terrain", "surface") if getattr(given, name) is not None}
+    names = {name for name in (*OPTIONS, *GROUND, "terrain", "surface", "soil") if getattr(given, name) is not None}
     names |= {name for name in FLAGS if getattr(given, name)}
     missing = [f"--{name}" for name in method.needed if name not in names]
     if missing:

@@ -4,6 +4,7 @@
 import math
 import unittest
 from collections.abc import Callable
+from pathlib import Path
 
 from furrow_post.analyse.cone_formulas import (
     PSI,
@@ -11,13 +12,17 @@ from furrow_post.analyse.cone_formulas import (
     Tyre,
     WheeledVehicle,
     brixius,
+    drove_sand,
+    formulas_for,
     gee_clough,
+    maclaurin,
     vehicle_cone_index,
     vti_clay,
     weight_factor,
     wismer_luth,
 )
 from furrow_post.analyse.prediction import OutOfRange
+from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from support.command import run_post
 
@@ -75,6 +80,54 @@ class TractionTest(unittest.TestCase):
             self.assertLess(firm.resistance, soft.resistance, name)
             self.assertGreater(formula(CI, TYRE, 0.3).net, soft.net, name)
 
+    def test_values_of_a_second_program(self) -> None:
+        formulas: dict[str, Callable[..., Traction]] = {
+            "drove_sand": drove_sand,
+            "vti_clay": vti_clay,
+            "maclaurin": maclaurin,
+            "gee_clough": gee_clough,
+            "brixius": brixius,
+            "wismer_luth": wismer_luth,
+        }
+        compared = 0
+        for row in read_rows(Path(__file__).with_name("cone_formulas_reference.csv")):
+            sizes = (1e3 * float(row["load"]), *(float(row[k]) for k in ("diameter", "width", "section_height", "deflection")))
+            found = formulas[row["formula"]](1e3 * float(row["cone_index"]), Tyre(*sizes), float(row["slip"]), extrapolate=True)
+            for name in ("gross", "resistance", "net", "towed_resistance", "sinkage", "towed_sinkage"):
+                if not row[name]:
+                    continue
+                unit, printed = (1e3, 0.51) if "sinkage" in name else (1, 0.0011)
+                self.assertAlmostEqual(unit * getattr(found, name), max(float(row[name]), 0) if unit > 1 else float(row[name]), delta=printed, msg=f"{row}: {name}")
+                compared += 1
+        self.assertGreater(compared, 200)
+
+    def test_band_is_that_of_the_formulas_in_their_range(self) -> None:
+        passenger = Tyre(6e3, 0.734, 0.235, 0.176, 0.025)
+        clay = formulas_for("clay", 300e3, passenger, 0.2)
+        self.assertEqual(len(clay.answers), 5)
+        mean, least, greatest = clay.band("net") or (0, 0, 0)
+        self.assertAlmostEqual(least, 0.124, delta=0.001)
+        self.assertAlmostEqual(greatest, 0.413, delta=0.001)
+        self.assertAlmostEqual(mean, (0.198 + 0.413 + 0.192 + 0.124 + 0.138) / 5, delta=0.001)
+        # Wismer-Luth and Maclaurin are out of their ranges on a wide tyre on soft clay
+        wide = formulas_for("clay", 100e3, Tyre(6e3, 0.6, 0.3, 0.15, 0.025), 0.2)
+        outside = [answer.method for answer in wide.answers if answer.outside]
+        self.assertIn("Wismer-Luth", outside)
+        self.assertIn("Maclaurin", outside)
+        self.assertIn("! Wismer-Luth: EXTRAPOLATED: width over diameter 0.5, allowed 0.2 to 0.4", wide.report())
+        self.assertIn("has no traction", wide.report())
+        self.assertNotAlmostEqual((wide.band("net") or (0,))[0], sum(a.net for a in wide.answers) / len(wide.answers), places=2)
+        # Maclaurin has a pull at one slip only, and is from memory
+        self.assertTrue(math.isnan(formulas_for("clay", 300e3, passenger, 0.3).answers[-1].net))
+        self.assertIn("* Maclaurin: traction and resistance from memory", clay.report())
+
+    def test_sand_has_no_largest_traction_on_firm_ground(self) -> None:
+        soft = Tyre(2e3, 0.71, 0.22, 0.157, 0.039)
+        with self.assertRaisesRegex(OutOfRange, "contact pressure over cone index 0.0197, allowed 0.03 to 1"):
+            drove_sand(1000e3, soft, 0.2)
+        with self.assertRaisesRegex(ResultsError, "DROVE, sand: has no value here: contact pressure"):
+            formulas_for("sand", 1500e3, soft, 0.2)
+
     def test_refusals(self) -> None:
         with self.assertRaisesRegex(OutOfRange, "width over diameter 0.625, allowed 0.2 to 0.4"):
             wismer_luth(CI, Tyre(20e3, 0.8, 0.5), 0.2)
@@ -129,6 +182,11 @@ class CommandTest(unittest.TestCase):
         self.assertIn("empirical brixius needs --section_height, --deflection", run_post("empirical", "brixius", *words).stderr)
         wrong = run_post("empirical", "wismer_luth", *words, "--radial")
         self.assertIn("empirical wismer_luth does not read --radial", wrong.stderr)
+        inner = [*words, "--section_height", "0.4", "--deflection", "0.08"]
+        table = run_post("empirical", "by_cone_index", "--soil", "clay", *inner).stdout
+        self.assertRegex(table, r"Wismer-Luth +0\.572 +0\.090 +0\.482")
+        self.assertRegex(table, r"mean +0\.\d+ +0\.\d+ +0\.\d+ +\d+")
+        self.assertIn("by_cone_index needs --soil", run_post("empirical", "by_cone_index", *inner).stderr)
         vehicle = "--weight 178e3 --axles 4 --tyres 8 --diameter 1.22 --width 0.41 --clearance 0.46 --power 3e5"
         self.assertRegex(run_post("empirical", "vci", *vehicle.split()).stdout, r"VCI of one pass +2\d\.\d\d psi")
 
