@@ -69,6 +69,12 @@ class Budget:
         """ "94 ± 12"; three digits alone where no part is known."""
         return with_error(value, self.total) if self.known else f"{value:.3g}"
 
+    def missing_text(self) -> str:
+        """What ± does not have: "+ ground, material unknown", "over time only"; empty where nothing is missing."""
+        if self.unknown and [name for name in self.known if self.part(name) > 0] == ["time"]:
+            return "over time only"
+        return f"+ {', '.join(map(self.label, self.unknown))} unknown" if self.unknown else ""
+
     def parts_text(self, names: Sequence[str] = NAMES) -> str:
         largest = max((self.part(name) for name in self.known), default=0.0)
         shares = {"time": SHOWN_TIME}

@@ -292,20 +292,18 @@ def value_text(name: str, value: SteadyValue, budget: Budget) -> str:
 
 
 def headline(folder: Path) -> str:
-    """For a title: "hub drop 94 ± 12 mm, net traction coefficient 0.06 ± 0.12; ground, material unknown"."""
+    """For a title: "hub drop 94 ± 12 mm, pull 0.06 ± 0.12 (+ material unknown); torque 12 ± 1 N m (over time only)"."""
     summary, known = Summary(folder), budgets_of(folder)
-    parts: list[str] = []
-    unknown: dict[str, None] = {}
+    texts: dict[str, list[str]] = {}  # what is not in ± -> values
     for name in summary.headline:
         value = summary.quantity(name)
         assert value is not None
-        parts.append(f"{TITLES.get(name, name.replace('_', ' '))} {value_text(name, value, known[name])}")
-        unknown.update(dict.fromkeys(map(known[name].label, known[name].unknown)))
-    if not parts:
+        text = f"{TITLES.get(name, name.replace('_', ' '))} {value_text(name, value, known[name])}"
+        texts.setdefault(known[name].missing_text(), []).append(text)
+    if not texts:
         return ""
-    steady = "" if summary.content.get("steady", False) else ", not all steady, see summary.txt"
-    missing = ", ".join(unknown)
-    return ", ".join(parts) + steady + (f"; not in ±: {missing}" if missing else "")
+    line = "; ".join(", ".join(values) + f" ({missing})" * bool(missing) for missing, values in texts.items())
+    return line + ("" if summary.content.get("steady", False) else "; not all steady, see summary.txt")
 
 
 def report(folder: Path) -> str:

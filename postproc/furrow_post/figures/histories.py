@@ -10,6 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..analyse.budget import Budget
 from ..analyse.wheel_histories import Stage
 from ..analyse.whole_error import budgets_of, headline
 from ..arrays import Floats
@@ -91,8 +92,7 @@ def draw_histories(results: Results, target: Path, against: str = "time") -> Non
         for (column, legend), style in zip(drawn, LINE_STYLES):
             axes.plot(abscissa, panel.scale * column, style, lw=1.0, alpha=0.85, label=legend)
         if summary.window and panel.quantity in errors:
-            whole = errors[panel.quantity].total
-            _mark_steady(axes, summary, panel, np.interp(summary.window, time, abscissa), whole)
+            _mark_steady(axes, summary, panel, np.interp(summary.window, time, abscissa), errors[panel.quantity])
         axes.set_ylabel(f"{panel.title} [{panel.unit}]")
         _limit_to_cruise(axes, panel.scale, columns, stage)
         axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
@@ -125,13 +125,14 @@ def _shade_stages(axes: Axes, abscissa: Floats, stage: Floats, named: bool) -> N
             )
 
 
-def _mark_steady(axes: Axes, summary: Summary, panel: Panel, window: Floats, error: float) -> None:
-    """The mean over the steady window with its whole error; dashed where it was not steady."""
+def _mark_steady(axes: Axes, summary: Summary, panel: Panel, window: Floats, budget: Budget) -> None:
+    """The mean over the steady window with its whole error and what is not in it; dashed where it was not steady."""
     value = summary.quantity(panel.quantity)
     if value is None:
         return
-    mean, error = panel.scale * value.mean, panel.scale * error
-    state = "imposed" if value.imposed else "whole error" if value.steady else "not steady"
+    mean, error = panel.scale * value.mean, panel.scale * budget.total
+    states = ["imposed"] if value.imposed else [budget.missing_text(), "" if value.steady else "not steady"]
+    state = textwrap.fill(", ".join(filter(None, states)) or "whole error", 30)
     axes.fill_between(window, mean - error, mean + error, color="C3", alpha=0.25, lw=0, zorder=3)
     axes.plot(
         window,

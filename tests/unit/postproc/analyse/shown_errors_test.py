@@ -4,6 +4,7 @@
 import math
 import re
 import unittest
+from pathlib import Path
 
 from furrow_post.analyse.comparison import compare
 from furrow_post.analyse.comparison_report import comparison_report, table_rows
@@ -25,30 +26,74 @@ def root_sum_square(row: dict[str, str], columns: list[str]) -> float:
     return math.hypot(*(float(row[column] or 0) for column in columns))
 
 
+INPUTS = SOURCE / "inputs"
+STATED = re.compile(r"(?i)errors? (is|are|have|has|contain|contains|cover|covers|of|on|with|from|within)\b|(standard|their|its|rms) errors?\b")
+
+
+def size_errors() -> dict[str, float]:
+    """Values of the size series as pages and tables show them -> numerical error in that unit."""
+    known: dict[str, float] = {}
+    for series in read_series(INPUTS / "validation" / "sizes.csv"):
+        for row in series.family.bases:
+            for key, scale, digits in (("sinkage", 1e3, 1), ("coefficient", 1.0, 3)):
+                parts = series.family.components(key, row.size, row.value(key)[1])
+                known[f"{scale * row.value(key)[0]:.{digits}f}"] = scale * parts.total
+    return known
+
+
+def tables() -> list[Path]:
+    found = [path for folder in ("costs", "crosscheck", "validation") for path in sorted((INPUTS / folder).rglob("*.csv"))]
+    return [path for path in found if path.name not in ("errors.csv", "provenance.csv") and "parts" not in path.parts]
+
+
 class CommittedTest(unittest.TestCase):
+    def test_every_error_column_has_a_meaning(self) -> None:
+        listed: dict[str, set[str]] = {}
+        for row in read_rows(INPUTS / "validation" / "errors.csv"):
+            self.assertTrue(row["holds"], row)
+            listed.setdefault(row["table"], set()).update(row["columns"].split())
+        for path in tables():
+            columns = read_rows(path)[0] if read_rows(path) else {}
+            errors = {name for name in columns if "error" in name.split("_")}
+            known = listed.pop(path.relative_to(INPUTS).as_posix(), set())
+            self.assertEqual(errors - known, set(), f"{path}: what do these columns hold? See inputs/validation/errors.csv")
+            self.assertEqual(known - set(columns), set(), path)
+        self.assertEqual(listed, {}, "errors.csv has tables that do not exist")
+
+    def test_tables_with_errors_of_cells_have_no_smaller_ones_than_are_known(self) -> None:
+        known, seen = size_errors(), 0
+        for row in read_rows(INPUTS / "validation" / "errors.csv"):
+            if not re.search("cells|grains", row["holds"]) or "change" in row["holds"]:
+                continue
+            for line in read_rows(INPUTS / row["table"]):
+                for column in row["columns"].split():
+                    value = line.get(re.sub("_?error_?(mm)?", "", column) or "value", "")
+                    whole = known.get(value.removeprefix("-"), 0.0)
+                    seen += 1
+                    self.assertGreaterEqual(float(line[column] or "inf"), ROUNDING * whole, (row["table"], line))
+        self.assertGreater(seen, 100)
+
     def test_pages_show_errors_of_cells_or_state_that_errors_are_over_time(self) -> None:
-        """Values of the size series, which are known to have errors of cells or grains, packing and ground."""
-        known: dict[str, float] = {}  # as a page shows the value -> numerical error in that unit
-        for series in read_series(SOURCE / "inputs" / "validation" / "sizes.csv"):
-            for row in series.family.bases:
-                for key, scale, digits in (("sinkage", 1e3, 1), ("coefficient", 1.0, 3)):
-                    parts = series.family.components(key, row.size, row.value(key)[1])
-                    known[f"{scale * row.value(key)[0]:.{digits}f}"] = scale * parts.total
-        seen, over_time = 0, set()
-        for folder in ("costs", "crosscheck", "validation", "validation/convergence", "validation/snow_wheel", "validation/one_material"):
-            page = SOURCE / "inputs" / folder / "README.md"
+        """Of the size series, cells or grains, packing and ground are known. Marked values have their parts in experiments.csv."""
+        known, seen, pages, over_time = size_errors(), 0, 0, set()
+        for page in (page for page in SOURCE.rglob("*.md") if page.relative_to(SOURCE).parts[0] not in ("build", "lib", "results")):
             text = page.read_text(encoding="utf-8")
-            for value, error in SHOWN.findall("\n".join(line for line in text.splitlines() if line.startswith("|"))):
+            table = "\n".join(line for line in text.splitlines() if line.startswith("|"))
+            if "±" in table:
+                pages += 1
+                self.assertRegex(text, STATED, f"{page}: what is the number behind ±?")
+            for value, error in SHOWN.findall(re.sub("<!-- value: .*?<!-- end value -->", "", table)):
                 whole = known.get(value.removeprefix("-"), 0.0)
                 seen += whole > 0
                 if float(error) < ROUNDING * whole:
                     over_time.add(page)
                     self.assertRegex(text, r"(?i)errors? (is|are) (those |that )?(of the |over )time", f"{page}: {value} ± {error}")
         self.assertGreater(seen, 15)
-        self.assertEqual([page.parent.name for page in over_time], ["convergence"])
+        self.assertGreater(pages, 15)
+        self.assertEqual({page.parent.name for page in over_time}, {"convergence", "grains", "pull_slip"})
 
     def test_cross_check_shows_no_smaller_errors_than_its_parts(self) -> None:
-        folder = SOURCE / "inputs" / "crosscheck"
+        folder = INPUTS / "crosscheck"
         page = (folder / "README.md").read_text(encoding="utf-8")
         table = [line for line in page.splitlines() if line.startswith("|") and "±" in line]
         whole: dict[float, float] = {}  # value -> its smallest whole error, of all scales that the page has
@@ -67,8 +112,8 @@ class CommittedTest(unittest.TestCase):
 
     def test_regimes_have_no_smaller_error_than_their_own_tests_leave(self) -> None:
         """The error of the model and of the tests cover the mean square of the differences of each regime."""
-        tests = read_rows(SOURCE / "inputs" / "validation" / "measured.csv")
-        for regime in read_rows(SOURCE / "inputs" / "validation" / "model_errors.csv"):
+        tests = read_rows(INPUTS / "validation" / "measured.csv")
+        for regime in read_rows(INPUTS / "validation" / "model_errors.csv"):
             words = ("quantity", "ground", "wheel", "motion", "grousers")
             own = [row for row in tests if all(row[word] == regime[word] for word in words)]
             for study in {row["study"] for row in own}:

@@ -96,9 +96,9 @@ class SingleRunTest(SharedFolderTest):
         done = run_post(*command)
         self.assertEqual(done.returncode, 0, done.stderr)
         drawn = (folder / "histories.svg").read_text()
-        self.assertIn("hub drop 20.00 ± 0.16 mm, resistance coefficient 0.200 ± 0.004, not all steady", drawn)
+        self.assertIn("hub drop 20.00 ± 0.16 mm, resistance coefficient 0.200 ± 0.004 (over time only)", drawn)
         self.assertIn("mean 20.0 ± 0.2", drawn)
-        self.assertIn("(not steady)", drawn)
+        self.assertIn("(over time only, not steady)", drawn)
 
     def test_titles_mark_imposed_values(self) -> None:
         folder = self.copy("imposed")
