@@ -26,6 +26,9 @@ std::string with_error(double value, double error, int digits = 2) {
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
 }
 
+/// Heads of tables state what their errors are.
+constexpr char over_time[] = "± over time only";
+
 constexpr char verdict_head[] = "Verdict: ";
 constexpr std::size_t longest_verdict = 91;  // with its head a line of 100 characters
 
@@ -53,7 +56,7 @@ std::string state_of(const SteadyValue& value) {
 
 /// What a run is made for, first.
 std::string answer_table(const Resistance& r) {
-  std::string text;
+  std::string text = fmt::format("Main values, {}\n", over_time);
   for (const std::string& name :
        {std::string("hub_drop"), std::string("tyre_deflection"), std::string("rut_depth"),
         r.coefficient().name, std::string("slip"), std::string(r.driven ? "drive_torque" : "")})
@@ -75,8 +78,8 @@ std::string steady_table(const Resistance& r) {
   std::string text;
   if (!r.reasons.empty()) text += "Not steady\n";
   for (const std::string& reason : r.reasons) text += "  " + reason + "\n";
-  text += fmt::format("Window: {:.4g} s to {:.4g} s, {:.4g} m of travel ({})\n\nAll values\n",
-                      r.window.begin, r.window.end, r.window.distance, r.window.how);
+  text += fmt::format("Window: {:.4g} s to {:.4g} s, {:.4g} m of travel ({})\n\nAll values, {}\n",
+                      r.window.begin, r.window.end, r.window.distance, r.window.how, over_time);
   const std::string other = r.driven ? "resistance_coefficient" : "net_traction_coefficient";
   for (const SteadyValue& v : r.values)
     if (v.name != other)
@@ -86,14 +89,15 @@ std::string steady_table(const Resistance& r) {
                  : v.independent_samples < static_cast<double>(SteadyCriteria{}.min_blocks)
                      ? "steady, hardly changes"
                      : fmt::format("steady, {:.0f} independent samples", v.independent_samples));
-  return text + "\n  ± is one standard error of the mean over time (block averages).\n";
+  return text;
 }
 
 std::string passes_table(const std::vector<Resistance>& passes) {
   if (passes.empty()) return "";
-  std::string text =
-      "\nPasses in the same rut (all else here is of the first)\n"
-      "  pass         hub drop [m]     resistance coefficient   verdict\n";
+  std::string text = fmt::format(
+      "\nPasses in the same rut, {} (all else here is of the first)\n"
+      "  pass         hub drop [m]     resistance coefficient   verdict\n",
+      over_time);
   for (std::size_t n = 0; n < passes.size(); ++n) {
     const SteadyValue &z = passes[n].value("hub_drop"),
                       &c = passes[n].value("resistance_coefficient");
@@ -316,9 +320,9 @@ std::string vehicle_text(const std::vector<std::string>& folders,
     histories.push_back(read_history(folder + "/history.h5"));
   const VehicleResistance vehicle = measure_vehicle(histories, options);
   std::string text = fmt::format(
-      "Wheels that roll together, {:.4g} s to {:.4g} s, {:.4g} m of travel\n"
+      "Wheels that roll together, {:.4g} s to {:.4g} s, {:.4g} m of travel, {}\n"
       "          load [N]          hub drop [m]     resistance coefficient   wheel\n",
-      vehicle.window.begin, vehicle.window.end, vehicle.window.distance);
+      vehicle.window.begin, vehicle.window.end, vehicle.window.distance, over_time);
   for (std::size_t w = 0; w < folders.size(); ++w) {
     const auto cell = [&](const char* name) {
       const SteadyValue& value = vehicle.wheels[w].value(name);
@@ -328,7 +332,7 @@ std::string vehicle_text(const std::vector<std::string>& folders,
                         cell("resistance_coefficient"), folders[w],
                         vehicle.wheels[w].steady ? "steady" : "not steady");
   }
-  text += "\nTogether\n";
+  text += fmt::format("\nTogether, {}\n", over_time);
   for (const SteadyValue& v : vehicle.values)
     text += row_of(plain_name(v.name), v, v.steady ? "steady" : "not steady");
   return text + parts_table(vehicle.parts);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/summary.h"
 
+#include <sstream>
+
 #include <gmock/gmock.h>
 
 namespace furrow::summary_test {
@@ -56,6 +58,22 @@ TEST(Summary, ErrorOverTimeNamesWhatItLeavesOut) {
   Summary none;
   none.trouble = "the wheel digs in";
   EXPECT_EQ(summary_text(none).find("over time"), std::string::npos);
+}
+
+/// Every line with an error stands below a head, or has a note, with what the error is.
+TEST(Summary, EveryTableStatesThatItsErrorsAreOverTime) {
+  Summary passes = summary();
+  passes.passes = {passes.resistance, passes.resistance};
+  std::istringstream text(summary_text(passes));
+  std::string line, head;
+  int errors = 0;
+  while (std::getline(text, line)) {
+    if (line.empty() || line.find_first_not_of(' ') == 0) head = line;
+    if (line.find("±") == std::string::npos) continue;
+    EXPECT_THAT(head, HasSubstr("± over time")) << line;
+    ++errors;
+  }
+  EXPECT_GT(errors, 10);
 }
 
 TEST(Summary, VerdictNamesValuesOfTheSummary) {
