@@ -75,6 +75,20 @@ class Test:
     difference: float
     error: float  # of computed and measured value, as the difference
     mean: float = math.nan  # of a group
+    computed: float = math.nan  # a depth over the radius; NaN: not kept, or of a group
+
+    @property
+    def _scale(self) -> float:
+        """Of difference and error, in the unit of the computed value."""
+        return self.computed if self.quantity in RELATIVE else 1.0
+
+    @property
+    def measured(self) -> float:
+        return self.computed - self._scale * self.difference
+
+    @property
+    def error_of_value(self) -> float:
+        return self._scale * self.error
 
     @property
     def bias(self) -> float:
@@ -103,6 +117,10 @@ class Regime:
             outside = max(low - value, value - high, 0.0)
             steps.append(outside / SCALES[name] if math.isfinite(outside) else 0.0)
         return math.hypot(*steps)
+
+    def has(self, test: Test) -> bool:
+        alike = all(getattr(test.case, name) == word for name, word in self.words.items())
+        return test.quantity == self.quantity and alike and (test.case.slope > 0) == (self.ranges["slope"][1] > 0)
 
     def text(self) -> str:
         words: dict[str, Any] = {**self.words}
@@ -248,7 +266,7 @@ def read_tests(path: Path) -> list[Test]:
 def test_of(row: Mapping[str, str]) -> Test:
     """Of a row of measured.csv."""
     case = case_of_row(row)
-    values = (int(row["tests"]), float(row["difference"]), float(row["error"]), _number(row["mean"]))
+    values = (int(row["tests"]), float(row["difference"]), float(row["error"]), _number(row["mean"]), _number(row["computed"]))
     return Test(row["study"], row["label"], row["quantity"], case, *values)
 
 

@@ -18,13 +18,14 @@ import numpy as np
 
 from ..csv_table import read_rows
 from ..errors import ResultsError, content_of
+from ..formatting import with_error
 from ..programs import inputs_folder
 from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun, cells_or_grains, read_wheel_run
 from ..run.summary import BUDGET, SteadyValue, Summary
 from .budget import IMPOSED, Budget
 from .convergence import convergence_of
 from .cost_table import Family, FamilyKey, Row
-from .model_error import MISMATCH, OF_RUN, RELATIVE, Case, known_regimes, model_error
+from .model_error import MISMATCH, OF_RUN, RELATIVE, TESTS, Case, ModelError, Test, known_regimes, model_error, read_tests
 
 Families = Mapping[FamilyKey, Family]
 SNOW = 700.0  # [kg/m3] bulk density below which a ground is snow
@@ -214,14 +215,19 @@ class _Parts:
         parts = self._of_no_random(parts)
         parts = self._of_scene(parts, name, value, key)
         parts = replace(parts, time=value.standard_error, held=self._held(name, value))
-        quantity = "depth" if name == "hub_drop" and not self.run.deformable else OF_RUN.get(name, "")
-        if name == "slip" and self.case.motion == "towed":
-            return parts  # the tests are of wheels that drive
-        model = model_error(self.regimes, quantity, self.case)
+        model = self.model(name)
         if not model:
             return parts
+        quantity = model.nearest.quantity
         size = model.value * (abs(value.mean) if quantity in RELATIVE else self.load if quantity == "lateral" else 1.0)
         return replace(parts, model=size, sources={**parts.sources, "model": model.source()})
+
+    def model(self, name: str) -> ModelError | None:
+        """By the nearest tests of this quantity; None where none is near."""
+        if name == "slip" and self.case.motion == "towed":
+            return None  # the tests are of wheels that drive
+        quantity = "depth" if name == "hub_drop" and not self.run.deformable else OF_RUN.get(name, "")
+        return model_error(self.regimes, quantity, self.case)
 
     def _of_no_random(self, parts: Budget) -> Budget:
         """Nothing in cells is random, a road has no end."""
@@ -271,6 +277,51 @@ def _budgets_and_doubt(folder: Path) -> tuple[dict[str, Budget], str]:
         if value
     }
     return of_time, doubt
+
+
+# ---- a value over the nearest tests
+
+
+@dataclass(frozen=True)
+class OverTests:
+    """A value of a run with its whole error, and the tests of the nearest regime; depths over the radius."""
+
+    name: str
+    value: float
+    error: float
+    missing: str  # what is not in the error
+    sign: float  # of the tests' values: -1 where a run resists and the tests pull
+    tests: Sequence[Test]  # whose values are known
+    nearest: str  # regime; empty: no test is near
+
+    @property
+    def title(self) -> str:
+        tests = f"Nearest: {self.nearest}" if self.nearest else "No measured test is near"
+        value = with_error(self.value, self.error) if math.isfinite(self.error) else f"{self.value:.3g}"
+        drawn = f"; {len(self.tests)} are drawn" if self.nearest else ""  # of groups the values are hidden
+        return f"{self.name} {value}{f' ({self.missing})' * bool(self.missing)}. {tests}{drawn}"
+
+
+def over_tests(run: WheelRun) -> list[OverTests]:
+    """Of the hub drop and the coefficient that the run is made for."""
+    parts = _Parts(run, {})
+    names = [name for name in Summary(run.folder).headline if name == "hub_drop" or name in COEFFICIENTS]
+    path = _validation(TESTS)
+    known = read_tests(path) if path else []
+    found = []
+    for name in names:
+        value = run.values.get(name) or Summary(run.folder).quantity(name)
+        assert value is not None
+        budget = parts.of(name, value)
+        scale, label = (1 / run.radius, "hub drop over radius") if name == "hub_drop" else (1.0, name.replace("_", " "))
+        near = parts.model(name)
+        tests = [test for test in known if near and near.nearest.has(test) and math.isfinite(test.computed)]
+        opposed = near is not None and (name == COEFFICIENTS[0]) != (near.nearest.words["motion"] == "towed")
+        sign = -1.0 if opposed and name in COEFFICIENTS else 1.0
+        found.append(
+            OverTests(label, scale * value.mean, scale * budget.total, budget.missing_text(), sign, tests, near.source() if near else "")
+        )
+    return found
 
 
 # ---- for people and programs

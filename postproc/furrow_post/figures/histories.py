@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Depths, forces, torque and slip against time or the place of the axle."""
+"""Values of a run over the nearest tests; depths, forces, torque and slip against time or the place of the axle."""
 
 import textwrap
 from collections.abc import Sequence
@@ -12,12 +12,14 @@ from matplotlib.axes import Axes
 
 from ..analyse.budget import Budget
 from ..analyse.wheel_histories import Stage
-from ..analyse.whole_error import budgets_of, headline
+from ..analyse.whole_error import OverTests, budgets_of, headline, over_tests
 from ..arrays import Floats
 from ..errors import ResultsError
 from ..formatting import with_error
 from ..read.results import Results
+from ..read.wheel_run import read_wheel_run
 from ..run.summary import Summary
+from .over_tests import draw_over_tests
 from .style import MILLIMETRE, save, use_style
 
 
@@ -56,6 +58,7 @@ PANELS = (
     Panel("slip", "%", 100.0, (("slip", "slip"),), "slip"),
 )
 OF_TYRES = ("tyre_deflection", "rut_depth")  # of a rigid wheel 0, and the hub drop
+TOP = 4.0  # height of the values over tests [inch]
 LINE_STYLES = ("-", "--", ":")
 NAMED_BAND = 0.05  # of the axis: a narrower band has no name
 STAGE_COLOURS = {Stage.SETTLE: "0.93", Stage.ACCELERATE: "0.97", Stage.CRUISE: "1.0"}
@@ -82,9 +85,12 @@ def draw_histories(results: Results, target: Path, against: str = "time") -> Non
         raise ResultsError(f"{results.file}: the history has no rows yet")
     rigid = not np.any(results.columns.get("tyre_deflection", 0.0))
     absent = OF_TYRES if rigid else ()
-    figure, all_axes = plt.subplots(
-        len(PANELS), 1, figsize=(10, 12), sharex=True, layout="constrained"
-    )
+    over = _over_tests(results.folder) if summary.window else []
+    whole = plt.figure(figsize=(10, 12 + TOP * bool(over)), layout="constrained")
+    figures = whole.subfigures(2, 1, height_ratios=(TOP, 12)) if over else [whole]
+    for axes, one in zip(np.atleast_1d(figures[0].subplots(1, len(over))) if over else [], over):
+        draw_over_tests(axes, one)
+    all_axes = figures[-1].subplots(len(PANELS), 1, sharex=True)
     for axes, panel in zip(all_axes, PANELS):
         _shade_stages(axes, abscissa, stage, named=axes is all_axes[0])
         drawn = [(results.columns[c], legend) for c, legend in panel.channels if c not in absent]
@@ -98,9 +104,17 @@ def draw_histories(results: Results, target: Path, against: str = "time") -> Non
         axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
         axes.margins(x=0)
     all_axes[-1].set_xlabel("time [s]" if against == "time" else "x of the axle [m]")
-    line = "\n".join(textwrap.wrap(headline(results.folder), 100))
-    figure.suptitle(f"{results.title}\n{line}" if line else results.title, fontsize=10)
-    save(figure, target)
+    line = "\n".join(textwrap.wrap(headline(results.folder), 110))
+    whole.suptitle(f"{results.title}\n{line}" if line else results.title, fontsize=10)
+    save(whole, target)
+
+
+def _over_tests(folder: Path) -> list[OverTests]:
+    """None of a run that is not complete."""
+    try:
+        return over_tests(read_wheel_run(folder))
+    except ResultsError:
+        return []
 
 
 def _shade_stages(axes: Axes, abscissa: Floats, stage: Floats, named: bool) -> None:

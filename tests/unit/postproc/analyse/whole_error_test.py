@@ -18,6 +18,8 @@ from furrow_post.analyse.model_error import Case, Test, leave_one_study_out, rea
 from furrow_post.analyse.whole_error import budgets, case_of, headline, like_wheels, report
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
+from furrow_post.figures.histories import draw_histories
+from furrow_post.read.results import Results
 from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
 from support.command import SOURCE
 from support.folder import FolderTest
@@ -203,6 +205,32 @@ class RunTest(FolderTest):
         self.assertRegex(text, r"hub drop +50 ± \d+ mm \(time 1\.0, model \d+; mesh, step, contact, material unknown\)")
         self.assertRegex(text, r"nearest tests of hub drop: \d+ tests: ")
         self.assertRegex(title, r"^hub drop 50 ± \d+ mm.*\(\+ mesh, step, contact, material unknown\).*; torque 50.0 ± 0.5 N m.* \(over time only\)")
+
+    def test_the_first_picture_has_the_whole_bar_over_the_nearest_tests(self) -> None:
+        write_run(self.folder / "run", styles=[rigid_wheel(), rig()])
+        run = read_wheel_run(self.folder / "run")
+        run.ground, run.size = "continuum", 0.05
+        run.conditions["density"] = Condition(1600.0, "kg/m3")
+        run.conditions["wheel_diameter"] = Condition(0.3, "m")
+        drop, resistance = whole_error.over_tests(run)
+        budget = budgets(run)["hub_drop"]
+        self.assertAlmostEqual(drop.value, 0.05 / 0.15)
+        self.assertAlmostEqual(drop.error, budget.total / 0.15)
+        self.assertIn(budget.sources["model"], drop.title)
+        self.assertNotIn("towed", {test.case.motion for test in resistance.tests})
+        self.assertEqual(resistance.sign, -1.0)  # these tests have a pull
+        self.assertGreater(len(drop.tests), 1)
+        draw_histories(Results(self.folder / "run"), self.folder / "run" / "histories.svg")
+        drawn = (self.folder / "run" / "histories.svg").read_text()
+        for text in ("measured hub drop over radius", "this run, 1 and 2 standard errors", "known tests"):
+            self.assertIn(text, drawn)
+
+    def test_stored_tests_give_back_what_was_measured(self) -> None:
+        rows = [row for row in read_rows(VALIDATION / "snow_wheel" / "rows.csv") if row["used"] == "prediction"]
+        tests = [test for test in read_tests(VALIDATION / model_error.TESTS) if test.study == "snow_wheel"]
+        for quantity, column, scale in (("depth", "sinkage_m", 0.38), ("coefficient", "resistance", 1.0)):
+            found = [scale * test.measured for test in tests if test.quantity == quantity]
+            np.testing.assert_allclose(found, [float(row[column]) for row in rows], atol=1e-3)
 
     def test_grousers_and_slopes_are_of_the_case(self) -> None:
         wheel = style("wheel", "wheel/rigid", "wheel", diameter=2 * RADIUS, width=WIDTH, mass=50, grousers=12)
