@@ -28,6 +28,7 @@ from .cost_table import Family, FamilyKey, Row
 from .model_error import MISMATCH, OF_RUN, RELATIVE, TESTS, Case, ModelError, Test, known_regimes, model_error, read_tests
 
 Families = Mapping[FamilyKey, Family]
+Scheme = Mapping[tuple[str, str], tuple[float, str]]  # part, key -> error and what was changed
 SNOW = 700.0  # [kg/m3] bulk density below which a ground is snow
 STRAIGHT = 0.02  # slip within which a driven wheel is not braked
 SIZES, SCHEME, EFFECTS = "sizes.csv", "scheme.csv", "ground_size/effects.csv"
@@ -70,6 +71,8 @@ class SizeSeries:
     words: Mapping[str, str]  # ground, wheel, motion
     width: float  # of the wheel [m]
     family: Family
+    radius: float  # [m]
+    scheme: str  # of the continuum: present, older
 
     def distance(self, case: Case) -> float:
         return math.hypot(*(MISMATCH[name] for name, word in self.words.items() if word != getattr(case, name)))
@@ -85,21 +88,27 @@ class SizeSeries:
 @lru_cache(maxsize=2)
 def read_series(path: Path) -> tuple[SizeSeries, ...]:
     """@raises ResultsError"""
-    groups: dict[tuple[str, str, str], list[dict[str, str]]] = {}
     with content_of(path, REMEDY):
-        for row in read_rows(path):
-            groups.setdefault((row["series"], row["ground"], row["wheel"]), []).append(row)
-        return tuple(_series(rows) for rows in groups.values())
+        return series_of(read_rows(path))
+
+
+def series_of(rows: Iterable[Mapping[str, str]]) -> tuple[SizeSeries, ...]:
+    """Of rows of sizes.csv. @raises ValueError"""
+    groups: dict[tuple[str, str, str], list[Mapping[str, str]]] = {}
+    for row in rows:
+        groups.setdefault((row["series"], row["ground"], row["wheel"]), []).append(row)
+    return tuple(_series(group) for group in groups.values())
 
 
 def _series(rows: Sequence[Mapping[str, str]]) -> SizeSeries:
     first = rows[0]
     words = {"ground": first["soil"], "wheel": first["wheel"], "motion": first["motion"]}
     made = [
-        Row(row["series"], row["ground"], "", row["wheel"], float(row["size"]), row["domain"], row["seed"], *_values(row), 0.0, "")
+        Row(row["series"], row["ground"], "", row["wheel"], float(row["size"]), row["domain"], row["seed"], *_values(row),
+            float(row["cpu_time"]), "")
         for row in rows
-    ]
-    return SizeSeries(first["series"], words, float(first["width"]), Family(made))
+    ]  # fmt: skip
+    return SizeSeries(first["series"], words, float(first["width"]), Family(made), float(first["radius"]), first["scheme"])
 
 
 def _values(row: Mapping[str, str]) -> tuple[float, float, float, float]:
@@ -108,11 +117,16 @@ def _values(row: Mapping[str, str]) -> tuple[float, float, float, float]:
 
 
 @lru_cache(maxsize=2)
-def read_scheme(path: Path) -> dict[tuple[str, str], tuple[float, str]]:
+def read_scheme(path: Path) -> Scheme:
     """(part, "sinkage" or "coefficient") -> error and what was changed. @raises ResultsError"""
     with content_of(path, REMEDY):
-        columns = (("sinkage", "depth"), ("coefficient", "coefficient"))
-        return {(r["part"], key): (float(r[column]), r["what"]) for r in read_rows(path) for key, column in columns}
+        return scheme_of(read_rows(path))
+
+
+def scheme_of(rows: Iterable[Mapping[str, str]]) -> Scheme:
+    """Of rows of scheme.csv. @raises ValueError"""
+    columns = (("sinkage", "depth"), ("coefficient", "coefficient"))
+    return {(row["part"], key): (float(row[column]), row["what"]) for row in rows for key, column in columns}
 
 
 @lru_cache(maxsize=2)
@@ -142,28 +156,36 @@ def _validation(name: str) -> Path | None:
     return path if path and path.is_file() else None
 
 
-def like_wheels(run: WheelRun, case: Case, key: str) -> Budget:
-    """Size, packing, step and contact by the nearest series: of a depth relative."""
-    path, scheme = _validation(SIZES), _validation(SCHEME)
-    near = [one for one in read_series(path) if one.family.key.ground == run.ground] if path else []
-    if not near or not math.isfinite(run.size):
+def of_like_wheels(run: WheelRun, case: Case, key: str) -> Budget:
+    sizes, scheme = _validation(SIZES), _validation(SCHEME)
+    soil = run.results.styles().of_kind("terrain")
+    known = read_series(sizes) if sizes else ()
+    ratio = run.size / run.number("wheel_width")
+    return like_wheels(known, read_scheme(scheme) if scheme else {}, run.ground, ratio, case, key, soil.number("particles", 2) if soil else 2)
+
+
+def like_wheels(
+    known: Sequence[SizeSeries], scheme: Scheme, ground: str, size_over_width: float, case: Case, key: str, particles: float = 2
+) -> Budget:
+    """Size, packing, step and contact by the nearest series: of a depth relative. particles: of a cell in each direction"""
+    near = [one for one in known if one.family.key.ground == ground]
+    if not near or not math.isfinite(size_over_width):
         return Budget()
     least = min(one.distance(case) for one in near)
     near = [one for one in near if one.distance(case) == least]
-    pairs = np.array([one.errors(key, run.size / run.number("wheel_width")) for one in near])
+    pairs = np.array([one.errors(key, size_over_width) for one in near])
     size, packing = (_rms(column) * math.hypot(1.0, least) for column in pairs.T)
     far = " of other wheels" if least else ""
     from_ = f"{', '.join(one.name for one in near)}{far}"
     sources = {"size": from_, "packing": from_ if packing else "a continuum has none"}
     found = Budget(size=size, packing=packing, sources=sources)
-    if run.ground == "continuum" and scheme:
+    if ground == "continuum" and scheme:
         for part in ("step", "contact"):
-            error, what = read_scheme(scheme)[part, key]
+            error, what = scheme[part, key]
             found = replace(found, **{part: error}, sources={**found.sources, part: f"convergence: {what}"})
-        particles, what = read_scheme(scheme)["size", key]
-        soil = run.results.styles().of_kind("terrain")
-        if not soil or soil.number("particles", 2) < 3:
-            found = replace(found, size=math.hypot(found.size, particles), sources={**found.sources, "size": f"{from_}; {what}"})
+        error, what = scheme["size", key]
+        if particles < 3:
+            found = replace(found, size=math.hypot(found.size, error), sources={**found.sources, "size": f"{from_}; {what}"})
     return found
 
 
@@ -209,7 +231,7 @@ class _Parts:
     def _parts(self, name: str, value: SteadyValue) -> Budget:
         key = "sinkage" if name in DEPTHS else "coefficient" if name in COEFFICIENTS else ""
         scale = abs(value.mean) if name in (*DEPTHS, "tyre_deflection") else 1.0
-        parts = like_wheels(self.run, self.case, key).scaled(scale) if key else Budget()
+        parts = of_like_wheels(self.run, self.case, key).scaled(scale) if key else Budget()
         sides = width_of_ground(self.run, self.case, key).scaled(scale) if key else Budget()
         parts = replace(parts, domain=sides.domain, sources={**parts.sources, **sides.sources})
         parts = self._of_no_random(parts)

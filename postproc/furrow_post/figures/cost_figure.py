@@ -2,7 +2,6 @@
 """The figure of errors against cost."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -28,51 +27,6 @@ def draw_cost(rows: Sequence[Row], target: Path) -> None:
         _draw_convergence(axes, rows, quantity, colours)
         annotate_panel(axes, letter, f"{quantity.name} over the size")
     panels[1].legend(fontsize=8)
-    save(figure, target)
-
-
-@dataclass(frozen=True)
-class Answer:
-    """What one run of a ground model gives for a quantity."""
-
-    model: str
-    label: str  # next to its mark
-    cpu_time: float  # [s]
-    value: float
-    error: float  # numerical standard error; NaN: not estimated
-
-
-def draw_models(
-    answers: Sequence[Answer], reference: tuple[float, float], quantity: str, target: Path
-) -> None:
-    """Differences of models from a reference value with its standard error, against cost."""
-    use_style()
-    value, error = reference
-    figure, axes = plt.subplots(figsize=(7, 4.2), layout="constrained")
-    axes.axhspan(-100 * error / value, 100 * error / value, color="0.92", label="error of the reference")
-    axes.axhline(0.0, color="0.6", lw=0.8)
-    for k, model in enumerate(dict.fromkeys(a.model for a in answers)):
-        own = [a for a in answers if a.model == model]
-        costs = [a.cpu_time for a in own]
-        differences = [100 * (a.value / value - 1.0) for a in own]
-        known = np.isfinite([a.error for a in own]).any()
-        bars = [100 * a.error / value for a in own] if known else None
-        axes.errorbar(
-            costs,
-            differences,
-            yerr=bars,
-            fmt="o",
-            capsize=3,
-            elinewidth=1,
-            color=RUN_COLOURS[k],
-            label=model,
-        )
-        offset = (6, 4 - 8 * (k % 3))
-        for a, cost, difference in zip(own, costs, differences):
-            axes.annotate(a.label, (cost, difference), offset, textcoords="offset points", fontsize=8)
-    axes.set(xscale="log", xlabel="CPU time of one core [s]", ylabel=f"{quantity}: difference [%]")
-    axes.margins(0.1)
-    axes.legend(fontsize=8)
     save(figure, target)
 
 

@@ -15,7 +15,7 @@ from furrow_post.analyse import convergence, model_error, whole_error
 from furrow_post.analyse.budget import Budget, rounded
 from furrow_post.analyse.cost_table import FamilyKey, families
 from furrow_post.analyse.model_error import Case, Test, leave_one_study_out, read_tests, regimes_of
-from furrow_post.analyse.whole_error import budgets, case_of, headline, like_wheels, report
+from furrow_post.analyse.whole_error import budgets, case_of, headline, of_like_wheels, report
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.figures.histories import draw_histories
@@ -123,11 +123,11 @@ class RunTest(FolderTest):
         near = [s for s in whole_error.read_series(VALIDATION / "sizes.csv") if s.name.startswith("convergence: sand")]
         expected = [s.family.components("coefficient", 0.06).size for s in near]
         particles = whole_error.read_scheme(VALIDATION / "scheme.csv")["size", "coefficient"][0]
-        found = like_wheels(run, case, "coefficient").size
+        found = of_like_wheels(run, case, "coefficient").size
         self.assertAlmostEqual(found, math.hypot(math.sqrt(np.mean(np.square(expected))), particles))
 
     def test_cells_beyond_those_of_the_series_have_larger_errors(self) -> None:
-        errors = [like_wheels(run, case_of(run), "sinkage").size for run in map(self.on_sand, (0.0588, 0.12))]
+        errors = [of_like_wheels(run, case_of(run), "sinkage").size for run in map(self.on_sand, (0.0588, 0.12))]
         self.assertGreater(errors[1], 1.5 * errors[0])
 
     def test_every_part_has_a_source_and_the_whole_is_no_smaller(self) -> None:

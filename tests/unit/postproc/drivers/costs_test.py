@@ -4,12 +4,10 @@
 import shlex
 import math
 import unittest
-from pathlib import Path
 from typing import Any
 
 from furrow_post.analyse import cost_table
-from furrow_post.csv_table import rows_text
-from furrow_post.scene.catalogue import script_of
+from furrow_post.csv_table import read_rows
 from furrow_post.study.definition import evaluation_of
 from support.command import SOURCE
 
@@ -19,7 +17,7 @@ driver: Any = evaluation_of(FOLDER)
 
 class CostsTest(unittest.TestCase):
     def test_every_table_is_of_the_listed_runs(self) -> None:
-        tables = {path.stem for path in FOLDER.glob("*.csv")} - {"runs", "models", "provenance", Path(driver.MODELS).stem}
+        tables = {path.stem for path in FOLDER.glob("*.csv")} - {"runs", "models", "provenance"}
         self.assertEqual(tables, set(driver.TABLES))
         for table in driver.TABLES:
             with self.subTest(table=table):
@@ -37,22 +35,16 @@ class CostsTest(unittest.TestCase):
                     parts = family.components("sinkage", family.bases[-1].size, 0.0)
                     self.assertTrue(all(map(math.isfinite, parts.numerical())), parts)
 
-    def test_errors_of_the_models_are_those_of_the_cross_check(self) -> None:
-        table, rows = FOLDER / driver.MODELS, driver.model_errors(*driver.hub_drops())
-        self.assertEqual(table.read_text(encoding="utf-8"), rows_text(rows, driver.MODELS_HEAD))
+    def test_the_cheapest_run_within_the_asked_error_is_marked(self) -> None:
+        rows = read_rows(FOLDER.parent / "validation" / "speed.csv")
+        self.assertEqual(len({row["kind"] for row in rows}), 3)
+        self.assertLessEqual({"continuum", "grains", "hybrid", "terrain/scm", "formula"}, {row["ground"] for row in rows})
         for row in rows:
-            with self.subTest(run=row["run"], ground=row["ground"]):
-                scene = shlex.split(str(row["options"]))[0].replace("{inputs}", str(FOLDER.parent))
-                self.assertTrue(scene == "furrow-post" or script_of(scene).is_file())
-
-    def test_models_are_compared_with_the_finest_continuum(self) -> None:
-        answers, (value, error) = driver.hub_drops()
-        self.assertEqual(
-            {a.model for a in answers}, {"formula", "terrain/scm", "continuum", "grains", "hybrid"}
-        )
-        finest = max((a.cpu_time, a.value) for a in answers if a.model == "continuum")
-        self.assertEqual(finest[1], value)
-        self.assertAlmostEqual(error / value, 0.17, places=2)
+            self.assertGreaterEqual(float(row["whole"]), float(row["numerical"] or 0.0), row)
+            marked = [row[name] == "yes" for name in ("best", "asked")]
+            self.assertFalse(any(marked) and row["scheme"] == "older", row)
+            within = [o for o in rows if o["kind"] == row["kind"] and o["scheme"] == "present" and float(o["whole"]) <= 0.3]
+            self.assertEqual(row["asked"] == "yes", row == min(within, key=lambda o: float(o["core_minutes"])), row)
 
     def test_options_are_those_of_the_run(self) -> None:
         offered = next(row for row in driver.PLANNED if row["offered"] == "yes")

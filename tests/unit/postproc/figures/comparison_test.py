@@ -10,7 +10,7 @@ import numpy as np
 
 from furrow_post.analyse.comparison import compare
 from furrow_post.figures.comparison_figure import draw_comparison
-from furrow_post.figures.cost_figure import Answer, draw_cost, draw_models
+from furrow_post.figures.cost_figure import draw_cost
 from furrow_post.figures.style import panel_letters
 from furrow_post.read.wheel_run import read_wheel_run
 from support.folder import FolderTest
@@ -59,16 +59,6 @@ class CostFigureTest(FolderTest):
     def test_table_without_a_known_error_is_drawn(self) -> None:
         target = self.folder / "cost.png"
         draw_cost([row("a", "grains", 0.04, 0.1, 0.2, 1.0)], target)
-        self.assertGreater(target.stat().st_size, 10000)
-
-    def test_models_with_and_without_a_numerical_error_are_drawn(self) -> None:
-        answers = [
-            Answer("formula", "", 0.4, 0.05, float("nan")),
-            Answer("continuum", "50 mm", 20.0, 0.07, 0.01),
-            Answer("continuum", "40 mm", 40.0, 0.08, 0.01),
-        ]
-        target = self.folder / "models.png"
-        draw_models(answers, (0.08, 0.01), "hub drop", target)
         self.assertGreater(target.stat().st_size, 10000)
 
 
