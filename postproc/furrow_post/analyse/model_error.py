@@ -5,10 +5,12 @@ A test is one measured comparison, or a group of which only rms and mean are kno
 less measured, over the computed value for depths, deflections and loads of plates, else absolute. e is the
 standard error of both values. Of a regime
 
-    model error^2 = mean over studies of [mean over tests of (difference^2 - e^2)],
+    model error^2 = (t/2)^2 mean over studies of [mean over tests of (difference^2 - e^2)],
 
-not below a quarter of the mean of difference^2: tests of one study share soil and rig. A case at the distance d
-from the nearest tests has the error of these times sqrt(1 + d^2). d^2 is the sum of the squares of MISMATCH for
+not below a quarter of the mean of difference^2. Tests of one study share soil and rig: n of them count as
+1/(r^2 + (1 - r^2)/n) independent ones, where r is the correlation of two tests of a study. Studies weigh by this number.
+t is Student's for their sum, such that two errors hold 95 % also where few tests are independent. A case at the distance
+d from the nearest tests has the error of these times sqrt(1 + d^2). d^2 is the sum of the squares of MISMATCH for
 each word that differs, and of (how far a number is outside of that of the tests)/SCALES. Beyond FARTHEST it is unknown.
 """
 
@@ -18,6 +20,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
+
+from scipy.special import stdtrit
 
 from ..csv_table import read_rows
 from ..errors import content_of
@@ -29,6 +33,7 @@ SCALES = {"slip": 0.2, "slip_angle": 20.0, "slope": 10.0, "sinkage": math.log(2)
 LOGARITHMIC = ("sinkage", "radius")
 FARTHEST = 3.0
 LEAST_SHARE = 0.25  # of the mean square of the differences
+UPPER = 0.97725  # below mean and two standard deviations of a normal distribution
 TABLE, TESTS = "model_errors.csv", "measured.csv"  # of inputs/validation: regimes, and the tests of which they are made
 # Quantities of a run -> quantity of the tests; a rigid wheel's depths have one name
 OF_RUN = {
@@ -106,6 +111,7 @@ class Regime:
     studies: tuple[str, ...]
     bias: float
     scatter: float  # about the bias
+    independent: float  # number of independent tests
     model: float
 
     def distance(self, case: Case) -> float:
@@ -148,36 +154,61 @@ def regimes_of(tests: Iterable[Test]) -> list[Regime]:
     for test in tests:
         key = (test.quantity, *(getattr(test.case, name) for name in MISMATCH), test.case.slope > 0)
         groups.setdefault(key, []).append(test)
-    return [_regime(group) for group in groups.values()]
+    alike = correlation([_studies(group) for group in groups.values()])
+    return [_regime(group, alike) for group in groups.values()]
 
 
-def _regime(tests: Sequence[Test]) -> Regime:
-    first, count = tests[0], sum(test.tests for test in tests)
-    squares = _mean_over_studies(tests, lambda test: test.difference**2)
-    noise = _mean_over_studies(tests, lambda test: test.error**2)
+def _studies(tests: Sequence[Test]) -> list[list[Test]]:
+    return [[test for test in tests if test.study == study] for study in dict.fromkeys(test.study for test in tests)]
+
+
+def correlation(regimes: Iterable[Sequence[Sequence[Test]]]) -> float:
+    """Of two tests of a study: share of the bias of studies in the mean square. 1 where no study shows it.
+
+    regimes: tests by study; each counts over its own mean square
+    """
+    biases, squares = 0.0, 0.0
+    for studies in regimes:
+        of_regime = sum(_mean(study, lambda test: test.difference**2) for study in studies) / len(studies)
+        for tests in studies:
+            count, square, bias = _count(tests), _mean(tests, lambda test: test.difference**2), _mean(tests, lambda test: test.bias)
+            if count > 1 and of_regime > 0 and math.isfinite(bias):
+                biases += (bias**2 - (square - bias**2) / (count - 1)) / of_regime
+                squares += square / of_regime
+    return min(max(biases / squares, 0.0), 1.0) if squares else 1.0
+
+
+def _regime(tests: Sequence[Test], alike: float) -> Regime:
+    first, studies = tests[0], _studies(tests)
+    weights = [1.0 / (alike**2 + (1.0 - alike**2) / _count(study)) for study in studies]
+    independent = sum(weights)
+    squares, noise = (
+        sum(weight * _mean(study, value) for weight, study in zip(weights, studies)) / independent
+        for value in (lambda test: test.difference**2, lambda test: test.error**2)
+    )
+    few = float(stdtrit(independent, UPPER)) / 2.0
     known = [test for test in tests if math.isfinite(test.bias)]
-    number = sum(test.tests for test in known)
-    bias = sum(test.tests * test.bias for test in known) / number if number else math.nan
-    mean_square = sum(test.tests * test.difference**2 for test in known) / number if number else math.nan
+    bias = _mean(known, lambda test: test.bias)
     return Regime(
         first.quantity,
         {name: getattr(first.case, name) for name in MISMATCH},
         {name: _range([getattr(test.case, name) for test in tests]) for name in SCALES},
-        count,
-        tuple(dict.fromkeys(test.study for test in tests)),
+        _count(tests),
+        tuple(study[0].study for study in studies),
         bias,
-        math.sqrt(max(mean_square - bias**2, 0.0)),
-        math.sqrt(max(squares - noise, LEAST_SHARE * squares)),
+        math.sqrt(max(_mean(known, lambda test: test.difference**2) - bias**2, 0.0)) if known else math.nan,
+        independent,
+        few * math.sqrt(max(squares - noise, LEAST_SHARE * squares)),
     )
 
 
-def _mean_over_studies(tests: Sequence[Test], value: Callable[[Test], float]) -> float:
-    studies = dict.fromkeys(test.study for test in tests)
-    means = []
-    for study in studies:
-        own = [test for test in tests if test.study == study]
-        means.append(sum(test.tests * value(test) for test in own) / sum(test.tests for test in own))
-    return sum(means) / len(means)
+def _count(tests: Sequence[Test]) -> int:
+    return sum(test.tests for test in tests)
+
+
+def _mean(tests: Sequence[Test], value: Callable[[Test], float]) -> float:
+    """NaN of none."""
+    return sum(test.tests * value(test) for test in tests) / _count(tests) if tests else math.nan
 
 
 def _range(values: Iterable[float]) -> tuple[float, float]:
@@ -293,7 +324,7 @@ def regime_rows(tests: Iterable[Test]) -> list[dict[str, object]]:
     for regime in regimes_of(tests):
         row: dict[str, object] = {"quantity": regime.quantity, **regime.words, "tests": regime.tests}
         row |= {"studies": " ".join(regime.studies)}
-        row |= {name: _cell(getattr(regime, name)) for name in ("bias", "scatter", "model")}
+        row |= {name: _cell(getattr(regime, name)) for name in ("bias", "scatter", "independent", "model")}
         for name, ends in regime.ranges.items():
             row |= {f"{name}_{end}": _cell(value) for end, value in zip(("low", "high"), ends)}
         rows.append(row)
@@ -313,7 +344,7 @@ def read_regimes(path: Path) -> tuple[Regime, ...]:
 
 def _read_regime(row: Mapping[str, str]) -> Regime:
     ranges = {name: (_number(row[f"{name}_low"]), _number(row[f"{name}_high"])) for name in SCALES}
-    numbers = [_number(row[name]) for name in ("bias", "scatter", "model")]
+    numbers = [_number(row[name]) for name in ("bias", "scatter", "independent", "model")]
     words = {name: row[name] for name in MISMATCH}
     return Regime(row["quantity"], words, ranges, int(row["tests"]), tuple(row["studies"].split()), *numbers)
 
