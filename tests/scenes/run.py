@@ -7,6 +7,7 @@
     run.py sweep <results>                      the page of sweeps, one of them killed and resumed
     run.py until_steady <results>               a run that goes on until it is steady
     run.py error <results>                      plans for an error and for a time, and what limits them
+    run.py material <results>                   a scene over the standard errors of its soil card, and a later run that takes them
     run.py converge <results>                   two sizes of a scene, and a later run that takes their error
     run.py usage                                the list of scenes, and what inputs/run refuses
 
@@ -283,6 +284,24 @@ def converge(results):
         sys.exit(f"the later run has {part} m of cells, not {bound}:\n{said}")
 
 
+def material(results):
+    """Each parameter of a soil card by its standard error; a later run with this card takes the error of its soil from it."""
+    folder = empty(results)
+    given = ["-v", "use_card", "1", "-v", "card", "../soils/dry_sand_smooth.yaml", "-v", "distance", "0.5", "-v", "vtk", "0"]
+    said = run([sys.executable, PROJECT / "postproc" / "furrow-post", "converge", "wheel_on_scm", *given, "--material", "-o", folder / "varied"],
+               folder=folder)
+    parts = json.loads((folder / "wheel_on_scm.material.json").read_text())["parts"]
+    drop, pull = parts["hub_drop"], parts["net_traction_coefficient"]
+    # Bekker: with n and the pressure held, z ~ k^(-1/n), so that k_c and k_phi deepen no rut where they grow; a larger phi pulls more
+    if not drop["pressure_sinkage.k_phi"] < -0.02 < 0.05 < drop["pressure_sinkage.n"] or not 0.01 < pull["shear.phi"] < 0.05:
+        sys.exit(f"the card changes {parts}:\n{said}")
+    said = inputs_run("wheel_on_scm", *given, "-v", "cell", "0.016", "--no-pictures", "-o", folder / "later")
+    later = json.loads((folder / "later" / "budget.json").read_text())["net_traction_coefficient"]
+    whole = np.sqrt(sum(change**2 for change in pull.values()))
+    if abs(later["parts"]["material"] / whole - 1) > 1e-6 or "material: wheel_on_scm.material.json: pressure_sinkage.k_c, " not in said:
+        sys.exit(f"the later run has {later['parts']}, not {whole} of the card:\n{said}")
+
+
 def refused(words):
     """(status, what is said) of the program that inputs/run becomes."""
     said = io.StringIO()
@@ -329,5 +348,5 @@ def usage():
 
 if __name__ == "__main__":
     tests = {"scene": scene, "two_grounds": two_grounds, "laboratory": laboratory, "usage": usage,
-             "sweep": sweep, "until_steady": until_steady, "error": error, "converge": converge}
+             "sweep": sweep, "until_steady": until_steady, "error": error, "converge": converge, "material": material}
     tests[sys.argv[1]](*sys.argv[2:])

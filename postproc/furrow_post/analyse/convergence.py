@@ -57,14 +57,15 @@ def of_runs(path: Path, script: Path, runs: Sequence[WheelRun], names: Sequence[
     """Of runs that differ in size alone. @raises ResultsError for fewer than two sizes"""
     if len({run.size for run in runs}) < 2:
         raise ResultsError(f"{path.name}: convergence needs runs of at least two sizes, three for an order")
-    table = [_values(run, names) for run in runs]
+    table = [values_of(run, names) for run in runs]
     kept = [name for name in names if all(name in row for row in table)]
     quantities = {name: [row[name] for row in table] for name in kept}
     sizes, times = (tuple(getattr(run, name) for run in runs) for name in ("size", "cpu_time"))
     return SceneConvergence(path, digest(script), runs[0].ground, sizes, quantities, times)
 
 
-def _values(run: WheelRun, names: Sequence[str]) -> dict[str, tuple[float, float]]:
+def values_of(run: WheelRun, names: Sequence[str]) -> dict[str, tuple[float, float]]:
+    """Value and its error over time."""
     summary = Summary(run.folder)
     found = {name: run.values.get(name) or summary.quantity(name) for name in names}
     return {name: (value.mean, value.standard_error) for name, value in found.items() if value}
@@ -82,20 +83,19 @@ def read_convergence(path: Path) -> SceneConvergence:
         return SceneConvergence(path, str(content["script"]), str(content["ground"]), sizes, quantities, times)
 
 
-def places(script: Path, results: Path) -> list[Path]:
+def places(script: Path, results: Path, ending: str = ENDING) -> list[Path]:
     """Where the convergence of a scene may be: next to its script, and next to its results."""
-    name = script.stem + ENDING
+    name = script.stem + ending
     return [script.parent / name, results.resolve().parent / name]
+
+
+def place_of(script: Path, results: Path, ending: str) -> Path | None:
+    return next((path for path in places(script, results, ending) if script.is_file() and path.is_file()), None)
 
 
 def convergence_of(run: WheelRun) -> SceneConvergence | None:
     """Of the scene of a run; None where there is none, or the script has changed since."""
     script = Path(str(run.results.run.get("script", "")))
-    if not script.is_file():
-        return None
-    for path in places(script, run.folder):
-        if path.is_file():
-            found = read_convergence(path)
-            if found.script == digest(script) and found.ground == run.ground:
-                return found
-    return None
+    path = place_of(script, run.folder, ENDING)
+    found = read_convergence(path) if path else None
+    return found if found and found.script == digest(script) and found.ground == run.ground else None

@@ -14,6 +14,7 @@ from ..formatting import in_unit
 from ..whole_file import replaced
 from .fitter import PARTNER, Fitted
 from .law_fit import LawFit
+from .material_error import BESIDE
 from .point_curves import PointCurves
 
 CORRELATED = 0.95  # two parameters are reported together from this on
@@ -85,12 +86,16 @@ def _row(fitted: Fitted) -> str:
 
 
 def write_fit(point: PointCurves, fit: LawFit, folder: Path) -> None:
-    """material.yaml with the fitted values, report.txt, fit.csv and fit.h5. @raises OSError"""
+    """material.yaml with the fitted values, their standard errors, report.txt, fit.csv and fit.h5. @raises OSError"""
     folder.mkdir(parents=True, exist_ok=True)
     texts = {"material.yaml": point.material_file(fit.values), "report.txt": report(point, fit)}
     for name, text in texts.items():
         with replaced(folder / name) as part:
             part.write_text(text, encoding="utf-8")
+    errors = [{"parameter": one.parameter.name, "error": one.deviation} for one in fit.parameters if one.determined and math.isfinite(one.deviation)]
+    if errors:
+        with replaced(folder / f"material{BESIDE}") as part:
+            write_rows(part, errors, [f"# Standard errors of material.yaml: {point.title}"])
     comments = [f"# {point.title} (furrow {__version__})"] + [
         f"# curve {number}: {curve.name}; driven: {curve.driven_by}; compared: {curve.channel}"
         for number, curve in enumerate(point.curves)

@@ -25,6 +25,7 @@ from ..run.summary import BUDGET, SteadyValue, Summary
 from .budget import IMPOSED, Budget
 from .convergence import convergence_of
 from .cost_table import Family, FamilyKey, Row
+from .material_error import material_error_of
 from .model_error import MISMATCH, OF_RUN, RELATIVE, TESTS, Case, ModelError, Test, known_regimes, model_error, read_tests
 
 Families = Mapping[FamilyKey, Family]
@@ -216,6 +217,7 @@ class _Parts:
         self.run, self.case = run, case_of(run)
         self.family = families.get(FamilyKey(run.ground, run.model, run.wheel))
         self.stored = convergence_of(run)
+        self.soil = material_error_of(run)
         self.load = abs(run.values["force_z"].mean)
         self.regimes = known_regimes() if run.ground != "scm" else ()
 
@@ -234,7 +236,7 @@ class _Parts:
         parts = of_like_wheels(self.run, self.case, key).scaled(scale) if key else Budget()
         sides = width_of_ground(self.run, self.case, key).scaled(scale) if key else Budget()
         parts = replace(parts, domain=sides.domain, sources={**parts.sources, **sides.sources})
-        parts = self._of_no_random(parts)
+        parts = self._of_material(self._of_no_random(parts), name, value)
         parts = self._of_scene(parts, name, value, key)
         parts = replace(parts, time=value.standard_error, held=self._held(name, value))
         model = self.model(name)
@@ -257,6 +259,12 @@ class _Parts:
         if road or self.run.ground in GROUNDS_OF_CELLS:
             parts = replace(parts, packing=0.0)
         return replace(parts, domain=0.0) if road else parts
+
+    def _of_material(self, parts: Budget, name: str, value: SteadyValue) -> Budget:
+        error = self.soil.error(name, value.mean) if self.soil else None
+        if self.soil is None or error is None:
+            return parts
+        return replace(parts, material=error, sources={**parts.sources, "material": self.soil.source})
 
     def _of_scene(self, parts: Budget, name: str, value: SteadyValue, key: str) -> Budget:
         """Of the runs of this scene in other sizes, where there are any."""

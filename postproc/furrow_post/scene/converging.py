@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Convergence of a scene: runs in several sizes of its cells or grains, stored for all its later runs."""
+"""What sizes of cells or grains, and the intervals of the soil, change in a scene: stored for all its later runs."""
 
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..analyse.convergence import SceneConvergence, of_runs, places
+from ..analyse.convergence import RELATIVE, SceneConvergence, of_runs, places, values_of
+from ..analyse.material_error import ENDING, SceneMaterial, found_file, require_intervals, varied_text
 from ..errors import ResultsError
 from ..formatting import duration
 from ..read.wheel_run import cells_or_grains, read_wheel_run
+from ..run.record import digest
 from ..run.script import RESERVED, check_variables, script_variables
 from ..study.tables import in_columns
 from .catalogue import Variables, is_shipped, script_of
 from .one import SceneRun, run_missing, words_of
 
+COARSER = 1.6  # sizes of a pilot over those of the scene
 SIZES = ("cell", "diameter")  # variables that set the size of cells and of grains
 KEPT = (
     "hub_drop", "rut_depth", "tyre_deflection", "resistance_coefficient", "net_traction_coefficient", "drive_torque",
@@ -42,6 +45,49 @@ def converge(scene: str, given: Variables, ratio: float, count: int, folder: Pat
     found = of_runs(path, script, [read_wheel_run(run.folder) for run in runs], KEPT)
     found.write()
     return found
+
+
+def vary_material(scene: str, given: Variables, folder: Path, jobs: int) -> SceneMaterial:
+    """Runs the scene in coarser cells, and again with each parameter of its card or material larger by its standard error.
+
+    @raises ResultsError, Interrupted, Failed
+    """
+    script = script_of(scene)
+    for warning in check_variables(script, given, RESERVED):
+        print(f"WARNING: {warning}")
+    known = {**script_variables(script, dict(given)).defaults, **dict(given)}
+    files = {name: path for name, text in known.items() if text.endswith(".yaml") and (path := found_file(text, script))}
+    variable, file, parameters = require_intervals(files)
+    sizes = {name: size for name, size in sizes_of(script, given).items() if name not in dict(given)}
+    fixed = [*((name, f"{COARSER * size:.6g}") for name, size in sizes.items()), *(pair for pair in given if pair[0] != variable)]
+    folder.mkdir(parents=True, exist_ok=True)
+    runs = [SceneRun(script, folder / "base", [*fixed, (variable, str(file.resolve()))])]
+    for one in parameters:
+        varied = folder / f"{one.name}.yaml"
+        varied.write_text(varied_text(file, one), encoding="utf-8")
+        runs.append(SceneRun(script, folder / one.name, [*fixed, (variable, str(varied.resolve()))]))
+    run_missing(folder, runs, jobs)
+    base, *others = [values_of(read_wheel_run(run.folder), KEPT) for run in runs]
+    scales = {name: abs(value) if name in RELATIVE and value else 1.0 for name, (value, _) in base.items()}
+    parts = {
+        name: {one.name: (other[name][0] - base[name][0]) / scale for one, other in zip(parameters, others) if name in other}
+        for name, scale in scales.items()
+    }
+    own, results = places(script, folder, ENDING)
+    made = SceneMaterial(results if is_shipped(script) else own, digest(script), file.name, digest(file), parts)
+    made.write()
+    return made
+
+
+def material_table(made: SceneMaterial) -> str:
+    """Change of each quantity by each parameter, and the whole."""
+    names = list(next(iter(made.parts.values())))
+    rows: list[Sequence[str]] = [["change by one standard error", *names, "all"]]
+    for quantity, changes in made.parts.items():
+        percent = quantity in RELATIVE
+        cells = [*changes.values(), made.error(quantity, 1.0) or 0.0]
+        rows.append([quantity.replace("_", " "), *(f"{100 * cell:.2g} %" if percent else f"{cell:.2g}" for cell in cells)])
+    return "\n".join(line.rstrip() for line in in_columns(rows))
 
 
 def sizes_of(script: Path, given: Variables) -> dict[str, float]:

@@ -21,10 +21,9 @@ from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun, read_wheel_run
 from ..run.script import script_variables
 from ..run.summary import Summary
 from .catalogue import Variables
-from .converging import sizes_of
+from .converging import COARSER, sizes_of
 from .one import SceneRun, run_missing
 
-COARSER = 1.6  # sizes of the pilot over those of the scene
 STEPS = tuple(1.26**k for k in range(-4, 5))  # sizes that are tried, over those of the scene
 LENGTHS = ("distance", "travel")  # variables of the travel [m]
 LONGER = (1.0, 2.0, 4.0)

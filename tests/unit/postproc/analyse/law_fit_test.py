@@ -18,6 +18,7 @@ import yaml
 from furrow_post.analyse.fitter import Fitted, NotComputed, Parameter
 from furrow_post.analyse.law_fit import Curve, LawFit, fit_law
 from furrow_post.analyse.law_fit_report import report
+from furrow_post.analyse.material_error import intervals
 from furrow_post.analyse.point_curves import PointCurves
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_columns
@@ -271,6 +272,9 @@ class ShippedFitsTest(FolderTest):
             slope = content["parameters/hardening.lambda"].attrs
             self.assertEqual(float(material["hardening"]["pc0"]), pc0["value"])
             self.assertEqual((pc0["determined"], slope["determined"]), (1.0, 0.0))
+            (interval,) = intervals(results / "material.yaml")  # of what the data determine alone
+            self.assertEqual((interval.name, interval.value), ("hardening.pc0", pc0["value"]))
+            self.assertAlmostEqual(interval.error / pc0["deviation"], 1.0)
         self.assertEqual(sorted(results.glob("*.part")), [])
 
     def test_a_law_that_misses_the_data_by_more_than_two_deviations_is_reported(self) -> None:

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the intervals of a soil card or a material file change in a scene, as 'furrow-post converge --material' stores it.
+
+A soil card has a standard error with each parameter. A material file NAME.yaml has them in NAME.errors.csv, which
+'furrow-post fit law' writes: `law.beta,0.6`. Of a file with a base, errors are those of the base too.
+"""
+
+import json
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from ..csv_table import read_rows
+from ..errors import ResultsError, content_of
+from ..json_text import parse_json
+from ..read.wheel_run import WheelRun
+from ..run.record import digest
+from .convergence import RELATIVE, place_of
+
+BESIDE = ".errors.csv"  # instead of the ending of a material file
+ENDING = ".material.json"  # behind the stem of the scene's script
+OF_CARD = ("pressure_sinkage", "shear")  # sections that a height field reads
+REMEDY = "write it again with 'furrow-post converge SCENE --material'"
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A parameter of a file with its standard error."""
+
+    keys: tuple[str | int, ...]  # where it is in the file
+    value: float
+    error: float
+
+    @property
+    def name(self) -> str:
+        return ".".join(str(key) for key in self.keys if key != "value")
+
+
+def intervals(file: Path) -> list[Interval]:
+    """Of a soil card or a material file; none where it has none. @raises ResultsError"""
+    content = _content(file)
+    if OF_CARD[0] in content:
+        sections = ((name, key, entry) for name in OF_CARD for key, entry in content.get(name, {}).items())
+        found = [Interval((name, key, "value"), float(e["value"]), float(e["error"])) for name, key, e in sections if isinstance(e, dict)]
+        return [one for one in found if one.error > 0 and one.keys[1] != "speed_stress"]
+    merged, errors = _merged(file), _errors(file)
+    return [Interval(keys, float(_at(merged, keys)), error) for keys, error in errors.items()]
+
+
+def varied_text(file: Path, interval: Interval) -> str:
+    """The file with one parameter larger by its standard error."""
+    content = _content(file) if OF_CARD[0] in _content(file) else _merged(file)
+    section: Any = content
+    for key in interval.keys[:-1]:
+        section = section[key]
+    section[interval.keys[-1]] = interval.value + interval.error
+    head = str(interval.keys[0])
+    if isinstance(content.get("contact"), str):
+        content["contact"] = str((file.parent / content["contact"]).resolve())
+    kept = content if OF_CARD[0] in content else {"base": str(file.resolve()), head: content[head]}
+    return str(yaml.safe_dump(kept, sort_keys=False))
+
+
+def _content(file: Path) -> dict[str, Any]:
+    with content_of(file, "a soil card or a material file is YAML, inputs/guide/soil_files.md"):
+        return dict(yaml.safe_load(file.read_text(encoding="utf-8")))
+
+
+def _merged(file: Path) -> dict[str, Any]:
+    """With its bases, section by section, as Furrow reads it."""
+    own = _content(file)
+    merged = _merged(file.parent / str(own["base"])) if "base" in own else {}
+    for name, section in own.items():
+        below = merged.get(name)
+        same = isinstance(section, dict) and isinstance(below, dict) and section.get("type", below.get("type")) == below.get("type")
+        merged[name] = {**below, **section} if same and below else section
+    return merged
+
+
+def _errors(file: Path) -> dict[tuple[str | int, ...], float]:
+    """Keys of a parameter -> standard error, with those of the bases."""
+    own = _content(file)
+    found = _errors(file.parent / str(own["base"])) if "base" in own else {}
+    beside = file.with_suffix(BESIDE)
+    if beside.is_file():
+        with content_of(beside, "it has the columns parameter and error, as 'furrow-post fit law' writes it"):
+            found |= {_keys(row["parameter"]): float(row["error"]) for row in read_rows(beside)}
+    return found
+
+
+def _keys(name: str) -> tuple[str | int, ...]:
+    """ "hardening.p[2]": the second of a list."""
+    parts = re.findall(r"[^.\[\]]+", name)
+    return tuple(int(part) - 1 if part.isdigit() else part for part in parts)
+
+
+def _at(content: Any, keys: Sequence[str | int]) -> Any:
+    for key in keys:
+        content = content[key]
+    return content
+
+
+# ---- stored next to a scene
+
+
+@dataclass(frozen=True)
+class SceneMaterial:
+    """Errors of the quantities of a scene by the intervals of one file: over the value for depths."""
+
+    path: Path
+    script: str  # digest of the scene's script
+    file: str  # name of the card or material
+    digest: str
+    parts: Mapping[str, Mapping[str, float]]  # quantity -> parameter -> change by its standard error
+
+    def error(self, name: str, value: float) -> float | None:
+        """Root sum square over the parameters; None for a quantity that was not kept."""
+        if name not in self.parts:
+            return None
+        square = sum(change**2 for change in self.parts[name].values())
+        return float(square**0.5) * (abs(value) if name in RELATIVE else 1.0)
+
+    @property
+    def source(self) -> str:
+        return f"{self.path.name}: {', '.join(next(iter(self.parts.values()), {}))} of {self.file}"
+
+    def write(self) -> None:
+        content = {name: getattr(self, name) for name in ("script", "file", "digest", "parts")}
+        self.path.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+
+
+def read_material_error(path: Path) -> SceneMaterial:
+    """@raises ResultsError"""
+    with content_of(path, REMEDY):
+        content = parse_json(path.read_text(encoding="utf-8"))
+        parts = {name: {key: float(change) for key, change in one.items()} for name, one in content["parts"].items()}
+        return SceneMaterial(path, str(content["script"]), str(content["file"]), str(content["digest"]), parts)
+
+
+def material_error_of(run: WheelRun) -> SceneMaterial | None:
+    """Of the scene of a run; None where there is none, or the script or the file has changed since."""
+    script = Path(str(run.results.run.get("script", "")))
+    path = place_of(script, run.folder, ENDING)
+    found = read_material_error(path) if path else None
+    soil = next((one for kind in ("terrain", "scm") if (one := run.results.styles().of_kind(kind))), None)
+    keyword = next((key for key in ("material", "card") if soil and soil.has(key)), "")
+    if not found or not soil or not keyword or found.script != digest(script):
+        return None
+    file = found_file(soil.text(keyword), script)
+    return found if file and digest(file) == found.digest else None
+
+
+def found_file(text: str, script: Path) -> Path | None:
+    """A file that a script names, from its folder or from here."""
+    return next((path for path in (script.parent / text, Path(text)) if path.is_file()), None)
+
+
+def require_intervals(files: Mapping[str, Path]) -> tuple[str, Path, list[Interval]]:
+    """The variable, file and intervals of the one file that has some. @raises ResultsError"""
+    known = [(name, file, found) for name, file in files.items() if (found := intervals(file))]
+    if len(known) == 1:
+        return known[0]
+    names = ", ".join(f"{name} {file.name}" for name, file in files.items()) or "no variable is a card or a material file"
+    raise ResultsError(
+        f"{'several files have' if known else 'no file has'} standard errors ({names}); give one with -v: a soil card with errors, or a "
+        "material with NAME.errors.csv next to it"
+    )
