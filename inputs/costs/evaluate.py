@@ -4,7 +4,6 @@
 A table keeps the comments above its rows.
 """
 
-import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -21,15 +20,6 @@ PLANNED = read_rows(HERE / "runs.csv")
 TABLES = tuple(dict.fromkeys(row["table"] for row in PLANNED))
 
 
-def options(row: Mapping[str, str]) -> str:
-    """Scene and options of inputs/run that make this run; empty for one that is not offered."""
-    if row["offered"] != "yes":
-        return ""
-    variables = named_values(row["variables"])
-    given = [word for name, value in variables.items() for word in ("-v", name, str(value))]
-    return shlex.join([row["scene"], *given])
-
-
 def make_case(row: Mapping[str, str]) -> Case:
     name = f"{row['table']}/{row['run']}"
     script = SCENES / f"{row['scene']}.lig"
@@ -44,9 +34,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     planned = {make_case(row).name: row for row in PLANNED}
     for table in TABLES:
         rows = [
-            cost_table.row_of(
-                read_wheel_run(run.folder, planned[run.name]["run"]), options(planned[run.name])
-            )
+            cost_table.row_of(read_wheel_run(run.folder, planned[run.name]["run"]))
             for run in runs.done(table)
         ]
         if not rows:

@@ -9,7 +9,6 @@ of a domain the mean difference, of packings the standard deviation of one run.
 """
 
 import math
-import shlex
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
@@ -58,7 +57,6 @@ class Row:
     coefficient: float  # resistance coefficient
     coefficient_error: float  # the same
     cpu_time: float  # [s]
-    options: str  # scene and options of inputs/run that make this run; empty: none
 
     @property
     def family(self) -> FamilyKey:
@@ -75,7 +73,7 @@ HEADER = [f.name for f in fields(Row)]
 NUMERIC = {f.name for f in fields(Row) if f.type is float}
 
 
-def row_of(run: WheelRun, options: str = "") -> Row:
+def row_of(run: WheelRun) -> Row:
     sinkage, coefficient = run.values["hub_drop"], run.values["resistance_coefficient"]
     return Row(
         run.label,
@@ -90,7 +88,6 @@ def row_of(run: WheelRun, options: str = "") -> Row:
         coefficient.mean,
         coefficient.standard_error,
         run.cpu_time,
-        options,
     )
 
 
@@ -121,7 +118,6 @@ def _parsed(row: dict[str, str]) -> Row:
             raise ValueError(f"run '{row['run']}': {name} is {row[name]}")
     if values["size"] <= 0 or math.isinf(values["size"]):  # NaN: a run without terrain
         raise ValueError(f"run '{row['run']}': size is {row['size']}")
-    shlex.split(row["options"])
     return Row(**values)
 
 

@@ -106,7 +106,7 @@ def _series(rows: Sequence[Mapping[str, str]]) -> SizeSeries:
     words = {"ground": first["soil"], "wheel": first["wheel"], "motion": first["motion"]}
     made = [
         Row(row["series"], row["ground"], "", row["wheel"], float(row["size"]), row["domain"], row["seed"], *_values(row),
-            float(row["cpu_time"]), "")
+            float(row["cpu_time"]))
         for row in rows
     ]  # fmt: skip
     return SizeSeries(first["series"], words, float(first["width"]), Family(made), float(first["radius"]), first["scheme"])

@@ -188,7 +188,8 @@ class ViewTest(SharedFolderTest):
         self.show("grains")
         label = self.browser.evaluate("document.querySelector('.furrow-label').textContent")
         self.assertEqual(
-            label.partition(";")[0], "grainshub drop 50 ± 5 mm, resistance coefficient 0.20 ± 0.16, slip 20 %"
+            label.partition(";")[0],
+            "grainshub drop 50 ± 6 mm, resistance coefficient 0.20 ± 0.18 (+ mesh, step, contact, material unknown)",
         )
         text, pixels = self.browser.evaluate(
             "(() => { const { view } = document.querySelector('.furrow-view');"

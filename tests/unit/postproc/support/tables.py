@@ -16,12 +16,11 @@ def row(
     cpu: float,
     domain: str = "2x1",
     seed: str = "1",
-    options: str = "",
     error: float = 0.0,
 ) -> Row:
     family = CONTINUUM if ground == "continuum" else GRAINS
     values = (sinkage, error, coefficient, error)
-    return Row(name, ground, family.model, family.wheel, size, domain, seed, *values, cpu, options)
+    return Row(name, ground, family.model, family.wheel, size, domain, seed, *values, cpu)
 
 
 def made_runs() -> list[Row]:
@@ -38,15 +37,13 @@ def made_runs() -> list[Row]:
             0.2 * (1 - 5 * h),
             1e-4 / h**4,
             seed="",
-            options=f"wheel -v cell {h}",
             error=1e-9,
         )
         for h in (0.04, 0.02, 0.01)
     ]
     for h in (0.04, 0.02, 0.01):
-        options = f"grains -v diameter {h}"
         sinkage, cpu = 0.12 * (1 + 3 * h), 5e-4 / h**4
-        rows.append(row(f"g{h}", "grains", h, sinkage, 0.25, cpu, options=options, error=1e-9))
+        rows.append(row(f"g{h}", "grains", h, sinkage, 0.25, cpu, error=1e-9))
     base = 0.12 * 1.12
     rows.append(row("seed", "grains", 0.04, base + 0.002, 0.25, 1.0, seed="2"))
     rows.append(row("wide", "grains", 0.04, base - 0.005, 0.26, 1.0, domain="2x2"))
