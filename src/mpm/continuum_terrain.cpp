@@ -58,7 +58,7 @@ void check_active(const TerrainParameters& parameters, const std::string& where)
   for (const TerrainLayer& layer : parameters.layers)
     if (layer.material->rate_dependent())
       refuse("a material that depends on the rate",
-             "remove 'sleep_tolerance', or 'relaxation_time' of the material");
+             "remove 'sleep_tolerance', or 'relaxation_time' or 'rate_share' of the material");
 }
 
 std::optional<ActiveGround> make_active(const TerrainParameters& parameters,

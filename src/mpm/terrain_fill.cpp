@@ -234,6 +234,10 @@ void TerrainFill::add_stack(const std::array<double, 2>& place,
         8.0 * half[0] * half[1] * half[2] / level.state[field::volume_ratio];
     particles.data(column::id)[p] = next_id_ + static_cast<double>(first + n);
     particles.set_state(p, level.state);
+    if (const auto width = layers_[level.layer].material->find_field("band_width"))
+      particles.data(column::state + *width)[p] =
+          2.0 * std::cbrt(particles_per_cell_[0] * particles_per_cell_[1] * particles_per_cell_[2] *
+                          half[0] * half[1] * half[2]);
   }
 }
 

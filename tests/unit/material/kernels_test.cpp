@@ -15,6 +15,7 @@
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "material/models/neo_hookean/neo_hookean_parameters.h"
 #include "material/models/norsand/norsand.h"
+#include "material/models/undrained_clay/undrained_clay.h"
 #include "simd/dispatch.h"
 #include "tests/support/paths.h"
 
@@ -100,6 +101,9 @@ TEST(Kernels, InstructionSetsAgree) {
         more);
   expect_instruction_sets_to_agree<DruckerPrager, DruckerPragerKernels>(
       "drucker_prager density 200 d 5e3 beta 30 psi 10 elasticity linear E 13.79e6 nu 0.3");
+  for (const std::string more : {"", "sensitivity 4 slip_95 0.05"})
+    expect_instruction_sets_to_agree<UndrainedClay, UndrainedClayKernels>(
+        "undrained_clay density 200 su 3e4 " + more + " elasticity linear E 13.79e6 nu 0.3");
   expect_instruction_sets_to_agree<CrushableFoam, CrushableFoamKernels>(
       "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity porous elasticity.kappa 0.005 "
       "elasticity.e0 3.5 pt_el 113.76 nu 0.3 hardening exponential pc0 113.76 lambda 0.35 "

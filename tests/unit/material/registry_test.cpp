@@ -48,8 +48,14 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Refusal{"mud density 1",
                 {"unknown law 'mud'",
-                 "drucker_prager_cap, drucker_prager, crushable_foam, cohesive_cam_clay, "
-                 "cohesive_cap, norsand, elastic, neo_hookean"}},
+                 "drucker_prager_cap, drucker_prager, undrained_clay, crushable_foam, "
+                 "cohesive_cam_clay, cohesive_cap, norsand, elastic, neo_hookean"}},
+        Refusal{
+            "undrained_clay density 1800 su 3e4 sensitivity 2 slip_95 0.005 band_width 1" + elastic,
+            {"keyword 'slip_95' is 0.005 m", "at least 0.00848", "band_width"}},
+        Refusal{"undrained_clay density 1800 su 3e4 elasticity porous kappa 0.01 e0 1 pt_el 1e5 nu "
+                "0.3",
+                {"section 'elasticity', keyword 'type' is porous", "linear"}},
         Refusal{"drucker_prager density 200 d 5e3 beta 20 psi 21" + elastic,
                 {"keyword 'psi' is 21 degrees", "at most beta, 20 degrees"}},
         Refusal{"drucker_prager density 200 d 0 beta 0" + elastic,

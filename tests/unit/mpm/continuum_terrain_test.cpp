@@ -72,6 +72,32 @@ void expect_exact_restart(const TerrainParameters& parameters) {
 
 TEST(TerrainRestart, ContinuesBitForBit) { expect_exact_restart(snow_bed()); }
 
+std::string clay() {
+  return "undrained_clay density 1800 su 2e4 sensitivity 3 slip_95 0.03 rate_share 0.1 elasticity "
+         "linear E 2e6 nu 0.45";
+}
+
+TEST(TerrainRestart, ContinuesBitForBitOnSensitiveClay) { expect_exact_restart(snow_bed(clay())); }
+
+/// A shear band is as wide as the cell of its particle, the cube root of the volume of a long cell.
+TEST(ContinuumTerrain, ClayKnowsTheCellsOfItsParticles) {
+  TerrainParameters parameters = snow_bed(clay());
+  parameters.x = {-0.2, 0.2, cell, -0.1, 0.1, 1.2};
+  ContinuumTerrain ground(parameters, Communicator());
+  const std::size_t width = *parameters.layers[0].material->find_field("band_width");
+  double shortest = 1.0, longest = 0.0;
+  for_particles(ground, [&](Particles& particles, std::size_t p) {
+    const double x = particles.data(column::x)[p], found = particles.data(column::state + width)[p];
+    if (std::abs(x) < 0.1 - cell) {
+      EXPECT_NEAR(found, cell, 1e-12);
+    }
+    shortest = std::min(shortest, found);
+    longest = std::max(longest, found);
+  });
+  EXPECT_NEAR(shortest, cell, 1e-12);
+  EXPECT_GT(longest, 1.05 * cell);
+}
+
 TEST(TerrainRestart, ContinuesBitForBitOnAGradedGrid) {
   TerrainParameters parameters = snow_bed();
   parameters.x = {-0.2, 0.2, cell, -0.1, 0.1, 1.2};
