@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/contact/ground_contact.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "coupling/liggghts/script.h"
@@ -52,8 +54,9 @@ BodyContact contact_with(LAMMPS_NS::LAMMPS& lammps, const Options& options, cons
                          const std::string& material, const std::string& ground,
                          const GroundContact& known, const BodyContact& without,
                          const std::string& consequence) {
-  if (options.given("friction") && options.given("slip_length")) return without;
   const auto found = known.find(material);
+  const bool limited = found != known.end() && std::isfinite(found->second.shear_limit);
+  if (options.given("friction") && options.given("slip_length") && !limited) return without;
   if (found == known.end()) {
     const std::string missing = options.given("friction")      ? "slip_length"
                                 : options.given("slip_length") ? "friction"
@@ -67,12 +70,16 @@ BodyContact contact_with(LAMMPS_NS::LAMMPS& lammps, const Options& options, cons
     return without;
   }
   const BodyContact& values = found->second;
-  announce(lammps,
-           fmt::format("Contact of '{}' ({}) with '{}': {}, {}; {}: {}", body.id, material, ground,
-                       value_text(options, "friction", "", values.friction, values.friction_range),
-                       value_text(options, "slip_length", " m", values.slip_length,
-                                  values.slip_length_range),
-                       values.label, values.source));
+  announce(
+      lammps,
+      fmt::format(
+          "Contact of '{}' ({}) with '{}': {}, {}{}; {}: {}", body.id, material, ground,
+          value_text(options, "friction", "", values.friction, values.friction_range),
+          value_text(options, "slip_length", " m", values.slip_length, values.slip_length_range),
+          limited ? ", " + value_text(options, "shear_limit", " Pa", values.shear_limit,
+                                      values.shear_limit_range)
+                  : "",
+          values.label, values.source));
   return values;
 }
 

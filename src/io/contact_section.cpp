@@ -13,6 +13,7 @@ namespace furrow {
 namespace {
 
 const Range frictions = Range::closed(0.0, 2.0);
+const Range shear_limits{0.0, 1e6, true, false};     // [Pa]
 const Range slip_lengths = Range::closed(0.0, 0.3);  // [m]; snow has 0.05 [Wong2008]
 
 Schema body_schema(const std::string& material) {
@@ -21,6 +22,9 @@ Schema body_schema(const std::string& material) {
   schema.numbers("friction_range", 2, "", frictions, "within which it lies");
   schema.number("slip_length", "m", slip_lengths, "slip distance that mobilises the friction");
   schema.numbers("slip_length_range", 2, "m", slip_lengths, "within which it lies");
+  schema.number("shear_limit", "Pa", shear_limits, "largest shear stress, of clay its adhesion")
+      .optional();
+  schema.numbers("shear_limit_range", 2, "Pa", shear_limits, "within which it lies").optional();
   schema.choice("label", {"measured", "estimated", "assumed"}, "how both are known");
   schema.text("source", "where both come from");
   return schema;
@@ -39,9 +43,21 @@ std::array<double, 2> range_of(const Options& options, const std::string& key) {
 
 BodyContact read_body(const std::string& material, const YamlTree& map) {
   const Options options = read_map(body_schema(material), map);
-  return {options.number("friction"),    options.number("slip_length"),
-          range_of(options, "friction"), range_of(options, "slip_length"),
-          options.text("label"),         options.text("source")};
+  BodyContact contact;
+  contact.friction = options.number("friction");
+  contact.friction_range = range_of(options, "friction");
+  contact.slip_length = options.number("slip_length");
+  contact.slip_length_range = range_of(options, "slip_length");
+  contact.label = options.text("label");
+  contact.source = options.text("source");
+  if (options.given("shear_limit") != options.given("shear_limit_range"))
+    throw InputError(options.subject(), "has one of 'shear_limit' and 'shear_limit_range'",
+                     "both or none", "give the range within which the limit lies");
+  if (options.given("shear_limit")) {
+    contact.shear_limit = options.number("shear_limit");
+    contact.shear_limit_range = range_of(options, "shear_limit");
+  }
+  return contact;
 }
 
 GroundContact read_parts(const YamlTree& section) {

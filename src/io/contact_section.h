@@ -8,6 +8,8 @@
 ///       friction_range: [0.3, 0.45]
 ///       slip_length: 0.009         # [m]
 ///       slip_length_range: [0.006, 0.012]
+///       shear_limit: 25e3            # [Pa], optional: adhesion of clay
+///       shear_limit_range: [15e3, 30e3]
 ///       label: estimated           # measured, estimated or assumed
 ///       source: where both come from
 

@@ -4,19 +4,23 @@
 /// card or a bed of grains says about it.
 
 #include <array>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace furrow {
 
-/// Friction tau = mu sigma (1 - exp(-j/k)) of the ground with one material of a body.
+/// Friction tau = min(mu sigma, shear_limit) (1 - exp(-j/k)) of the ground with one material of a
+/// body.
 struct BodyContact {
-  double friction = 0.0;                                 ///< mu
-  double slip_length = 0.0;                              ///< k [m]
-  std::array<double, 2> friction_range = {0.0, 0.0};     ///< within which mu lies
-  std::array<double, 2> slip_length_range = {0.0, 0.0};  ///< [m]
-  std::string label;                                     ///< measured, estimated or assumed
+  double friction = 0.0;                                         ///< mu
+  double slip_length = 0.0;                                      ///< k [m]
+  std::array<double, 2> friction_range = {0.0, 0.0};             ///< within which mu lies
+  std::array<double, 2> slip_length_range = {0.0, 0.0};          ///< [m]
+  double shear_limit = std::numeric_limits<double>::infinity();  ///< of clay: adhesion [Pa]
+  std::array<double, 2> shear_limit_range = {0.0, 0.0};          ///< [Pa]
+  std::string label;                                             ///< measured, estimated or assumed
   std::string source;
 };
 

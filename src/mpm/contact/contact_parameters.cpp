@@ -27,6 +27,11 @@ Schema ContactParameters::schema(const std::string& subject) {
               "default from the material file")
       .optional();
   schema
+      .number("shear_limit", "Pa", Range::positive(),
+              "largest shear stress tau, of clay its adhesion; by default from the material file, "
+              "else none")
+      .optional();
+  schema
       .number("stiffness", "", Range::closed(0.01, 100.0),
               "spring stiffness of a particle over wave modulus times cube root of its volume; by "
               "default 1.6, or less where the step of the ground needs it")
@@ -59,6 +64,9 @@ ContactParameters ContactParameters::from(const Options& options, const BodyCont
     throw InputError(options.where("slip_length"),
                      fmt::format("is given with a {} surface", surface),
                      "slip_length with surface frictional only", "remove 'slip_length'");
+  if (surface == "smooth" && options.given("shear_limit"))
+    throw InputError(options.where("shear_limit"), "is given with a smooth surface",
+                     "shear_limit with surface frictional or rough", "remove 'shear_limit'");
   for (const char* key : {"stiffness", "damping"})
     if (options.text("enforcement") == "impulse" && options.given(key))
       throw InputError(options.where(key), "is given with enforcement impulse",
@@ -69,6 +77,8 @@ ContactParameters ContactParameters::from(const Options& options, const BodyCont
                : surface == "smooth" ? 0.0
                                      : value("friction", ground.friction);
   p.slip_length = surface == "frictional" ? value("slip_length", ground.slip_length) : 0.0;
+  p.shear_limit =
+      value("shear_limit", surface == "frictional" ? ground.shear_limit : p.shear_limit);
   if (options.given("stiffness")) p.stiffness = options.number("stiffness");
   p.damping = options.number("damping");
   return p;

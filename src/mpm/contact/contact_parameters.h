@@ -2,6 +2,7 @@
 #pragma once
 /// The parameters of a contact between a surface and a terrain, and the keys that set them.
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,7 @@ struct ContactParameters {
   double friction = 0.3;                ///< mu of Coulomb's law; 0: smooth, infinity: rough
   /// k of [Shoop2001] eq. 26 [m]: tau = mu sigma (1 - exp(-j/k)), j the slip; 0: Coulomb's law
   double slip_length = 0.0;
+  double shear_limit = std::numeric_limits<double>::infinity();  ///< on tau: adhesion [Pa]
   /// spring of a particle over (wave modulus) x (cube root of its volume); without: chosen for the
   /// ground's step (PenaltyLaw::fit)
   std::optional<double> stiffness = {};

@@ -20,7 +20,7 @@ class ImpulseLaw {
   static constexpr const char* meaning = "an impulse stops the approach within the step";
 
   explicit ImpulseLaw(const ContactParameters& parameters)
-      : friction_{parameters.friction, parameters.slip_length} {}
+      : friction_{parameters.friction, parameters.slip_length, parameters.shear_limit} {}
 
   void fit(const TerrainParameters&, const std::string&) const {}
   void update_stiffness(const ParticleGroup&, std::size_t, ContactHistory&, ContactLosses&) const {}
@@ -42,7 +42,7 @@ inline Vector3 ImpulseLaw::force(const ContactMotion& contact, double dt, Contac
       std::max(0.0, contact.mass * (approach - correction * contact.point.gap / dt) / dt);
   const Vector3 sliding = contact.velocity + approach * n;
   history.slip += contact.last_dt * sliding.norm();
-  const double limit = friction_.limit(normal_force, history.slip);
+  const double limit = friction_.limit(normal_force, history.slip, contact.area);
   const double stopping = contact.mass * sliding.norm() / dt;
   const double size = std::min(limit, stopping);
   losses.damping += normal_force * approach * dt;

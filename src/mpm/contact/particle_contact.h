@@ -26,6 +26,7 @@ struct ContactMotion {
   const ContactPoint& point;
   Vector3 velocity;  ///< of the ground relative to the surface, at the point [m/s]
   double mass;       ///< of the particle [kg]
+  double area;       ///< of the surface that the particle stands for [m^2]
   double last_dt;    ///< length of the step that ended with this velocity [s]
 };
 

@@ -22,7 +22,7 @@ class PenaltyLaw {
   static constexpr const char* meaning = "springs resist penetration";
 
   explicit PenaltyLaw(const ContactParameters& parameters)
-      : friction_{parameters.friction, parameters.slip_length},
+      : friction_{parameters.friction, parameters.slip_length, parameters.shear_limit},
         stiffness_(parameters.stiffness),
         damping_(parameters.damping) {}
 
@@ -81,7 +81,7 @@ inline Vector3 PenaltyLaw::force(const ContactMotion& contact, double dt, Contac
   // Where friction grows with the slip, every relative motion along the surface counts as slip;
   // with Coulomb's law, only what goes beyond the spring.
   if (friction_.mobilised_by_slip()) history.slip += contact.last_dt * sliding.norm();
-  const double limit = friction_.limit(normal_force, history.slip);
+  const double limit = friction_.limit(normal_force, history.slip, contact.area);
   const double size = tangential_force.norm();
   if (size > limit) {
     tangential_force *= limit / size;

@@ -134,9 +134,13 @@ void TerrainContact::add_forces(const Law& law, double dt) {
     history.normal = contact.normal;
     history.triangle = static_cast<double>(contact.triangle);
     history.barycentric = contact.barycentric;
-    const Vector3 force = law.force({contact, velocity, group.mass(particle.particle), last_dt_},
-                                    dt, history, step_.losses);
+    const double length = std::cbrt(group.particles.data(column::volume)[particle.particle]);
+    const double area = length * length;
+    const Vector3 force =
+        law.force({contact, velocity, group.mass(particle.particle), area, last_dt_}, dt, history,
+                  step_.losses);
     add_force(particle, contact, force, velocity, dt);
+    step_.area += area;
   }
 }
 
@@ -172,10 +176,7 @@ void TerrainContact::add_force(const ParticleIndex& particle, const ContactPoint
     const double symmetry_factor = mirror_ || body_.half_model() ? 2.0 : 1.0;
     record->add(contact.position, -symmetry_factor * force, -velocity, dt);
   }
-  const double length =
-      std::cbrt(group_of(particle).particles.data(column::volume)[particle.particle]);
   step_.contacts += 1.0;
-  step_.area += length * length;
   step_.penetration = std::max(step_.penetration, -contact.gap);
 }
 

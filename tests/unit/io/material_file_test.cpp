@@ -84,7 +84,12 @@ TEST_F(MaterialFileTest, ContactIsThatOfItsFileOrSection) {
     EXPECT_EQ(contact.at("rubber").slip_length, 0.009);
     EXPECT_EQ(contact.at("rubber").slip_length_range[1], 0.012);
     EXPECT_EQ(contact.at("rubber").label, "estimated");
+    EXPECT_FALSE(std::isfinite(contact.at("rubber").shear_limit));
   }
+  file(of_rubber + "  shear_limit: 15e3\n  shear_limit_range: [1e4, 16e3]\n", "rubber.yaml");
+  const GroundContact clay = read_material_file(file(sand + "contact: rubber.yaml\n")).contact;
+  EXPECT_EQ(clay.at("rubber").shear_limit, 15e3);
+  EXPECT_EQ(clay.at("rubber").shear_limit_range[0], 1e4);
 }
 
 TEST_F(MaterialFileTest, RefusesContactInOtherUnits) {
@@ -99,6 +104,9 @@ TEST_F(MaterialFileTest, RefusesContactInOtherUnits) {
   EXPECT_THAT(refused("label: estimated", "label: guess"),
               HasSubstr("measured, estimated, assumed"));
   EXPECT_THAT(refused("rubber:", "wood:"), HasSubstr("'wood'"));
+  EXPECT_THAT(refused("  label", "  shear_limit: 15\n  shear_limit_range: [20, 30]\n  label"),
+              HasSubstr("is [20, 30], and shear_limit is 15"));
+  EXPECT_THAT(refused("  label", "  shear_limit: 15e3\n  label"), HasSubstr("both or none"));
 }
 
 /// A copy of a material that leaves its contact behind, also as the base of another.

@@ -30,7 +30,7 @@ struct Touch {
 
   template <class Law>
   Vector3 force(const Law& law, const Vector3& velocity, double last_dt = dt) {
-    return law.force({point, velocity, mass, last_dt}, dt, history, losses);
+    return law.force({point, velocity, mass, 1.0, last_dt}, dt, history, losses);
   }
 };
 
@@ -142,13 +142,23 @@ TEST(ImpulseLaw, StopsTheApproachWithinTheStep) {
   EXPECT_EQ(leaving.force(law, {0.5, 0, -100.0}), Vector3::Zero());
 }
 
-/// mu sigma (1 - exp(-j/k))
+/// min(mu sigma, shear_limit) (1 - exp(-j/k))
 TEST(Friction, GrowsWithTheSlip) {
   const Friction friction{0.5, 0.02};
-  EXPECT_EQ(friction.limit(100.0, 0.0), 0.0);
-  EXPECT_NEAR(friction.limit(100.0, 0.02), 50.0 * (1.0 - std::exp(-1.0)), 1e-12);
-  EXPECT_EQ(friction.limit(-1.0, 0.02), 0.0);
-  EXPECT_EQ((Friction{0.5, 0.0}.limit(100.0, 0.0)), 50.0);
+  EXPECT_EQ(friction.limit(100.0, 0.0, 1.0), 0.0);
+  EXPECT_NEAR(friction.limit(100.0, 0.02, 1.0), 50.0 * (1.0 - std::exp(-1.0)), 1e-12);
+  EXPECT_EQ(friction.limit(-1.0, 0.02, 1.0), 0.0);
+  EXPECT_EQ((Friction{0.5, 0.0}.limit(100.0, 0.0, 1.0)), 50.0);
+}
+
+TEST(Friction, EndsAtTheShearLimit) {
+  const double rough = std::numeric_limits<double>::infinity();
+  EXPECT_EQ((Friction{0.5, 0.0, 3e3}.limit(100.0, 0.0, 0.01)), 30.0);
+  EXPECT_EQ((Friction{0.5, 0.0, 3e3}.limit(40.0, 0.0, 0.01)), 20.0);
+  EXPECT_EQ((Friction{rough, 0.0, 3e3}.limit(1e-6, 0.0, 0.01)), 30.0);
+  EXPECT_EQ((Friction{rough, 0.0, 3e3}.limit(-1.0, 0.0, 0.01)), 0.0);
+  EXPECT_NEAR((Friction{0.5, 0.02, 3e3}.limit(100.0, 0.02, 0.01)), 30.0 * (1.0 - std::exp(-1.0)),
+              1e-12);
 }
 
 TEST(ContactHistory, ForgetsSpringAndGapWhenItLiftsAndSlipWhenTheContactEnds) {

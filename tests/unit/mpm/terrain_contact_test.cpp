@@ -2,6 +2,7 @@
 #include "mpm/contact/terrain_contact.h"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <gmock/gmock.h>
@@ -44,6 +45,11 @@ TEST(TerrainContact, ReadsItsKeys) {
               }),
               HasSubstr("keyword 'slip_length' is given with a rough surface; "
                         "allowed: slip_length with surface frictional only"));
+  EXPECT_EQ(read({"surface", "rough", "shear_limit", "1e4"}).shear_limit, 1e4);
+  EXPECT_THAT(error_of([&] {
+                read({"surface", "smooth", "shear_limit", "1e4"});
+              }),
+              HasSubstr("keyword 'shear_limit' is given with a smooth surface"));
   EXPECT_THAT(error_of([&] { read({"friction", "-1"}); }), HasSubstr("keyword 'friction' is -1"));
   EXPECT_THAT(error_of([&] { read({"damping", "2"}); }), HasSubstr("keyword 'damping' is 2"));
 }
@@ -242,6 +248,25 @@ TEST(TerrainContact, SpringsPushByTheirPenetration) {
   EXPECT_NEAR(contact.force().z(), 64 * stiffness * depth, 1e-9 * contact.force().z());
   EXPECT_NEAR(contact.area(), 0.01, 1e-9);
   EXPECT_NEAR(plate.surface().total_force().z(), contact.force().z(), 1e-9);
+}
+
+/// A rough plate of 0.1 m x 0.1 m drags the ground with the shear limit, whatever presses.
+TEST(TerrainContact, RoughPlateDragsWithTheShearLimit) {
+  ContactParameters law;
+  law.friction = std::numeric_limits<double>::infinity();
+  law.shear_limit = 50.0;
+  law.damping = 0.0;
+  for (const double depth : {1e-5, 1e-4}) {
+    ContinuumTerrain ground = block();
+    RigidPlate plate({PlateShape::square, 0.1, 0.05, 4}, {0, 0, -depth});
+    TerrainContact contact(plate, ground, law, false, "foot");
+    for (int n = 0; n < 3; ++n) {
+      contact.apply(1e-5);
+      plate.surface().v.row(0).setConstant(1.0);
+      plate.surface().x.row(0).array() += 1e-5;
+    }
+    EXPECT_NEAR(contact.force().x(), -50.0 * 0.01, 1e-9) << depth;
+  }
 }
 
 /// Undersides of two ribs, with a groove between them.
