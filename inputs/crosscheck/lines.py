@@ -5,10 +5,9 @@ import math
 from collections.abc import Iterable, Mapping
 
 from furrow_post.analyse.budget import Budget
-from furrow_post.analyse.entry import FORMULA, BEST, MEASURED, RUN, Entry
 from furrow_post.analyse.judgement import judge
 from furrow_post.analyse.plates import pressure_at
-from furrow_post.analyse.verdict import COVERAGE, QUANTITIES, Agreement, Quantity
+from furrow_post.analyse.verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, Agreement, Entry, Quantity
 from furrow_post.formatting import in_unit, percent
 from furrow_post.study.tables import markdown
 

@@ -15,15 +15,18 @@ from ..errors import ResultsError
 from ..formatting import percent, with_error
 from ..read.wheel_run import WheelRun
 from . import cost_table
+from .budget import Budget
 from .conditions import TOLERANCES, Difference, incomparable
 from .density import track_density
-from .entry import BEST, MEASURED, RUN, Entry, best_estimates, entries_of_run, formula_entries
 from .judgement import judge, summed_up
 from .measured import measured_entries
 from .prediction import Prediction
 from .statistics import commonest
-from .verdict import COVERAGE, QUANTITIES, Quantity, Verdict
+from .verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, Entry, Quantity, Verdict
 from .wheel_histories import settling_curve
+from .whole_error import Families, budgets
+
+NAME_IN_RUN = {"sinkage": "hub_drop", "coefficient": "resistance_coefficient"}
 
 
 @dataclass
@@ -151,3 +154,52 @@ def overall_of_best_estimates(result: Comparison) -> str:
     """The same of the runs' best estimates; empty where fewer than two are known."""
     among = result.best_estimates
     return f"{BEST.capitalize()}: {summed_up(among, 'runs')}" if among else ""
+
+
+# ---- values
+
+
+def entries_of_run(run: WheelRun, families: Families) -> list[Entry]:
+    """Each quantity of a run with its whole error. families: of a table of runs of the scene, may be empty"""
+    entries = []
+    errors = budgets(run, families)
+    for quantity in QUANTITIES:
+        value = run.values[NAME_IN_RUN[quantity.key]]
+        parts = errors[NAME_IN_RUN[quantity.key]]
+        note = "" if value.steady else "not called steady"
+        entries.append(Entry(quantity, run.label, value.mean, parts, RUN, note, run.cpu_time, value.steady))
+    return entries
+
+
+def best_estimates(run: WheelRun, families: Families) -> list[Entry]:
+    """Best estimates of each quantity, as far as a table's families have more than one size."""
+    entries = []
+    family = families.get(cost_table.FamilyKey(run.ground, run.model, run.wheel))
+    for quantity in QUANTITIES:
+        steady = run.values[NAME_IN_RUN[quantity.key]]
+        best = family and family.best_estimate(
+            quantity.key, run.size, steady.mean, steady.standard_error
+        )
+        if best:
+            value, parts = best
+            entries.append(Entry(quantity, run.label, value, parts, BEST, steady=steady.steady))
+    return entries
+
+
+def formula_entries(prediction: Prediction) -> list[Entry]:
+    note = "extrapolated" if prediction.outside else ""
+    values = (
+        (prediction.sinkage, prediction.sinkage_scatter),
+        (prediction.coefficient, prediction.coefficient_scatter),
+    )
+    return [
+        Entry(
+            quantity,
+            prediction.method,
+            value,
+            Budget(time=scatter) if scatter > 0 else Budget(),
+            FORMULA,
+            note,
+        )
+        for quantity, (value, scatter) in zip(QUANTITIES, values)
+    ]

@@ -13,9 +13,8 @@ from ..formatting import duration, in_unit, with_error
 from .comparison import Comparison, overall, overall_of_best_estimates
 from .budget import Budget
 from .density import sections
-from .entry import RUN, Entry
 from .judgement import remedies
-from .verdict import QUANTITIES
+from .verdict import QUANTITIES, RUN, Entry
 from .wheel_histories import cruise_history, settling_curve
 
 SHOWN_CONDITIONS = (

@@ -9,8 +9,7 @@ the uncertainty is so large that agreement has no meaning.
 import math
 from collections.abc import Sequence
 
-from .entry import BEST, MEASURED, Entry
-from .verdict import COVERAGE, Agreement, Verdict, joined, quantities_with
+from .verdict import BEST, COVERAGE, MEASURED, Agreement, Entry, Verdict, joined, quantities_with
 
 VAGUE = 0.25  # of the value: agreement within more has no meaning
 # part of an uncertainty -> its name, and the run that finds it

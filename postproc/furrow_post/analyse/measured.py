@@ -11,8 +11,7 @@ from ..csv_table import read_numbers
 from ..errors import ResultsError
 from ..read.wheel_run import WheelRun
 from .budget import Budget
-from .entry import MEASURED, Entry
-from .verdict import QUANTITIES
+from .verdict import MEASURED, QUANTITIES, Entry
 
 ROUNDING = 1e-9  # of a ratio of two decimal numbers
 

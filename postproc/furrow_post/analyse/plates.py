@@ -11,9 +11,8 @@ import numpy as np
 
 from .budget import Budget
 from .curves import Curve
-from .entry import BEST, RUN, Entry
 from .grid_convergence import grid_convergence, mean_shift, noise_of, pooled_scatter, same_size
-from .verdict import Quantity
+from .verdict import BEST, RUN, Entry, Quantity
 
 
 def pressure_at(sinkage: float) -> Quantity:

@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Whether two values agree: an enumeration that programs judge by, and a sentence for people."""
+"""Values that are compared, each with its whole error, and whether two agree."""
 
 import enum
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ..formatting import in_unit
+from ..formatting import in_unit, value_text
+from .budget import Budget
 
 COVERAGE = 2.0  # standard errors within which two values agree
 BARS = f"bars: {COVERAGE:g} standard errors"  # for the legends of figures
+
+# Kinds of entries; BEST: what a run comes to by the sizes of its family (grid_convergence.py)
+RUN, BEST, FORMULA, MEASURED = "run", "best estimate", "formula", "measured"
 
 
 class Agreement(enum.Enum):
@@ -38,6 +43,48 @@ class Quantity:
 HUB_DROP = Quantity("sinkage", "hub drop", "mm", 1e3)
 COEFFICIENT = Quantity("coefficient", "resistance coefficient", "", 1.0)
 QUANTITIES = (HUB_DROP, COEFFICIENT)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One value of one quantity in the comparison, SI."""
+
+    quantity: Quantity
+    source: str  # label of a run, name of a formula, "measured"
+    value: float
+    parts: Budget
+    kind: str  # RUN, BEST, FORMULA, MEASURED
+    note: str = ""
+    cpu_time: float = math.nan
+    steady: bool = True  # else the time average has no error that is known
+
+    @property
+    def label(self) -> str:
+        """The source, "grains, best estimate" of one."""
+        return f"{self.source}, {BEST}" if self.kind == BEST else self.source
+
+    @property
+    def of_run(self) -> bool:
+        """Whether its uncertainty has the parts of a run's."""
+        return self.kind in (RUN, BEST)
+
+    @property
+    def uncertainty(self) -> float:
+        """NaN where nothing of it is known."""
+        return self.parts.total
+
+    @property
+    def unknown(self) -> list[str]:
+        """Parts of its numerical uncertainty that are not known."""
+        if not self.of_run:
+            return []
+        missing = [name for name in self.parts.NUMERICAL if name in self.parts.unknown]
+        return missing if self.steady or "time" in missing else ["time", *missing]
+
+    def text(self) -> str:
+        """The value with its uncertainty in the unit of the quantity."""
+        scale = self.quantity.scale
+        return value_text(scale * self.value, scale * self.uncertainty)
 
 
 @dataclass(frozen=True)

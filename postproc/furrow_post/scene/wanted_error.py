@@ -40,6 +40,7 @@ REMEDIES = {
     "size": "leave out -v for its size, or give more time with --time",
     "time": "roll further, with --until-steady",
     "packing": "average packings, with --sweep and --packings",
+    "material": "measure the parameter of the soil that changes most in SCENE.material.json",
     "held": "raise the damping of the rig, or roll further",
 }
 

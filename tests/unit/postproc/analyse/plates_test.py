@@ -8,7 +8,7 @@ import numpy as np
 
 from furrow_post.analyse import plates
 from furrow_post.analyse.curves import Curve, CurveKind
-from furrow_post.analyse.entry import BEST, RUN
+from furrow_post.analyse.verdict import BEST, RUN
 from furrow_post.analyse.grid_convergence import grid_convergence
 
 

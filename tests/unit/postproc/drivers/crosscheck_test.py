@@ -6,9 +6,8 @@ import sys
 import unittest
 
 from furrow_post.analyse.budget import Budget
-from furrow_post.analyse.entry import BEST, FORMULA, RUN, Entry
 from furrow_post.analyse.plates import pressure_at
-from furrow_post.analyse.verdict import COEFFICIENT, HUB_DROP
+from furrow_post.analyse.verdict import BEST, COEFFICIENT, FORMULA, HUB_DROP, RUN, Entry
 from furrow_post.csv_table import read_comments, read_rows
 from support.command import SOURCE
 from support.tables import row
