@@ -250,22 +250,16 @@ TEST(TerrainContact, SpringsPushByTheirPenetration) {
   EXPECT_NEAR(plate.surface().total_force().z(), contact.force().z(), 1e-9);
 }
 
-/// A rough plate of 0.1 m x 0.1 m drags the ground with the shear limit, whatever presses.
+/// A rough plate over all of the ground, 0.2 m x 0.2 m, drags it with the shear limit.
 TEST(TerrainContact, RoughPlateDragsWithTheShearLimit) {
-  ContactParameters law;
-  law.friction = std::numeric_limits<double>::infinity();
-  law.shear_limit = 50.0;
-  law.damping = 0.0;
-  for (const double depth : {1e-5, 1e-4}) {
-    ContinuumTerrain ground = block();
-    RigidPlate plate({PlateShape::square, 0.1, 0.05, 4}, {0, 0, -depth});
-    TerrainContact contact(plate, ground, law, false, "foot");
-    for (int n = 0; n < 3; ++n) {
-      contact.apply(1e-5);
-      plate.surface().v.row(0).setConstant(1.0);
-      plate.surface().x.row(0).array() += 1e-5;
-    }
-    EXPECT_NEAR(contact.force().x(), -50.0 * 0.01, 1e-9) << depth;
+  SlidingPlate sliding;
+  sliding.law.friction = std::numeric_limits<double>::infinity();
+  sliding.law.slip_length = 0.0;
+  sliding.law.shear_limit = 50.0;
+  sliding.touch();
+  for (const double path : {1e-3, 9e-3}) {
+    sliding.move({path, 0, 0}, 1000);
+    EXPECT_NEAR(sliding.contact->force().x(), -50.0 * 0.2 * 0.2, 1e-9) << path;
   }
 }
 

@@ -62,6 +62,25 @@ TEST(UndrainedClay, StrengthsAreTheirDefinitions) {
   }
 }
 
+/// Without rate and sensitivity it is drucker_prager with d = sqrt(3) su, whose footings and walls
+/// the study "convergence" compares with closed forms.
+TEST(UndrainedClay, PlainClayIsDruckerPrager) {
+  const auto plain = clay(),
+             ideal = material_of(
+                 fmt::format("drucker_prager density 1800 d {} beta 0 elasticity linear E {} nu {}",
+                             std::sqrt(3.0) * su, E, nu));
+  VectorX a = plain->initial_state(), b = ideal->initial_state();
+  for (int step = 0; step < 200; ++step) {
+    const double x = std::sin(0.7 * step), y = std::cos(0.3 * step);
+    const Matrix3 h = 4e-3 * (Matrix3() << x, y, -x, 0.5, -y, x * y, y, -0.2, 0.3 * x).finished();
+    plain->update_point(h, a);
+    ideal->update_point(h, b);
+    ASSERT_LT((stress_of(a) - stress_of(b)).norm(), 1e-9 * su) << step;
+  }
+  EXPECT_GT(a[field::dissipated_energy], 0.0);
+  EXPECT_NEAR(a[field::dissipated_energy] / b[field::dissipated_energy], 1.0, 1e-9);
+}
+
 /// Ten times the rate above the reference adds the share; below it the rate does not matter.
 TEST(UndrainedClay, RateAddsItsShareOfEachDecade) {
   const auto material = clay("rate_share 0.12 reference_rate 0.01");
