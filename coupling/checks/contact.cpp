@@ -21,6 +21,7 @@
 #include "coupling/drive/fix_wheel_rig.h"
 #include "domain.h"
 #include "mpm/boundary_effect.h"
+#include "mpm/divided_ground.h"
 #include "mpm/ground_under_wheel.h"
 #include "primitive_wall.h"
 
@@ -385,6 +386,24 @@ Found cells_show_the_grousers(const Scene&, FixContactContinuum& contact) {
   const Grid& grid = contact.terrain_fix().terrain().grid();
   return judge_grousers(contact.body_fix(), contact.terrain_fix().options(),
                         grid.axis(2).shortest(), grid.axis(0).shortest());
+}
+
+/// Grousers and blades: ground on both sides of other thin parts hardly moves apart.
+Found thin_parts_divide_the_ground(const Scene&, FixContactContinuum& contact) {
+  const TerrainParameters& parameters = contact.terrain_fix().terrain().parameters();
+  const FixBody& body = contact.body_fix();
+  const auto* tool = dynamic_cast<const FixPlateRigid*>(&body);
+  const bool pushes =
+      tool != nullptr ? std::abs(tool->direction().z()) < sideways
+                      : body.options().has("grousers") && body.options().integer("grousers") > 0;
+  if (!pushes || parameters.thin_parts) return {};
+  const auto parts = DividedGround::parts_of(body.body().surface(), parameters.x.cell);
+  if (parts.empty()) return {};
+  return warning(fmt::format(
+      "'{}' has {} thinner than 2.5 cells: ground before and behind moves as one and pushes up to "
+      "3 times too hard; write 'thin_parts yes' in the line of terrain '{}'",
+      body.id, parts.size() == 1 ? "a part" : fmt::format("{} parts", parts.size()),
+      contact.terrain_fix().id));
 }
 
 Found cells_of_the_field_show_the_grousers(const Scene&, FixContactScm& contact) {

@@ -113,6 +113,7 @@ constexpr Rule rules[] = {
     rule<cells_show_the_body>(When::before_run),
     rule<cells_of_the_field_show_the_body>(When::before_run),
     rule<cells_show_the_grousers>(When::before_run),
+    rule<thin_parts_divide_the_ground>(When::before_run),
     rule<cells_of_the_field_show_the_grousers>(When::before_run),
     rule<wheel_on_a_field_has_no_camber>(When::before_run),
     rule<body_is_over_terrain>(When::before_run),

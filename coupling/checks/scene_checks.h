@@ -156,6 +156,7 @@ Found terrain_has_the_size_of_a_wheels(const Scene& scene, FixContactContinuum& 
 Found cells_show_the_body(const Scene& scene, FixContactContinuum& contact);
 Found cells_of_the_field_show_the_body(const Scene& scene, FixContactScm& contact);
 Found cells_show_the_grousers(const Scene& scene, FixContactContinuum& contact);
+Found thin_parts_divide_the_ground(const Scene& scene, FixContactContinuum& contact);
 Found cells_of_the_field_show_the_grousers(const Scene& scene, FixContactScm& contact);
 /// After a run.
 Found cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact);

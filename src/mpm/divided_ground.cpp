@@ -14,8 +14,15 @@ namespace {
 constexpr int reach_of_nodes = 3;
 constexpr int reach_of_particles = 2;
 constexpr double nowhere = std::numeric_limits<double>::infinity();
+// Cells: ground of both sides of a thicker part reaches no common node; ground in a wider gap
+// reaches no node that two parts divide.
+constexpr double largest_thickness = 2.5, largest_gap = 8.0;
 
 }  // namespace
+
+std::vector<ThinPart> DividedGround::parts_of(const Surface& surface, double cell) {
+  return find_thin_parts(surface, largest_thickness * cell, largest_gap * cell, fields);
+}
 
 std::size_t DividedGround::Box::size() const {
   if (empty()) return 0;

@@ -29,6 +29,10 @@ class DividedGround {
   /// Velocity fields: enough for parts in any ring or row.
   static constexpr int fields = 3;
 
+  /// Parts of a surface that are thin enough to divide ground.
+  /// @param cell  where the surface is [m]
+  static std::vector<ThinPart> parts_of(const Surface& surface, double cell);
+
   /// @param boundary  the far field of an absorbing face is that of ground of one piece: its nodes
   /// are not divided
   DividedGround(Discretisation& discretisation, const FaceArray<BoundaryKind>& boundary);

@@ -11,15 +11,6 @@
 
 namespace furrow {
 
-namespace {
-
-// Cells: ground of both sides of a thicker part reaches no common node; ground in a wider gap
-// reaches no node that two parts divide.
-constexpr double largest_thickness_cells = 2.5;
-constexpr double largest_gap_cells = 8.0;
-
-}  // namespace
-
 TerrainContact::TerrainContact(Body& body, ContinuumTerrain& terrain,
                                const ContactParameters& parameters, bool half_model,
                                const std::string& where)
@@ -30,11 +21,8 @@ TerrainContact::TerrainContact(Body& body, ContinuumTerrain& terrain,
       narrow_phase_(body) {
   std::visit([&](auto& law) { law.fit(terrain.parameters(), where); }, law_);
   if (half_model) mirror_.emplace(body.surface(), terrain.grid().axis(1).lower(), where);
-  if (terrain.parameters().thin_parts) {
-    const double cell = terrain.parameters().x.cell;
-    thin_parts_ = find_thin_parts(body.surface(), largest_thickness_cells * cell,
-                                  largest_gap_cells * cell, terrain.grid().fields());
-  }
+  if (terrain.parameters().thin_parts)
+    thin_parts_ = DividedGround::parts_of(body.surface(), terrain.parameters().x.cell);
   for (ParticleGroup& group : terrain_.unsynchronised_groups())
     history_columns_.push_back(group.particles.add_column(where, contact_history_numbers));
 }
