@@ -42,6 +42,7 @@ constexpr double longest_window = 30.0, longest_track = 200.0, widest_terrain = 
                  deepest_terrain = 10.0;
 constexpr double cells_of_a_lug = 2.5;  // in height and spacing of grousers
 constexpr double sideways = 0.5;        // largest vertical part of a tool's direction
+constexpr double beyond_rim = 1.01;     // distance of a grouser's corner from the axle, in radii
 constexpr double near_end = 0.75;       // diameters of the wheel
 // Of surcharge and weight, either over the other.
 constexpr double surcharge_ratio = 2.0;
@@ -388,22 +389,30 @@ Found cells_show_the_grousers(const Scene&, FixContactContinuum& contact) {
                         grid.axis(2).shortest(), grid.axis(0).shortest());
 }
 
-/// Grousers and blades: ground on both sides of other thin parts hardly moves apart.
+/// Blades, and grousers: ground reaches both sides of no other part.
 Found thin_parts_divide_the_ground(const Scene&, FixContactContinuum& contact) {
   const TerrainParameters& parameters = contact.terrain_fix().terrain().parameters();
   const FixBody& body = contact.body_fix();
   const auto* tool = dynamic_cast<const FixPlateRigid*>(&body);
-  const bool pushes =
-      tool != nullptr ? std::abs(tool->direction().z()) < sideways
-                      : body.options().has("grousers") && body.options().integer("grousers") > 0;
-  if (!pushes || parameters.thin_parts) return {};
+  const auto* wheel = dynamic_cast<const WheelHub*>(&body.body());
+  const bool pushes = tool != nullptr && std::abs(tool->direction().z()) < sideways;
+  if (parameters.thin_parts || (!pushes && !wheel)) return {};
+  const Matrix3X& x = body.body().surface().x;
+  const auto divides = [&](const ThinPart& part) {
+    if (pushes) return true;
+    double reach = 0.0;
+    for (const ThinPart::Facet& facet : part.facets)
+      for (const int n : facet.nodes)
+        reach = std::max(reach, (x.col(n) - wheel->centre()).cross(wheel->axle()).norm());
+    return reach > beyond_rim * wheel->nominal_radius();
+  };
   const auto parts = DividedGround::parts_of(body.body().surface(), parameters.x.cell);
-  if (parts.empty()) return {};
+  const auto count = std::count_if(parts.begin(), parts.end(), divides);
+  if (count == 0) return {};
   return warning(fmt::format(
       "'{}' has {} thinner than 2.5 cells: ground before and behind moves as one and pushes up to "
       "3 times too hard; write 'thin_parts yes' in the line of terrain '{}'",
-      body.id, parts.size() == 1 ? "a part" : fmt::format("{} parts", parts.size()),
-      contact.terrain_fix().id));
+      body.id, count == 1 ? "a part" : fmt::format("{} parts", count), contact.terrain_fix().id));
 }
 
 Found cells_of_the_field_show_the_grousers(const Scene&, FixContactScm& contact) {

@@ -66,6 +66,10 @@ struct Search {
   void measure(double largest);
   void join_faces();
   bool is_wide(const std::vector<int>& triangles) const;
+  double area(int number) const;
+  bool bends_backwards(std::size_t triangle, std::size_t corner) const;
+  std::vector<int> parts_by_area();
+  void drop_carriers(std::vector<int>& parts) const;
   ThinPart make_part(int number) const;
 
   const Surface& surface;
@@ -75,6 +79,7 @@ struct Search {
   std::vector<std::array<int, 3>> neighbour;  // across from each corner
   std::vector<int> face;                      // of each triangle
   std::vector<std::vector<int>> faces;        // their triangles
+  std::vector<int> part;                      // of each face: the face that stands for it
 };
 
 void Search::measure(double largest) {
@@ -137,6 +142,68 @@ bool Search::is_wide(const std::vector<int>& triangles) const {
   return area > least_width * largest * 2.0 * half_length;
 }
 
+double Search::area(int number) const {
+  double sum = 0.0;
+  for (const int t : faces[static_cast<std::size_t>(number)])
+    sum += surface.area_vector(static_cast<std::size_t>(t)).norm();
+  return sum;
+}
+
+/// Over the edge across from a corner, to the neighbour's corner that is not on the edge.
+bool Search::bends_backwards(std::size_t triangle, std::size_t corner) const {
+  const Vector3i& nodes = surface.triangles[triangle];
+  const auto other = static_cast<std::size_t>(neighbour[triangle][corner]);
+  double bend = 0.0, length = 0.0;
+  for (const int n : surface.triangles[other]) {
+    const Vector3 d = surface.x.col(n) - surface.x.col(nodes[(static_cast<int>(corner) + 1) % 3]);
+    if (std::abs(normal[triangle].dot(d)) <= std::abs(bend)) continue;
+    bend = normal[triangle].dot(d);
+    length = d.norm();
+  }
+  return bend < convex_sine * length;
+}
+
+/// The larger face of each part stands for it.
+std::vector<int> Search::parts_by_area() {
+  std::vector<std::pair<double, int>> by_area;
+  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+    if (is_wide(faces[static_cast<std::size_t>(f)])) by_area.push_back({-area(f), f});
+  std::stable_sort(by_area.begin(), by_area.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  part.assign(faces.size(), none);
+  std::vector<int> parts;
+  for (const auto& [smaller, f] : by_area) {
+    if (part[static_cast<std::size_t>(f)] != none) continue;
+    parts.push_back(f);
+    part[static_cast<std::size_t>(f)] = f;
+    for (const int t : faces[static_cast<std::size_t>(f)]) {
+      const int across = opposite[static_cast<std::size_t>(t)];
+      const int other = face[static_cast<std::size_t>(across)];
+      if (other != none) part[static_cast<std::size_t>(other)] = f;
+    }
+  }
+  return parts;
+}
+
+/// Where two parts meet, the larger one carries the smaller: a rim its grousers. Three regions of
+/// space meet there, and a node has two copies.
+void Search::drop_carriers(std::vector<int>& parts) const {
+  std::vector<bool> carries(faces.size(), false);
+  for (std::size_t t = 0; t < face.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int other = neighbour[t][c];
+      if (other == none || face[t] == none || face[static_cast<std::size_t>(other)] == none)
+        continue;
+      const int mine = part[static_cast<std::size_t>(face[t])],
+                theirs = part[static_cast<std::size_t>(face[static_cast<std::size_t>(other)])];
+      if (mine == none || theirs == none || mine == theirs || bends_backwards(t, c)) continue;
+      carries[static_cast<std::size_t>(area(mine) > area(theirs) ? mine : theirs)] = true;
+    }
+  parts.erase(std::remove_if(parts.begin(), parts.end(),
+                             [&](int f) { return carries[static_cast<std::size_t>(f)]; }),
+              parts.end());
+}
+
 /// An edge to another face ends the part where the surface bends backwards. Where it bends forwards
 /// the part goes on into the body that carries it.
 ThinPart Search::make_part(int number) const {
@@ -149,17 +216,7 @@ ThinPart Search::make_part(int number) const {
     for (std::size_t c = 0; c < 3; ++c) {
       const int other = neighbour[t][c];
       if (other != none && face[static_cast<std::size_t>(other)] == number) continue;
-      if (other != none) {
-        const Vector3i& theirs = surface.triangles[static_cast<std::size_t>(other)];
-        double bend = 0.0, length = 0.0;  // of the neighbour's corner that is not on the edge
-        for (const int n : theirs) {
-          const Vector3 d = surface.x.col(n) - surface.x.col(nodes[(static_cast<int>(c) + 1) % 3]);
-          if (std::abs(normal[t].dot(d)) <= std::abs(bend)) continue;
-          bend = normal[t].dot(d);
-          length = d.norm();
-        }
-        if (bend >= convex_sine * length) continue;
-      }
+      if (other != none && !bends_backwards(t, c)) continue;
       facet.edge_ends[c] = true;
       end_nodes.push_back(nodes[(static_cast<int>(c) + 1) % 3]);
       end_nodes.push_back(nodes[(static_cast<int>(c) + 2) % 3]);
@@ -277,30 +334,11 @@ std::vector<ThinPart> find_thin_parts(const Surface& surface, double largest_thi
   Search search(surface);
   search.measure(largest_thickness);
   search.join_faces();
-  std::vector<std::pair<double, int>> by_area;
-  for (std::size_t f = 0; f < search.faces.size(); ++f) {
-    if (!search.is_wide(search.faces[f])) continue;
-    double area = 0.0;
-    for (const int t : search.faces[f])
-      area += surface.area_vector(static_cast<std::size_t>(t)).norm();
-    by_area.push_back({-area, static_cast<int>(f)});
-  }
-  std::stable_sort(by_area.begin(), by_area.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<bool> stands(search.faces.size(), false), has_part(search.faces.size(), false);
-  for (const auto& [area, f] : by_area) {
-    const auto number = static_cast<std::size_t>(f);
-    if (has_part[number]) continue;
-    has_part[number] = stands[number] = true;
-    for (const int t : search.faces[number]) {
-      const int across = search.opposite[static_cast<std::size_t>(t)];
-      const int other = search.face[static_cast<std::size_t>(across)];
-      if (other != none) has_part[static_cast<std::size_t>(other)] = true;
-    }
-  }
+  std::vector<int> stands = search.parts_by_area();
+  search.drop_carriers(stands);
+  std::sort(stands.begin(), stands.end());
   std::vector<ThinPart> parts;
-  for (std::size_t f = 0; f < stands.size(); ++f)
-    if (stands[f]) parts.push_back(search.make_part(static_cast<int>(f)));
+  for (const int f : stands) parts.push_back(search.make_part(f));
   number_regions(parts, surface.x, largest_gap, regions);
   return parts;
 }

@@ -7,7 +7,7 @@
 /// triangle that faces the other way, within the largest thickness. Neighbours without a sharp edge
 /// between them make a face. A face that is narrower than the part is thick bounds no part: the tip
 /// of a grouser. Of the two faces of a part the larger one stands for it, half the thickness above
-/// the middle surface.
+/// the middle surface. A part that carries another one, as a rim its grousers, is left out.
 
 #include <array>
 #include <vector>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "geometry/thin_parts.h"
 
+#include <array>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "geometry/wheel_mesh.h"
@@ -31,6 +34,31 @@ TEST(ThinParts, BladeEndsAtItsEdges) {
        {Vector3(0.05, 0, -0.01), Vector3(-0.05, 0.26, 0.1), Vector3(0.05, 0, 0.31)})
     EXPECT_FALSE(part.place(blade.x, beyond).beside);
   EXPECT_NEAR(std::abs(part.place(blade.x, {-0.05, 0, -0.1}).height), 0.05, 1e-15);
+}
+
+/// A floor of 1 m with a rib of 0.3 m.
+TEST(ThinParts, WallThatCarriesARibDividesNoGround) {
+  const double outline[8][2] = {{-0.5, 0.0},  {0.5, 0.0},    {0.5, 0.02},   {0.01, 0.02},
+                                {0.01, 0.32}, {-0.01, 0.32}, {-0.01, 0.02}, {-0.5, 0.02}};
+  Surface surface;
+  surface.resize(16);
+  for (int n = 0; n < 16; ++n)
+    surface.x.col(n) = Vector3(outline[n % 8][0], n < 8 ? -0.25 : 0.25, outline[n % 8][1]);
+  for (const auto& [a, b, c] : std::vector<std::array<int, 3>>{
+           {0, 1, 3}, {1, 2, 3}, {0, 3, 6}, {0, 6, 7}, {3, 4, 5}, {3, 5, 6}}) {
+    surface.triangles.push_back({a, b, c});
+    surface.triangles.push_back({a + 8, c + 8, b + 8});
+  }
+  for (int n = 0; n < 8; ++n) {
+    const int next = (n + 1) % 8;
+    surface.triangles.push_back({n, n + 8, next + 8});
+    surface.triangles.push_back({n, next + 8, next});
+  }
+  ASSERT_TRUE(surface.is_closed());
+  ASSERT_GT(surface.enclosed_volume(), 0.0);
+  const std::vector<ThinPart> parts = find_thin_parts(surface, 0.05, 1.0, 3);
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_NEAR(std::abs(parts[0].place(surface.x, {0.1, 0.0, 0.2}).height), 0.1, 1e-12);
 }
 
 TEST(ThinParts, BlocksAndThickWallsHaveNone) {
