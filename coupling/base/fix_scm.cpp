@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/base/fix_scm.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -21,9 +22,14 @@ std::optional<SoilCard> card_of(const Options& options, const std::string& folde
 }
 
 /// Of the line, and of the cards of its patches with the stiffness, damping and flow of the line.
-SoilPatches soils_of(const Options& options, const std::optional<SoilCard>& card,
-                     const HeightFieldParameters& field, const std::string& folder) {
+/// None for a line that has no parameter of a soil.
+std::optional<SoilPatches> soils_of(const Options& options, const std::optional<SoilCard>& card,
+                                    const HeightFieldParameters& field, const std::string& folder) {
   using Values = std::map<std::string, double>;
+  const auto of_soil = {"k_c", "k_phi", "n", "c", "phi", "K", "card", "patches"};
+  if (std::none_of(of_soil.begin(), of_soil.end(),
+                   [&](const char* key) { return options.given(key); }))
+    return std::nullopt;
   SoilPatches soils(soil_from(options, card ? card->values : Values()));
   const PatchesInput patches = read_patches(options);
   const double middle = field.centre[patches.axis],

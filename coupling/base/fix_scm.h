@@ -17,20 +17,20 @@ class FixScm : public FurrowFix {
   static const Outputs<FixScm>& outputs();
   HeightField& field() { return field_; }
   const HeightField& field() const { return field_; }
-  /// Of the line, and of its patches.
-  const SoilPatches& soils() const { return soils_; }
+  /// Of the line, and of its patches; none: a surface alone, for contact/rft.
+  const std::optional<SoilPatches>& soils() const { return soils_; }
   const std::optional<SoilCard>& card() const { return card_; }
 
  protected:
   FixScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema);
   void checkpoint(Checkpoint& state) override {
-    soils_.match(state);
+    if (soils_) soils_->match(state);
     field_.checkpoint(state);
   }
 
  private:
   std::optional<SoilCard> card_;
-  SoilPatches soils_;
+  std::optional<SoilPatches> soils_;
   HeightField field_;
 };
 

@@ -40,6 +40,7 @@ constexpr double aligned = 0.7, covered_share = 0.05, behind = 0.5;
 // Of terrain under a wheel, in lengths of the wheel.
 constexpr double longest_window = 30.0, longest_track = 200.0, widest_terrain = 30.0,
                  deepest_terrain = 10.0;
+constexpr double largest_pull = 1.0;    // over the vertical force: sand of 45 degrees
 constexpr double cells_of_a_lug = 2.5;  // in height and spacing of grousers
 constexpr double sideways = 0.5;        // largest vertical part of a tool's direction
 constexpr double beyond_rim = 1.01;     // distance of a grouser's corner from the axle, in radii
@@ -271,10 +272,10 @@ Found body_touches_something(const Scene& scene, FixBody& body) {
   if (dynamic_cast<const FixTerrain*>(&body) || touches_grains(scene.lammps, body) ||
       has_contact(*scene.lammps.modify, body))
     return {};
-  return warning(
-      fmt::format("{} touches nothing: there is no contact/continuum, contact/scm or contact/plane "
-                  "of it, and no mesh/body of it in a wall/gran/body; it will feel no force",
-                  body.name()));
+  return warning(fmt::format(
+      "{} touches nothing: there is no contact/continuum, contact/scm, contact/rft or "
+      "contact/plane of it, and no mesh/body of it in a wall/gran/body; it will feel no force",
+      body.name()));
 }
 
 namespace {
@@ -454,7 +455,7 @@ Found travel_stays_on_terrain(const Scene& scene, FixContactContinuum& contact) 
       pair.body.id, end, pair.terrain.id, pair.terrain_x.upper, end - limit, pair.body.id));
 }
 
-Found travel_stays_on_the_field(const Scene& scene, FixContactScm& contact) {
+Found travel_stays_on_the_field(const Scene& scene, FixFieldContact& contact) {
   const std::optional<double> travel = planned_travel(scene, contact.body_fix());
   if (!travel) return {};
   const auto [lower, upper] = contact.body_fix().body().surface().bounds();
@@ -588,6 +589,20 @@ Found sides_on_a_field_carry_little(const Scene&, FixContactScm& contact) {
       "contact model does not compute it, so lateral forces are wrong; remove camber, use a "
       "mesh with upright sides, or terrain/continuum",
       finding, small_side_force));
+}
+
+/// Resistive force theory adds the forces of all grousers, however close they are.
+Found sand_pulls_less_than_the_load(const Scene&, FixContactRft& contact) {
+  const auto* wheel = dynamic_cast<const WheelHub*>(&contact.body_fix().body());
+  if (!wheel) return {};
+  const Vector3 along(wheel->velocity().x(), wheel->velocity().y(), 0.0);
+  const Vector3& force = contact.contact().step().force;
+  if (along.dot(force) <= largest_pull * along.norm() * force.z()) return {};
+  return warning(fmt::format(
+      "{}: the sand pulls '{}' with more than {:g} of the vertical force, which no sand does: "
+      "resistive force theory does not compute that grousers shield one another; model a wheel "
+      "with close grousers as a wheel of the radius of their tips without grousers",
+      contact.options().subject(), contact.body_fix().id, largest_pull));
 }
 
 Found card_reaches_the_sinkage(const Scene&, FixContactScm& contact) {

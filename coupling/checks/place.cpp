@@ -16,6 +16,7 @@
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/grain_check.h"
 #include "coupling/base/fix_scm.h"
+#include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
 #include "coupling/contact/fix_contact_scm.h"
 #include "coupling/terrain/fix_bed_window.h"
@@ -170,7 +171,7 @@ std::vector<Level> levels_under(const LAMMPS_NS::LAMMPS& lammps, const FixBody& 
     if (&contact->body_fix() == &fix)
       levels.push_back({contact->options().number("level"), level_tolerance * size,
                         fmt::format("the level of fix contact/plane '{}'", contact->id)});
-  for (auto* contact : fixes_of<FixContactScm>(*lammps.modify))
+  for (auto* contact : fixes_of<FixFieldContact>(*lammps.modify))
     if (&contact->body_fix() == &fix)
       levels.push_back({contact->terrain_fix().field().parameters().level, level_tolerance * size,
                         fmt::format("the surface of terrain '{}'", contact->terrain_fix().id)});

@@ -143,6 +143,7 @@ constexpr Rule rules[] = {
     rule<wheel_stays_off_the_end>(When::during_run),
     rule<axle_stays_above_the_field>(When::during_run),
     rule<sides_on_a_field_carry_little>(When::during_run),
+    rule<sand_pulls_less_than_the_load>(When::during_run),
     rule<card_reaches_the_sinkage>(When::during_run),
     rule<card_reaches_the_pressure>(When::during_run),
 

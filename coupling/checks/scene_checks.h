@@ -17,6 +17,7 @@
 #include "coupling/contact/fix_mesh_body.h"
 #include "coupling/contact/fix_contact_continuum.h"
 #include "coupling/contact/fix_contact_plane.h"
+#include "coupling/contact/fix_contact_rft.h"
 #include "coupling/contact/fix_contact_scm.h"
 #include "coupling/contact/fix_wall_gran_body.h"
 #include "coupling/base/fix_terrain.h"
@@ -147,7 +148,7 @@ Found terrain_is_deep_enough(const Scene& scene, FixContactContinuum& contact);
 Found terrain_is_long_enough(const Scene& scene, FixContactContinuum& contact);
 /// Where the rig will bring a wheel by the end of the run.
 Found travel_stays_on_terrain(const Scene& scene, FixContactContinuum& contact);
-Found travel_stays_on_the_field(const Scene& scene, FixContactScm& contact);
+Found travel_stays_on_the_field(const Scene& scene, FixFieldContact& contact);
 Found travel_stays_in_the_box(const Scene& scene, const FixMeshBody& mesh);
 /// Of ground that does not follow it.
 Found wheel_stays_off_the_end(const Scene& scene, FixContactContinuum& contact);
@@ -165,6 +166,8 @@ Found cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact);
 Found wheel_on_a_field_has_no_camber(const Scene& scene, FixContactScm& contact);
 /// During a run: does soil at the sides of a wheel push it along its axle?
 Found sides_on_a_field_carry_little(const Scene& scene, FixContactScm& contact);
+/// During a run: does the theory of the contact hold for its grousers?
+Found sand_pulls_less_than_the_load(const Scene& scene, FixContactRft& contact);
 /// During a run: is the ground used where its card was tested?
 Found card_reaches_the_sinkage(const Scene& scene, FixContactScm& contact);
 Found card_reaches_the_pressure(const Scene& scene, FixContactScm& contact);

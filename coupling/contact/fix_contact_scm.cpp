@@ -6,9 +6,8 @@
 #include <fmt/format.h>
 
 #include "comm.h"
+#include "core/check_number.h"
 #include "core/error.h"
-#include "coupling/base/fix_scm.h"
-#include "coupling/base/require_unique.h"
 #include "coupling/contact/ground_contact.h"
 #include "coupling/liggghts/style_registry.h"
 #include "tyre/tyre.h"
@@ -36,7 +35,7 @@ Schema FixContactScm::schema() {
   Schema schema("fix contact/scm");
   declare_body(schema);
   declare_body_material(schema, {soil});
-  schema.text("terrain", "id of the fix of the height field");
+  declare_field(schema);
   schema
       .number("friction", "", Range::non_negative(),
               "friction coefficient of body and soil, up to the soil's strength; by default from "
@@ -82,14 +81,13 @@ const Outputs<FixContactScm>& FixContactScm::outputs() {
   return list;
 }
 
-FixScm& FixContactScm::find_terrain() {
-  auto& fix = use<FixScm>("terrain", {"scm"});
-  require_unique<FixContactScm>(
-      *modify, options().subject(), fmt::format("presses '{}' on '{}'", body_fix().id, fix.id),
-      "one contact for each pair", [&](FixContactScm& other) {
-        return &other.body_fix() == &body_fix() && &other.terrain_fix_ == &fix;
-      });
-  return fix;
+/// @throws InputError for a height field without Bekker's parameters
+const SoilPatches& FixContactScm::soils() const {
+  need(terrain_fix().soils().has_value(), options().where("terrain"),
+       fmt::format("is '{}', which has no soil", terrain_fix().id),
+       "a terrain/scm with k_phi, n, c, phi and K, or with a card",
+       "add them; only contact/rft does without");
+  return *terrain_fix().soils();
 }
 
 /// @throws InputError for a width that has nothing to do with the body
@@ -127,11 +125,11 @@ ScmContact::Settings FixContactScm::settings_of_contact() {
   if (material == soil) return settings;
   BodyContact as_soil;
   as_soil.friction = settings.friction;
-  as_soil.slip_length = terrain_fix_.soils().all().front().shear_length;
-  const auto& card = terrain_fix_.card();
+  as_soil.slip_length = soils().all().front().shear_length;
+  const auto& card = terrain_fix().card();
   const BodyContact contact =
       contact_with(*lmp, options(), body_fix(), material,
-                   card ? terrain_fix_.options().text("card") : terrain_fix_.id,
+                   card ? terrain_fix().options().text("card") : terrain_fix().id,
                    card ? card->contact : GroundContact(), as_soil,
                    "the soil's own c, phi and K hold, and a surface without grousers pulls less");
   settings.friction = options().given("friction") ? options().number("friction") : contact.friction;
@@ -144,15 +142,14 @@ ScmContact::Settings FixContactScm::settings_of_contact() {
 std::vector<std::pair<std::string, std::string>> FixContactScm::settings() const {
   auto list = FixContact::settings();
   put_effective(list, settings_.friction,
-                settings_.slip_length.value_or(terrain_fix_.soils().all().front().shear_length));
+                settings_.slip_length.value_or(soils().all().front().shear_length));
   return list;
 }
 
 FixContactScm::FixContactScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixContact(lammps, narg, arg, schema()),
-      terrain_fix_(find_terrain()),
+    : FixFieldContact(lammps, narg, arg, schema()),
       settings_(settings_of_contact()),
-      contact_(body(), terrain_fix_.field(), terrain_fix_.soils(), settings_) {
+      contact_(body(), field(), soils(), settings_) {
   contribute(static_cast<Contact&>(contact_));
   provide(outputs());
 }
@@ -183,11 +180,11 @@ void FixContactScm::check_stability() {
   const auto refuse_above = [&](const char* key, double value, double limit, const char* unit) {
     if (value > limit)
       throw InputError(
-          terrain_fix_.options().where(key), fmt::format("is {:g} {}", value, unit),
+          terrain_fix().options().where(key), fmt::format("is {:g} {}", value, unit),
           fmt::format("at most {:.2g} {} under '{}'", limit, unit, body_fix().id),
           fmt::format("the body has {:.3g} kg/m^2 of contact and steps of {:.2g} s", mass, step));
   };
-  for (const Soil& soil : terrain_fix_.soils().all()) {
+  for (const Soil& soil : soils().all()) {
     refuse_above("stiffness", soil.stiffness, 4.0 * mass / (step * step), "Pa/m");
     refuse_above("damping", soil.damping, mass / step, "Pa s/m");
   }

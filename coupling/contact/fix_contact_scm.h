@@ -3,20 +3,17 @@
 /// fix contact/scm: contact between a body and a height field by the soil contact model. See
 /// fix_contact_scm.md.
 
-#include "coupling/contact/fix_contact.h"
+#include "coupling/contact/fix_field_contact.h"
 #include "scm/scm_contact.h"
 
 namespace furrow::coupling {
 
-class FixScm;
-
-class FixContactScm : public FixContact {
+class FixContactScm : public FixFieldContact {
  public:
   FixContactScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
   static const Outputs<FixContactScm>& outputs();
 
-  const FixScm& terrain_fix() const { return terrain_fix_; }
   const ScmContact& contact() const { return contact_; }
   void add_losses(const Body& wheel, GroundLosses& losses) const override;
   std::vector<std::pair<std::string, std::string>> settings() const override;
@@ -25,13 +22,12 @@ class FixContactScm : public FixContact {
   }
 
  private:
-  FixScm& find_terrain();
+  const SoilPatches& soils() const;
   ScmContact::Settings settings_of_contact();
   double contact_width() const;
   void check_stability();
   void checkpoint(Checkpoint& state) override { contact_.checkpoint(state); }
 
-  FixScm& terrain_fix_;
   const ScmContact::Settings settings_;
   ScmContact contact_;
 };

@@ -69,10 +69,9 @@ FixTerrainScm::FixTerrainScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
                            options().where("card")));
   std::vector<std::string> all =
       field().parameters().relief.doubts(options().number("length"), field().cell(), false);
-  for (const Soil& soil : soils().all()) {
-    if (!options().warnings().empty()) break;  // the line has a value to mend first
-    for (const std::string& doubt : doubts(soil)) all.push_back(doubt);
-  }
+  if (soils() && options().warnings().empty())  // else the line has a value to mend first
+    for (const Soil& soil : soils()->all())
+      for (const std::string& doubt : doubts(soil)) all.push_back(doubt);
   for (const std::string& doubt : all)
     warn(*lmp, fmt::format("{}: {}", options().subject(), doubt));
   refuse_overlap();

@@ -85,6 +85,19 @@ HeightField::HeightField(const HeightFieldParameters& parameters, const std::str
        "heights that differ by less than the length", "give all lengths and heights in m");
 }
 
+double HeightField::height(const Vector2& place) const {
+  const auto between = [&](int axis, int count, int& first) {
+    const double at = std::clamp((place[axis] - lower_[axis]) / cell() - 0.5, 0.0, count - 1.0);
+    first = std::min(static_cast<int>(at), std::max(count - 2, 0));
+    return at - first;
+  };
+  int column = 0, row = 0;
+  const double u = between(0, columns_, column), v = between(1, rows_, row);
+  const int right = std::min(column + 1, columns_ - 1), above = std::min(row + 1, rows_ - 1);
+  return (1.0 - v) * ((1.0 - u) * surface_[index(column, row)] + u * surface_[index(right, row)]) +
+         v * ((1.0 - u) * surface_[index(column, above)] + u * surface_[index(right, above)]);
+}
+
 void HeightField::raise(std::size_t cell, double height) {
   surface_[cell] += height;
   reference_[cell] += height;

@@ -55,7 +55,9 @@ class HeightField {
                                            static_cast<double>(cell / columns) + 0.5);
   }
 
-  double surface(std::size_t cell) const { return surface_[cell]; }      ///< [m]
+  double surface(std::size_t cell) const { return surface_[cell]; }  ///< [m]
+  /// Of the surface at a place in the field, linear between the middles of cells [m].
+  double height(const Vector2& place) const;
   double reference(std::size_t cell) const { return reference_[cell]; }  ///< [m]
   /// Presses the surface of a cell down to a height [m].
   void press(std::size_t cell, double height) { surface_[cell] = height; }

@@ -952,6 +952,57 @@ def scm() -> None:
     save("scm")
 
 
+# ---- resistive force theory: equations of rft.md ------------------------------------------------
+
+# Coefficients of [Agarwal2023] by the powers of x1, x2, x3
+RFT = {
+    (0, 0, 0): (0.00212, -0.06796, -0.02634), (1, 0, 0): (-0.02320, -0.10941, -0.03436),
+    (0, 1, 0): (-0.20890, 0.04725, 0.45256), (0, 0, 1): (-0.43083, -0.06914, 0.00835),
+    (2, 0, 0): (-0.00259, -0.05835, 0.02553), (0, 2, 0): (0.48872, -0.65880, -1.31290),
+    (0, 0, 2): (-0.00415, -0.11985, -0.05532), (1, 1, 0): (0.07204, -0.25739, 0.06790),
+    (0, 1, 1): (-0.02750, -0.26834, -0.16404), (1, 0, 1): (-0.08772, 0.02692, 0.02287),
+    (3, 0, 0): (0.01992, -0.00736, 0.02927), (0, 3, 0): (-0.45961, 0.63758, 0.95406),
+    (0, 0, 3): (0.40799, 0.08997, -0.00131), (1, 2, 0): (-0.10107, 0.21069, -0.11028),
+    (2, 1, 0): (-0.06576, 0.04748, 0.01487), (0, 1, 2): (0.05664, 0.20406, -0.02730),
+    (0, 2, 1): (-0.09269, 0.18589, 0.10911), (2, 0, 1): (0.01892, 0.04934, -0.04097),
+    (1, 0, 2): (0.01033, 0.13527, 0.07881), (1, 1, 1): (0.15120, -0.33207, -0.27519),
+}  # fmt: skip
+
+
+def rft_stress(n, d, friction):
+    """Stress per strength and depth on a face of outward normal n that moves along d (equation 2)."""
+    n, d = np.asarray(n, float), np.asarray(d, float)
+    if n @ d < -1e-9:
+        return np.zeros(3)
+    m = n if n[2] <= 1e-9 else -n
+    x = (-d[2], -m[2], m @ d)
+    f = sum(np.prod(np.power(x, powers)) * np.array(c) for powers, c in RFT.items())
+    alpha = f[0] * m + f[1] * d - f[2] * np.array((0.0, 0.0, 1.0))
+    pressure = -alpha @ n
+    if pressure <= 0.0:
+        return np.zeros(3)
+    along = alpha + pressure * n
+    share = min(1.0, friction * pressure / max(np.linalg.norm(along), 1e-12))
+    return -pressure * n + (-share if along @ d > 0 else share) * along
+
+
+def rft() -> None:
+    figure, panels = plt.subplots(1, 2, figsize=(7.4, 2.9))
+    angles = np.radians(np.linspace(0, 90, 91))
+    for axes, normal, title in (
+        (panels[0], (0, 0, -1), "a  level plate"),
+        (panels[1], (1, 0, 0), "b  upright plate"),
+    ):
+        stress = np.array([rft_stress(normal, (np.cos(a), 0, -np.sin(a)), 0.5) for a in angles])
+        axes.plot(np.degrees(angles), stress[:, 2], color=BLUE, label="upward")
+        axes.plot(np.degrees(angles), -stress[:, 0], color=ORANGE, label="against the travel")
+        axes.set(xlabel="motion below the horizontal [°]", title=title)
+    panels[0].set(ylabel="stress over \u03be z")
+    panels[0].legend()
+    figure.tight_layout()
+    save("rft")
+
+
 CHAPTERS: dict[str, Callable[[], None]] = {
     "symbols": symbols,
     "step": step,
@@ -966,6 +1017,7 @@ CHAPTERS: dict[str, Callable[[], None]] = {
     "errors": errors,
     "hybrid": hybrid,
     "scm": scm,
+    "rft": rft,
 }
 
 

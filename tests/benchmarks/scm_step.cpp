@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Cost of a rigid wheel on a height field, and how many times faster than real time it rolls:
+// Cost of a rigid wheel on a height field, by both contacts, and how many times faster than real
+// time it rolls:
 //   build/tests/benchmarks/scm_step
 // A loaded wheel is driven in steps of 0.5 ms.
 
@@ -7,6 +8,7 @@
 
 #include "bodies/coupled_system.h"
 #include "bodies/rigid_wheel.h"
+#include "scm/rft_contact.h"
 #include "scm/scm_contact.h"
 
 namespace furrow {
@@ -59,6 +61,42 @@ void BM_roll(benchmark::State& timer) {
   timer.counters["hub_drop_mm"] = 1e3 * (radius - wheel.centre().z());
 }
 
+/// A wheel with grousers in sand by resistive force theory. Facets around are the argument.
+void BM_rft(benchmark::State& timer) {
+  RigidWheelParameters shape;
+  shape.geometry.diameter = 2.0 * radius;
+  shape.geometry.width = 0.16;
+  shape.geometry.segments = static_cast<int>(timer.range(0));
+  shape.geometry.grousers.number = 24;
+  shape.geometry.grousers.height = 0.02;
+  shape.geometry.grousers.thickness = 0.006;
+  shape.hub.inertia = {25.0, 0.8, 0.5};
+  shape.hub.centre = Vector3(0.0, 0.0, radius);
+  RigidWheel wheel(shape);
+  constexpr double length = 40.0;
+  HeightField field({length, 0.6, Vector2(0.5 * length - 1.0, 0.0), 0.0, 0.05});
+  RftContact contact(wheel, field, {2e6, 0.5, 1e-3});
+  CoupledSystem system;
+  system.add(wheel, "wheel");
+  system.add(contact, "contact");
+  wheel.release(Coordinate::z);
+  wheel.set_vertical_damping(500.0);
+  wheel.set_load(Vector3(0.0, 0.0, -600.0));
+  wheel.prescribe(Coordinate::x, speed);
+  wheel.prescribe(Coordinate::spin, speed / (radius * (1.0 - slip)));
+  for (int n = 0; n < 2000; ++n) system.advance(step);
+  double simulated = 0.0;
+  for (auto _ : timer) {
+    if (wheel.centre().x() > length - 3.0) wheel.place(Vector3(0.0, 0.0, radius), 0.0, 0.0);
+    system.advance(step);
+    simulated += step;
+  }
+  timer.counters["times_real_time"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
+  timer.counters["triangles"] = static_cast<double>(wheel.surface().triangle_count());
+  timer.counters["hub_drop_mm"] = 1e3 * (radius - wheel.centre().z());
+}
+
+BENCHMARK(BM_rft)->Arg(60)->Arg(240)->Unit(benchmark::kMicrosecond);
 BENCHMARK(BM_roll)->Arg(50)->Arg(100)->Arg(200)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..arguments import at_least, number, path, positive
 from ..errors import ResultsError
-from ..read.soil_card import Fitted, SoilCard, markdown, read_card
+from ..read.soil_card import Fitted, PressureSinkage, Range, SoilCard, markdown, read_card
 from ..soil.exports import EXPORTS
 from ..soil import grains
 from ..soil.instruments import Bench, card_executor
@@ -21,6 +21,7 @@ from ..soil.units import EARTH, require_plausible
 from .parameters import Given, argument, command, flag, option, repeated, target_option
 
 SIZES = (0.1, 0.15, 0.2)  # [m]
+ROUND_OFF = 1e-9
 ROUTES = {  # option that chooses the route -> what it needs and may have besides
     "cone_index": (("soil_class",), ("density",)),
     "k_phi": (("k_c", "n", "c", "phi", "K"), ("density", "plate")),
@@ -101,6 +102,30 @@ def card_export(given: Given) -> None:
 @command(argument("cards", "files of cards", path, nargs=-1, required=True))
 def card_table(given: Given) -> None:
     print(markdown([read_card(card) for card in given.cards]))
+
+
+@command(
+    argument("card", "of card make, of dry sand", path),
+    option("--sinkage", parse=positive, help="down to which the pressure counts, by default that of the plates [m]"),
+    option("--width", parse=positive, help="of the contact, by default the mean diameter of the plates [m]"),
+)
+def card_rft(given: Given) -> None:
+    card = read_card(given.card)
+    plates = card.pressure_sinkage
+    if not isinstance(plates, PressureSinkage):
+        raise ResultsError(f"{card.title}: has no values of the plates ({plates.reason})")
+    sinkage = given.sinkage or plates.sinkage.high
+    width = given.width or plates.radii.low + plates.radii.high
+    of_plates = (("sinkage", sinkage, plates.sinkage), ("width", width, Range(2 * plates.radii.low, 2 * plates.radii.high)))
+    for name, value, tested in of_plates:
+        if not tested.low * (1 - ROUND_OFF) <= value <= tested.high * (1 + ROUND_OFF):
+            raise ResultsError(
+                f"--{name} is {value:g} m; allowed: {tested.low:.3g} to {tested.high:.3g} m, as the plates of {card.title} "
+                f"had; make a card with plates like the contact: --sizes"
+            )
+    xi, deviation = plates.rft_strength(sinkage, 0.5 * width)
+    print(f"  xi            {xi:.3g} N/m^3, for a sinkage to {1e3 * sinkage:.3g} mm under a width of {1e3 * width:.3g} mm")
+    print(f"  deviation     the pressure over depth deviates from a line by {deviation:.1%} of its greatest value (rms)")
 
 
 @command(

@@ -123,6 +123,7 @@ COMMANDS: dict[str, tuple[Entry, ...]] = {
                "my_clay.yaml --cone_index 4e5 --class CL --no-check")),
         Entry("card export", "card_commands", "a card for vehicle codes", ("results/card/card.yaml chrono",)),
         Entry("card table", "card_commands", "cards as a table in Markdown", ("results/card/card.yaml",)),
+        Entry("card rft", "card_commands", "strength of a card's sand for contact/rft", ("inputs/soils/grc1.yaml --sinkage 0.03",)),
         Entry("laboratory", "laboratory_command",
               "moduli, strengths, repose or run-out of laboratory tests with their errors -> laboratory.json, "
               "laboratory.png",

@@ -48,6 +48,7 @@ CHRONO = {  # key of Chrono's "Soil parameters" -> name
     "Damping": "damping",
 }
 EARTH = 9.80665  # [m/s2]
+RFT_PLATE = 0.875  # stress under a level plate over strength and depth, resistive force theory [Agarwal2023]
 SMALLEST_K = 5e-4  # [m] that a soil has
 
 
@@ -88,6 +89,14 @@ class PressureSinkage:
         modulus = self.k_c.value / radius + self.k_phi.value
         pressure: Floats = modulus * np.asarray(sinkage) ** self.n.value
         return pressure
+
+    def rft_strength(self, sinkage: float, radius: float) -> tuple[float, float]:
+        """xi of contact/rft [N/m^3], of the line through zero with the least squared deviation from the curve down to
+        this sinkage (theory: rft, eq. 6), and the rms of that deviation over the greatest pressure."""
+        n = self.n.value
+        top = float(self.at(np.array(sinkage), radius))
+        slope = 3 * top / (sinkage * (n + 2))
+        return slope / RFT_PLATE, abs(n - 1) / (n + 2) / math.sqrt(2 * n + 1)
 
 
 @dataclass(frozen=True)

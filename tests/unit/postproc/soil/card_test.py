@@ -7,6 +7,8 @@ import re
 import unittest
 from dataclasses import replace
 
+import numpy as np
+
 from furrow_post.analyse import empirical
 from furrow_post.analyse.terrain_values import terrain
 from furrow_post.csv_table import read_rows
@@ -63,6 +65,17 @@ WITHOUT_RING = replace(CARD, shear=NoResult("the ring sank through"))
 
 
 class SoilCardTest(FolderTest):
+    def test_strength_of_resistive_force_theory_is_the_best_line_through_zero(self) -> None:
+        plates = CARD.pressure_sinkage
+        assert isinstance(plates, PressureSinkage)
+        depth = (np.arange(20000) + 0.5) / 20000 * 0.03
+        pressure = plates.at(depth, 0.07)
+        slope = float(depth @ pressure / (depth @ depth))
+        xi, deviation = plates.rft_strength(0.03, 0.07)
+        self.assertAlmostEqual(0.875 * xi / slope, 1, places=6)
+        rms = float(np.sqrt(np.mean((pressure - slope * depth) ** 2)))
+        self.assertAlmostEqual(deviation / (rms / pressure[-1]), 1, places=3)
+
     def setUp(self) -> None:
         super().setUp()
         self.path = self.folder / "card.yaml"
