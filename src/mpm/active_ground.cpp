@@ -410,7 +410,7 @@ std::vector<NodeBlock> ActiveGround::find_blocks(Pass pass) const {
   return blocks;
 }
 
-/// What does not change while the tiles sleep: mass and stress of the sleeping particles at the
+/// Sums what stays constant while the tiles sleep: mass and stress of the sleeping particles at the
 /// nodes that are held, and the reactions of the faces on the other sleeping nodes.
 void ActiveGround::find_resting_sums() {
   Grid& grid = discretisation_.grid;
@@ -507,7 +507,7 @@ void ActiveGround::checkpoint(Checkpoint& state) {
   }
 }
 
-/// Of all ranks, y running fastest.
+/// Particles of all ranks in each column of cells, y running fastest.
 std::vector<double> ActiveGround::count_in_columns(const ParticleGroup& group) const {
   const Grid& grid = discretisation_.grid;
   const int ny = grid.axis(1).cells();

@@ -39,10 +39,11 @@
 
 namespace furrow {
 
-/// For ground without window and slide surface. Tiles are the same on all ranks.
+/// Switches off ground at rest, tile by tile; for ground without window and slide surface. Tiles
+/// are the same on all ranks.
 class ActiveGround {
  public:
-  /// What the sleeping ground neglects.
+  /// Force and energy that sleeping ground neglects.
   struct Neglect {
     double force = 0.0;          ///< mean over the last period [N]
     double largest_force = 0.0;  ///< of all periods [N]
@@ -56,9 +57,9 @@ class ActiveGround {
 
   const Neglect& neglect() const { return neglect_; }
   double awake_share() const;  ///< of the particles; collective
-  /// The fastest in sleeping ground of this rank [m/s].
+  /// Fastest wave in sleeping ground of this rank [m/s].
   double resting_wave_speed() const { return resting_wave_speed_; }
-  bool asleep(double x, double y) const;  ///< whether the ground there is [m]
+  bool asleep(double x, double y) const;  ///< of the ground at x, y [m]
 
   /// Keeps the ground in and around a box awake, until the next decision. To be called on all
   /// ranks. [m]
@@ -91,7 +92,7 @@ class ActiveGround {
   void resume();
 
  private:
-  /// What a tile does in an interval; of the nodes of this rank, then of all.
+  /// Motion of a tile in an interval: of the nodes of this rank, then of all ranks.
   struct Motion {
     double kinetic = 0.0;                    // at the end [J]
     Vector3 moved = Vector3::Zero();         // sum of mass times displacement [kg m]
@@ -162,11 +163,11 @@ class ActiveGround {
   double resting_wave_speed_ = 0.0;      // [m/s]
   std::vector<std::vector<double>> saved_counts_;  // of particles in columns, until resume()
 
-  // this rank's, since the last decision
+  // sums of this rank since the last decision
   std::vector<Motion> motion_;  // of the tiles
   Vector3 load_impulse_ = Vector3::Zero();
   double lost_energy_ = 0.0;
-  // of all ranks
+  // sums and times of all ranks
   int steps_ = 0;                              // in this period
   double elapsed_ = 0.0;                       // in this period [s]
   double interval_ = 0.0;                      // since the last decision [s]

@@ -27,11 +27,11 @@ struct AxisLayout {
   double growth = 1.0;
   /// where a body ends across the axis: a knot lies there, between short cells [m]
   std::vector<double> edges = {};
-  /// of the shortest cells there [m]; they grow by a factor of at most 1.4
+  /// length of the shortest cells at an edge [m]; they grow by a factor of at most 1.4
   double edge_cell = 0.0;
 };
 
-/// What a kernel needs of an axis (transfer/weights.h): arrays over cells and nodes, owned by the
+/// View of an axis for kernels (transfer/weights.h): arrays over cells and nodes, owned by the
 /// axis.
 struct AxisView {
   int cells;
@@ -93,7 +93,7 @@ class Axis {
   std::vector<double> left_;
   std::vector<double> right_;
   std::vector<double> node_;
-  // Before any shift: a position then has the same bits whatever the shifts that led to it.
+  // Knots before any shift: a position then has the same bits after any series of shifts.
   std::vector<double> initial_knot_;
   int shifted_ = 0;  // in cells
   std::vector<int> cell_of_bin_;

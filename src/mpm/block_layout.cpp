@@ -12,8 +12,8 @@ namespace furrow {
 
 namespace {
 
-/// Of the largest of so many blocks along an axis: its cells, one more towards each neighbour, and
-/// two, as many as splines reach beyond a cell.
+/// Nodes along an axis of the largest of so many blocks: its cells, one more towards each
+/// neighbour, and two, as many as splines reach beyond a cell.
 double local_nodes(double cells, int blocks) {
   return std::ceil(cells / blocks) + std::min(blocks - 1, 2) + 2;
 }

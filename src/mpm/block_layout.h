@@ -16,8 +16,8 @@ struct BlockLayout {
 /// @param cells_x, cells_y  of the whole grid; real numbers, for grids too large to be made
 double columns_of_largest(const BlockLayout& layout, double cells_x, double cells_y);
 
-/// The layout whose largest block has the fewest columns of nodes: of blocks of equal size, the one
-/// with the least halo. Of equals, the one with more along x.
+/// The layout whose largest block has the fewest columns of nodes: among blocks of equal size, the
+/// one with the least halo; among equals, the one with more along x.
 BlockLayout choose_layout(int ranks, double cells_x, double cells_y);
 
 /// @throws InputError naming `where` when there are not as many blocks as ranks

@@ -131,7 +131,7 @@ double Boundary::speed_of(const FarField& far, const NodeIndex& node, int compon
   return component == far.axis ? speeds.pressure : speeds.shear;
 }
 
-/// Of the spring and of t_0, in a component n of the far field [m/s^2].
+/// Acceleration by the spring and by t_0, in a component n of the far field [m/s^2].
 double Boundary::held_acceleration(const FarField& far, std::size_t n, double speed, double mass) {
   return far.initial_force[n] / mass -
          speed * speed * far.inverse_extent * far.inverse_length * far.displacement[n];

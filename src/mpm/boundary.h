@@ -26,7 +26,7 @@ struct WaveSpeeds {
   double shear;     ///< c_s [m/s]
 };
 
-/// What holds the ground at the faces of its grid.
+/// Boundary conditions of the ground at the faces of its grid.
 ///
 /// Absorbing faces stand for the far field [Lysmer1969], as infinite elements do in [Shoop2001]
 /// (theory: continuum, eq. 8): traction
@@ -55,7 +55,7 @@ class Boundary {
            const std::array<int, 3>& particles_per_cell, std::vector<WaveSpeeds> speeds_of_level);
 
   BoundaryKind kind(Face face) const { return kinds_[face]; }
-  /// Whether a smooth or rough face fixes a component of a node's velocity.
+  /// True if a smooth or rough face fixes a component of a node's velocity.
   bool is_fixed(const Grid& grid, const std::array<int, 3>& node, int component) const;
 
   /// False until an absorbing face knows t_0.
@@ -70,7 +70,7 @@ class Boundary {
   /// Changes the velocities of the face nodes over a step dt [s].
   void apply(Grid& grid, const NodeBlock& local, const NodeBlock& owned, double dt);
 
-  /// Of a node that is kept at rest: what its faces give it. The far field keeps its displacement.
+  /// Forces of the faces on a node that is kept at rest. The far field keeps its displacement.
   /// @param mass, force  of all particles at the node; gravity is in the force [kg], [N]
   /// @param reactions  get the forces of the faces [N]
   /// @return the force that no face balances [N]

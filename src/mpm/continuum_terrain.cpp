@@ -279,7 +279,7 @@ void ContinuumTerrain::match_layer(const TerrainLayer& layer, Checkpoint& state)
                 fmt::format("{}", fmt::join(entry.values, " ")));
 }
 
-/// What follows from the restored particles and nodes.
+/// Rebuilds everything that follows from the restored particles and nodes.
 void ContinuumTerrain::resume() {
   if (active_) active_->resume();
   if (divided_) divided_->resume();

@@ -62,14 +62,14 @@ class ContinuumTerrain : public Body {
   EnergyBudget energy_budget() const override;
   /// Where the work of contacts went since the start.
   TerrainWork work() const { return energy_.work(boundary_.work(), ranks()); }
-  /// Of particles and nodes only their number is in it: they go to keep_values_in().
+  /// Saves the number of particles and nodes; their values go to keep_values_in().
   void checkpoint(Checkpoint& state) override;
   /// Before checkpoint(): where each rank keeps its particles and nodes; not owned.
   void keep_values_in(RankNumbers& numbers) { rank_numbers_ = &numbers; }
-  /// What these take in a checkpoint, of all ranks [bytes].
+  /// Size of particles and nodes in a checkpoint, of all ranks [bytes].
   double checkpoint_size() const;
 
-  // Not collective.
+  // Functions that are not collective.
   /// [m/s^2] from the next step on, in the place of that of the parameters.
   void set_gravity(const Vector3& gravity) {
     step_.set_gravity(gravity);
@@ -82,10 +82,10 @@ class ContinuumTerrain : public Body {
 
   /// Impulse that a face of the grid gave to the ground since the start [N s].
   Vector3 boundary_impulse(Face face) const;
-  /// What friction on the slide surface turned into heat since the start [J].
+  /// Heat from friction on the slide surface since the start [J].
   double slide_loss() const;
   double particle_count() const;  ///< of all ranks
-  /// What a rank has sent for the sums at shared nodes since the start, mean of the ranks.
+  /// Traffic of a rank for the sums at shared nodes since the start, mean of the ranks.
   HaloTraffic halo_traffic() const { return discretisation_.exchange.mean_traffic(ranks()); }
 
   // ---- this rank's particles; not collective ----------------------------------------------------

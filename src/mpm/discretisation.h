@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What all parts of a terrain work on: the grid, the particles of each layer, and who computes
-/// which of them.
+/// Common data of all parts of a terrain: the grid, the particles of each layer, and which rank
+/// computes which of them.
 
 #include <optional>
 #include <utility>

@@ -43,9 +43,9 @@ class DividedGround {
     bodies_.clear();
     speed_ = 0.0;
   }
-  /// Of the fastest node of these surfaces [m/s].
+  /// Speed of the fastest node of the surfaces with thin parts [m/s].
   double speed_of_parts() const { return speed_; }
-  /// Whether particles near the parts have not got their fields yet.
+  /// True while particles near the parts have no fields yet.
   bool sorting_due() const { return !sorted_ && !bodies_.empty(); }
 
   /// Gives all particles of this rank their fields. Not collective.

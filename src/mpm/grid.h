@@ -88,7 +88,7 @@ class Grid {
   const NodeDisplacement& displacement(int i, int j, int k, int field = 0) const {
     return displacements_[index(i, j, k, field)];
   }
-  /// Of the columns from j on in the plane i of nodes across x: four numbers a node.
+  /// Sums of the columns from j on in the plane i of nodes across x: four numbers a node.
   double* column_sums(int i, int j, int field) {
     return reinterpret_cast<double*>(sums_.data() + index(i, j, 0, field));
   }

@@ -78,13 +78,13 @@ void MovingWindow::move_by_cell() {
   energy_.add_initial(internal_energy(discretisation_.groups) - before);
 }
 
-/// Removes this rank's particles in the first layer of cells across x. Of those that carry a
-/// surface mesh, particles that came there from further ahead, against the travel, are kept: they
-/// go to the new end of the ground, where undisturbed ones would be. Collective.
+/// Removes this rank's particles in the first layer of cells across x. Particles of a surface mesh
+/// that came there from further ahead, against the travel, are kept: they go to the new end of the
+/// ground, where undisturbed ones would be. Collective.
 void MovingWindow::remove_first_cells() {
   const Axis& y = discretisation_.grid.axis(1);
   const double edge = discretisation_.grid.axis(0).knot(1);
-  // of the removed particles, by row of cells along y
+  // Top, mass and volume of the removed particles, by row of cells along y
   std::vector<double> top(static_cast<std::size_t>(y.cells()),
                           -std::numeric_limits<double>::infinity());
   std::vector<double> mass(top.size(), 0.0);

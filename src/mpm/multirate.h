@@ -28,10 +28,10 @@ class Multirate {
   /// @param stable  step of the terrain [s]
   void begin(Surface& mesh, double dt, double stable);
   bool begun() const { return interval_ > 0.0; }
-  /// Of the terrain when the interval began [s].
+  /// Stable step of the terrain when the interval began [s].
   double stable_step() const { return stable_; }
 
-  /// @param mesh  as the terrain's particles have it, which comes to where it was
+  /// @param mesh  at the terrain's particles; moved to its place within the interval
   void resume(Surface& mesh);
   void checkpoint(Checkpoint& state, Eigen::Index nodes);
 

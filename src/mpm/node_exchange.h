@@ -12,7 +12,7 @@
 
 namespace furrow {
 
-/// What a rank sent for its shared nodes since the start.
+/// Traffic that a rank sent for its shared nodes since the start.
 struct HaloTraffic {
   double steps = 0.0;
   double messages = 0.0;
@@ -29,7 +29,7 @@ class NodeExchange {
   void add_shared_sums(Grid& grid, const Partition& partition);
 
   void count_step() { traffic_.steps += 1.0; }
-  /// Of a rank, the mean of all. Collective.
+  /// Traffic of a rank, the mean of all. Collective.
   HaloTraffic mean_traffic(const Communicator& ranks) const;
   /// Saves the traffic of all ranks; it is rank 0's share afterwards. Collective.
   void checkpoint(Checkpoint& state, const Communicator& ranks);

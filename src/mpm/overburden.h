@@ -16,10 +16,10 @@ struct ParticleLevel {
   VectorX state;  ///< of the material
 };
 
-/// Every level is compressed without lateral strain, each layer from the initial state of its
-/// material, until its vertical stress carries what lies above, surcharge included: stress, density
-/// and hardening then belong together whatever the material. Without initial_stress the levels have
-/// the initial state.
+/// Compresses every level without lateral strain, each layer from the initial state of its
+/// material, until its vertical stress carries the weight above, surcharge included: stress,
+/// density and hardening then belong together in any material. Without initial_stress the levels
+/// have the initial state.
 /// @param surcharge  weight on the uppermost level [Pa]
 /// @param levels  z and half, from the surface down; layer and state are filled in
 /// @param patch  0: the ground before all patches

@@ -78,7 +78,7 @@ void ParticleDistribution::sort_by_cell(ParticleGroup& group, bool of_last_sorti
   for (std::size_t c = 1; c <= nx * ny; ++c) group.column_start[c] = start_[c * nz - 1];
 }
 
-/// Of all ranks.
+/// Number of particles of all ranks in each layer of cells along x and y.
 Partition::Counts ParticleDistribution::count_in_layers() const {
   Partition::Counts counts;
   for (std::size_t a = 0; a < 2; ++a) {

@@ -21,7 +21,7 @@ class ParticleDistribution {
 
   /// Particles may have travelled so much further since the last sorting [m].
   void add_drift(double distance) { drift_ += distance; }
-  /// Whether particles may have travelled half a cell since the last sorting. This rank has the
+  /// True if particles may have travelled half a cell since the last sorting. This rank has the
   /// nodes for one cell.
   bool sorting_due() const;
   /// Balances the blocks of the ranks, sends every particle to the owner of its cell, and orders
@@ -41,9 +41,9 @@ class ParticleDistribution {
   void checkpoint_values(Checkpoint& state, RankNumbers& numbers);
 
  private:
-  /// What the ranks have saved.
+  /// Sizes of the parts of a checkpoint that the ranks have saved.
   struct Saved {
-    /// of each group: how many numbers each rank has
+    /// numbers of each rank, for each group
     std::vector<std::vector<double>> lengths = {};
     std::vector<double> columns = {};  // of nodes, four numbers for each rank
 

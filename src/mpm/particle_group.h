@@ -39,7 +39,7 @@ struct ParticleGroup {
     }
     for (const ParticleRange& range : *awake) visit(range.from, range.to);
   }
-  /// Of the particles of a range [m/s].
+  /// Fastest wave in the particles of a range [m/s].
   double largest_wave_speed(std::size_t from, std::size_t to) const;
   double mass(std::size_t particle) const {  ///< [kg]
     return material->density() * particles.data(column::volume)[particle];

@@ -148,7 +148,7 @@ class Particles {
     for (const std::shared_ptr<AddedColumn>& column : added_)
       visit(static_cast<const Column&>(*column));
   }
-  /// Of three columns that follow one another.
+  /// Vector of a particle in three columns that follow one another.
   Vector3 vector(std::size_t first_column, std::size_t i) const {
     return {data(first_column)[i], data(first_column + 1)[i], data(first_column + 2)[i]};
   }

@@ -43,7 +43,8 @@ class RemapControl {
   /// cell. Shorter steps with more transfers do not damp more.
   double residual_share() const;
 
-  /// Of this rank's particles, at the start of the interval or seen at loaded points since [m/s].
+  /// Largest speed of this rank's particles, at the start of the interval or seen at loaded points
+  /// since [m/s].
   double largest_speed() const { return largest_speed_; }
   void raise_largest_speed(double speed);
 

@@ -2,8 +2,8 @@
 #pragma once
 /// Contact with friction between two pieces of ground that a slide surface divides.
 ///
-/// Each side has a velocity field of its own (Grid::fields) and is moved by it alone, as if the
-/// other were not there. At nodes that particles of both sides reach, the two velocities are made
+/// Each side has a separate velocity field (Grid::fields) and is moved by it alone, as if the other
+/// were not there. At nodes that particles of both sides reach, the two velocities are made
 /// to agree with an impenetrable surface and Coulomb's law (S. G. Bardenhagen, J. U. Brackbill,
 /// D. Sulsky, Comput. Methods Appl. Mech. Eng. 187, 2000). With w = v_1 - v_2 after the forces of
 /// the step, n from side 1 to side 2 and the reduced mass m = m_1 m_2/(m_1 + m_2):
@@ -28,7 +28,7 @@ class SlideContact {
  public:
   explicit SlideContact(const SlideSurface& surface) : surface_(surface) {}
 
-  /// Changes the velocities of the nodes that both sides reach. What a wall holds stays as it is:
+  /// Changes the velocities of the nodes that both sides reach. Components that a wall holds stay:
   /// there the sides slide along the wall.
   /// @return what friction takes at the owned nodes [J]
   double apply(Grid& grid, const Boundary& walls, const NodeBlock& local,

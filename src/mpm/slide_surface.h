@@ -9,7 +9,7 @@
 
 namespace furrow {
 
-/// What the normal points away from is the inner side.
+/// Plane whose normal points away from the inner side.
 struct SlidePlane {
   Vector3 point;   ///< [m]
   Vector3 normal;  ///< of length 1

@@ -28,7 +28,7 @@ struct TerrainWork {
   double compaction = 0.0;      ///< by pressing down
   double bulldozing = 0.0;      ///< by all other deformation and by lifting
   double kinetic = 0.0;         ///< energy of its motion, that of removed ground included
-  double numerical_loss = 0.0;  ///< what the discretisation takes
+  double numerical_loss = 0.0;  ///< loss to the discretisation
   double radiated = 0.0;        ///< through absorbing faces
 };
 
@@ -45,7 +45,7 @@ class TerrainEnergy {
   void add_contact_work(double work) { contact_work_ += work; }
   double contact_work() const { return contact_work_; }  ///< this rank's share [J]
   void add_gravity_work(double work) { gravity_work_ += work; }
-  /// What friction on a slide surface turned into heat in a step [J].
+  /// Adds the heat from friction on a slide surface in a step [J].
   void add_slide_loss(double loss) { slide_loss_ += loss; }
   double slide_loss() const { return slide_loss_; }  ///< this rank's share [J]
   /// Momentum and kinetic energy of the nodes after a step.
@@ -67,9 +67,8 @@ class TerrainEnergy {
   /// The same work by what it did. Collective, and cheap: no particle is looked at.
   TerrainWork work(double boundary_work, const Communicator& ranks) const;
 
-  /// Saves the sums over all ranks. Whether it saves or restores, they are rank 0's share
-  /// afterwards: the run that goes on then adds up in the order of one that is continued.
-  /// Collective.
+  /// Saves or restores the sums over all ranks. Afterwards they are rank 0's share: the run that
+  /// goes on then adds up in the order of one that is continued. Collective.
   void checkpoint(Checkpoint& state, const Communicator& ranks);
 
  private:

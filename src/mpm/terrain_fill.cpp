@@ -189,7 +189,7 @@ const std::vector<ParticleLevel>& TerrainFill::levels_at(const std::array<double
   return patch_levels_[static_cast<std::size_t>(next - patch_begins_.begin()) - 1];
 }
 
-/// Of the relief [m]. Every rank asks for every place, so that all of them throw.
+/// Height of the relief [m]. Every rank asks for every place, so that all of them throw.
 double TerrainFill::height_at(const std::array<double, 2>& place) const {
   const double height = relief_.height(place[0], place[1]);
   const double lowest = least_cells * shortest_cell_ - depth_,

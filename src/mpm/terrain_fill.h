@@ -29,7 +29,7 @@ class TerrainFill {
 
   /// Elastic wave speeds at the height of each plane of nodes across z, from below.
   std::vector<WaveSpeeds> wave_speeds(const Grid& grid) const;
-  /// Of pressure waves: the largest one of the slowest layer [m/s].
+  /// Speed of pressure waves in the slowest layer, the largest one there [m/s].
   double slowest_wave_speed() const;
 
   /// Appends the particles of a layer of cells across x that this rank owns. Ids are counted on

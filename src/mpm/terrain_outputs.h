@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What continuum terrain reports: f_ID[n] of terrain/continuum, and the channels of
+/// Outputs of continuum terrain: f_ID[n] of terrain/continuum, and the channels of
 /// terrain/history.
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class TerrainReading {
   ActiveGround::Neglect neglect() const {
     return terrain_.active() ? terrain_.active()->neglect() : ActiveGround::Neglect{};
   }
-  /// Of a sub-step. Collective.
+  /// Traffic of a rank in a sub-step. Collective.
   const HaloTraffic& halo() {
     if (!halo_) {
       const HaloTraffic all = terrain_.halo_traffic();

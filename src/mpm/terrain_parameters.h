@@ -44,7 +44,7 @@ struct Trough {
   double depth = 0.0;  ///< [m]
 };
 
-/// What particles and grid exchange (terrain_step.h, cell_average.h).
+/// Exchange between particles and grid (terrain_step.h, cell_average.h).
 struct TransferScheme {
   bool cell_average = true;  ///< of volume change and pressure
   /// share of the residual motion that particles keep while a wave crosses 6.4 cells of the

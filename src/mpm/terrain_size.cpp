@@ -24,7 +24,7 @@ double cells_below_surface(const TerrainParameters& parameters) {
   return Axis::cell_count(below);
 }
 
-/// Of all velocity fields, on the rank with the largest block.
+/// Number of nodes of all velocity fields, on the rank with the largest block.
 double nodes_of_a_rank(const TerrainParameters& parameters, int ranks) {
   const double x = Axis::cell_count(parameters.x), y = Axis::cell_count(parameters.y);
   const BlockLayout blocks = parameters.blocks ? *parameters.blocks : choose_layout(ranks, x, y);

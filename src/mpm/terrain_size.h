@@ -9,7 +9,7 @@
 
 namespace furrow {
 
-/// Of the whole terrain. Real numbers: what is far too large must be told as well.
+/// Size of the whole terrain. Real numbers, because far too large ones must be reported as well.
 struct TerrainSize {
   double cells = 0.0;
   double particles = 0.0;

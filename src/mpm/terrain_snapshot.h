@@ -31,7 +31,7 @@ struct TerrainSnapshot {
 
 /// Collective; the first rank gets all, the others nothing.
 TerrainSnapshot take_snapshot(ContinuumTerrain& terrain);
-/// What the moving window left behind, of all ranks. Collective.
+/// Rut that the moving window left behind, of all ranks. Collective.
 std::vector<RutPoint> collect_rut(const ContinuumTerrain& terrain);
 
 }  // namespace furrow

@@ -210,7 +210,7 @@ void TerrainStep::update_particles(ParticleGroup& group, std::size_t first, std:
   if (!remap_.last_step()) scatter_force(grid, particles);
 }
 
-/// Of the stress with the mean pressure of each cell; the weights are known.
+/// Scatters the force of the stress with the mean pressure of each cell; the weights are known.
 void TerrainStep::scatter_force(const GridView& grid, ParticleView particles) {
   if (scheme_.cell_average) average_pressure(particles, normal_stress_.data());
   kernels_.scatter_force(grid, particles, weights_.data());

@@ -109,9 +109,9 @@ struct TransferKernels : KernelTable {
   /// @param gradient  nine arrays for H, row by row (PointBlock)
   void (*gather_strain)(const GridView&, const ParticleView&, const Weights*, double dt,
                         double* const* gradient) = nullptr;
-  /// Of the particles with their present stress.
+  /// Work of the present stress of the particles in a step.
   StressWork (*stress_work)(const ParticleView&, const double* const* gradient) = nullptr;
-  /// What a fresh grid does not take of the motion of the particles.
+  /// Gathers the part of the particles' motion that a fresh grid does not take.
   void (*gather_residual)(const GridView&, const ParticleView&) = nullptr;
   /// Moves the particles by the nodes' displacement and takes the nodes' velocity, with a share of
   /// the residual motion.

@@ -36,7 +36,7 @@ void refuse_between(double length, const Nearest& nearest, double step, const ch
                   std::min(nearest.length, other), std::max(nearest.length, other), what));
 }
 
-/// Rows on either side of the middle of the ground, as far as the trough's half width.
+/// Rows on either side of the middle of the ground, up to the trough's half width.
 Nearest rows_beside_middle(const TerrainParameters& parameters, const Axis& y) {
   const int per_cell = parameters.particles_per_cell[1];
   const double middle = 0.5 * (y.lower() + y.upper()), half = 0.5 * parameters.trough->width;

@@ -30,7 +30,7 @@ using ContactLaw = std::variant<PenaltyLaw,  //
                                 ImpulseLaw>;
 
 std::vector<std::string> contact_law_names();
-/// What the laws do, in the order of their names.
+/// Meanings of the laws, in the order of their names.
 std::string contact_law_meanings();
 /// @param where  names the contact in errors
 /// @throws InputError for an enforcement that no law has

@@ -27,7 +27,7 @@ struct ContactParameters {
   /// @param ground  friction and slip length of a frictional surface that the keys do not give
   /// @throws InputError for keys that do not go together
   static ContactParameters from(const Options& options, const BodyContact& ground = unknown());
-  /// What holds for a ground of which nothing is known.
+  /// Contact with a ground of which nothing is known.
   static BodyContact unknown();
 };
 

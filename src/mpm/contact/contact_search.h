@@ -46,7 +46,7 @@ class ContactSearch {
 
   const std::vector<Candidate>& candidates() const { return candidates_; }
   const NearTriangle& near_triangle(std::size_t n) const { return near_triangles_[n]; }
-  /// Of the surface's fastest node since the last search [m].
+  /// Travel of the surface's fastest node since the last search [m].
   double surface_travel() const { return surface_travel_; }
   /// A candidate is no nearer to the surface than this now [m].
   double lower_bound(const Candidate& candidate) const {
@@ -64,12 +64,12 @@ class ContactSearch {
   ContinuumTerrain& terrain_;
   std::vector<Candidate> candidates_;
   std::vector<NearTriangle> near_triangles_;
-  // Of the last search.
+  // State at the last search.
   std::optional<unsigned long> generation_;  // of the terrain; none: there was no search yet
   Matrix3X searched_nodes_;                  // of the surface [m]
   double skin_ = 0.0;                        // [m]
   double staleness_ = 0.0;                   // of the positions [m]
-  // Since then.
+  // Travel since the last search.
   double surface_travel_ = 0.0;  // [m]
   double terrain_travel_ = 0.0;  // bound [m]
 };

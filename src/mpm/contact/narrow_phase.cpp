@@ -10,7 +10,7 @@ namespace furrow {
 
 namespace {
 
-// of half the spacing: closer, the separation is rounding and has no direction
+// Separation over half the spacing, below which it is rounding and has no direction
 constexpr double no_distance = 1e-9;
 
 // Fractions of half the spacing. A closest point that is farther than this from where the particle
@@ -18,8 +18,8 @@ constexpr double no_distance = 1e-9;
 constexpr double switch_length = 0.25;
 constexpr double switch_gain = 0.1;
 
-/// The least distance so far. Of equally near triangles the one with the lowest number counts, in
-/// whatever order they come.
+/// The nearest triangle so far. Among equally near ones the lowest number counts, so that their
+/// order does not matter.
 struct Nearest {
   ClosestPoint point{};
   std::size_t triangle = 0;

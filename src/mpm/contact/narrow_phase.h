@@ -43,7 +43,7 @@ class NarrowPhase {
   ContactPoint find(const ContactSearch& search, const ContactSearch::Candidate& candidate,
                     const Particles& particles, const Vector3& position,
                     const ContactHistory& history) const;
-  /// What nodes have, x or v, where the particle touched in the last step.
+  /// Value of x or v at the point of the surface where the particle touched in the last step.
   Vector3 point_of(const Matrix3X& nodal, const ContactHistory& history) const;
   /// Sets the gap of a particle that touched in the last step, and e of its history.
   /// @param velocity  v_ground - v_surface [m/s]

@@ -21,7 +21,7 @@ struct ContactPoint {
   bool switches_facet = false;
 };
 
-/// What a contact law knows of a touching particle.
+/// Motion of a touching particle, for a contact law.
 struct ContactMotion {
   const ContactPoint& point;
   Vector3 velocity;  ///< of the ground relative to the surface, at the point [m/s]
@@ -39,7 +39,7 @@ struct ContactLosses {
 /// History of a contact: what a particle keeps from one step to the next. The contact adds a
 /// column of histories to the particles (ParticleColumn); a record is a row of doubles.
 struct ContactHistory {
-  /// Whether the particle touched in the last step.
+  /// True if the particle touched in the last step.
   bool touches() const { return gap < 0.0; }
   /// The particle bounces: it does not touch, but is no farther than its reach.
   /// @param path  along the surface in the last step [m]
@@ -59,7 +59,7 @@ struct ContactHistory {
   double stiffness = 0.0;            ///< of the springs in the last step [N/m]
   double gap = 0.0;                  ///< in the last step [m]; 0: the particle did not touch
   double reach_excess = 0.0;         ///< e of NarrowPhase
-  // Of the last step, if the particle touched: the normal, and the point of the surface.
+  // Contact point of the last step, if the particle touched: normal, and place on the surface.
   Vector3 normal = Vector3::Zero();
   double triangle = 0.0;
   Vector3 barycentric = Vector3::Zero();

@@ -42,16 +42,16 @@ class TerrainContact : public Contact {
   /// too deep in it
   void apply(double dt) override;
 
-  // Of the last step, of all ranks and, in a half model, of both halves; not collective.
+  // Results of the last step, of all ranks and, in a half model, of both halves; not collective.
   const Vector3& force() const { return force_; }           ///< on the body [N]
   double contacts() const { return step_.contacts; }        ///< particles that touch
   double area() const { return step_.area; }                ///< of the touching particles [m^2]
   double penetration() const { return step_.penetration; }  ///< the deepest [m]
-  // Since the start.
+  // Results since the start.
   double deepest_penetration() const { return deepest_penetration_; }  ///< [m]
   double friction_loss() const { return losses_.friction; }            ///< [J]
   double damping_loss() const { return losses_.damping; }              ///< [J]
-  /// Of this contact on the terrain as it is modelled, a half model's half [J]. Collective.
+  /// Work of this contact on the computed terrain, in a half model on the half [J]. Collective.
   double terrain_work() const { return terrain_.ranks().sum(terrain_work_); }
 
   /// Sums since the start, length and outputs of the last step. The histories are part of the

@@ -95,8 +95,8 @@ typedef double Stored8 __attribute__((vector_size(64), aligned(8), may_alias));
   return __builtin_shufflevector(v, v, 4, 5, 6, 7);
 }
 
-/// The same with two nodes in a register: the two lower nodes along z are neighbours in memory, the
-/// upper ones are paired along x. What a particle brings comes twice side by side.
+/// Sum in a cell with two nodes in a register: the two lower nodes along z are neighbours in
+/// memory, the upper ones are paired along x. The numbers of a particle come twice side by side.
 struct PairedCellSum {
   using Carried = Vector8;
   /// From the four numbers of a vector in memory: a load alone, no shuffle.

@@ -46,9 +46,9 @@ inline namespace FURROW_ISA {
   __builtin_prefetch(particles.volume_ratio + p, 1);
 }
 
-/// The particles of a cell are taken lane_count at a time. What is left of them is, when it is more
-/// than a few, taken together with particles before them in the cell or after it: those before get
-/// the same H again, those after have yet to get theirs.
+/// The particles of a cell are taken lane_count at a time. If more than a few remain, they are
+/// taken together with particles before them in the cell or after it: those before get the same H
+/// again, those after have yet to get theirs.
 inline void gather_strain(const GridView& grid, const ParticleView& all, const Weights* of_batches,
                           double dt, double* const* gradient) {
   constexpr std::size_t lanes = lane_count, few = lanes / 4;
@@ -158,7 +158,7 @@ inline void gather_motion(const GridView& grid, const ParticleView& all, double 
       interpolate(grid.displacement, stride, weights, p, displacement);
       for (int a = 0; a < 3; ++a) particles.position[a][p] += displacement[a];
       Stored4* residual = reinterpret_cast<Stored4*>(particles.residual + 8 * p);
-      // what the particle's way adds to the angular momentum of r, the spin takes back
+      // the spin takes back the change of angular momentum by the motion of the particle with r
       const Vector4 per_spread = {weights.inverse_spread[0][p], weights.inverse_spread[1][p],
                                   weights.inverse_spread[2][p], 0.0};
       residual[1] -= moment_to_spin(cross(displacement, residual[0]), per_spread);

@@ -10,7 +10,7 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// What Weights::slope holds (transfer.h).
+/// Meaning of Weights::slope (transfer.h).
 enum class Slope {
   moment,   // N d, for momentum and motion
   gradient  // G, for force and strain
@@ -127,7 +127,7 @@ void find_batch_weights(const GridView& grid, const double* const* position, std
     weights.first_node[p] = ((cell[0][p] - first_x) * ny + cell[1][p] - first_y) * nz + cell[2][p];
 }
 
-/// `count` particles from `first` on. What a view leaves out is null and stays so.
+/// View of `count` particles from `first` on. Members that a view leaves out stay null.
 inline ParticleView sub_view(const ParticleView& all, std::size_t first, std::size_t count) {
   const auto advance = [first](auto*& values, std::size_t per_particle) {
     if (values) values += per_particle * first;
