@@ -16,15 +16,15 @@ namespace furrow {
 namespace {
 
 constexpr double smallest_mesh = 1e-3, largest_mesh = 5.0;  // [m], of wheels and tools
-// Of a wheel: distance of the centre of mass from the axle over the radius, and difference of the
-// moments of inertia across the axle over that about it.
-// Nominal radius over the largest distance from the axle: grousers of a small rover wheel reach 0.2
-// of it
+// Nominal radius of a wheel over the largest distance of its mesh from the axle: grousers of a
+// small rover wheel reach 0.2 of it.
 constexpr double least_radius = 0.5, usual_radius = 0.75;
+// Imbalance of a wheel: distance of the centre of mass from the axle over the radius, and
+// difference of the moments of inertia across the axle over that about it.
 constexpr double largest_offset = 0.02, largest_difference = 0.1;
 const Range densities = Range::closed(10.0, 25000.0);  // [kg/m^3] from foam to tungsten
-// Of proposals: steps of the axis and of the origin over the size; angle within which the axis is
-// one of the file's
+// Rounding of a proposed axis and origin, and noise of the origin, over the size of the mesh; angle
+// within which the axis is one of the file's.
 constexpr double axis_step = 1e-3, origin_step = 1e-3, origin_noise = 2e-3, straight = radians(0.5);
 
 /// @param axis the key's meaning and default
@@ -47,7 +47,7 @@ std::string numbers(const Vector3& vector) {
   return fmt::format("{:.6g} {:.6g} {:.6g}", vector.x(), vector.y(), vector.z());
 }
 
-/// Of units in files; the first that gives a usual size counts.
+/// Units of length in mesh files [m]; a proposal takes the first that gives a usual size.
 constexpr std::array units{1.0, 0.001, 0.01, 0.0254};
 constexpr double usual_least = 0.03, usual_most = 3.0;  // [m]
 

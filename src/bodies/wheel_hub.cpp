@@ -15,7 +15,7 @@ namespace {
 constexpr double largest_camber = radians(85);  // the spin and the yaw become one at 90 degrees
 
 constexpr bool is_translation(Coordinate c) { return c <= Coordinate::z; }
-/// Of a translation among x, y, z, or of a rotation among spin, yaw, camber.
+/// Index of a translation among x, y, z, or of a rotation among spin, yaw, camber.
 constexpr int component(Coordinate c) { return static_cast<int>(c) % 3; }
 
 /// Axes of the carrier in space: columns e_x, a, e_n.

@@ -52,7 +52,7 @@ class Checkpoint {
   }
   void values(const std::string& name, double* first, std::size_t count);
   void values(const std::string& name, std::vector<double>& numbers);  ///< of any length
-  /// Of integers of any number, as doubles.
+  /// Saves or restores integers of any number, as doubles.
   template <class Integer, class = std::enable_if_t<std::is_integral_v<Integer>>>
   void values(const std::string& name, std::vector<Integer>& integers) {
     std::vector<double> numbers(integers.begin(), integers.end());
@@ -70,7 +70,7 @@ class Checkpoint {
     values(name, numbers.data(), size);
   }
 
-  // What must not have changed: saved, and compared with the saved one.
+  // Values that must not have changed: saved, or compared with the saved ones.
   // @throws Error naming the value, what it was and what it is
 
   void match(const std::string& name, double number);

@@ -22,7 +22,7 @@ double number_in(const std::string& path) {
   return file >> value ? value : unlimited;
 }
 
-/// Of this process's control group and those around it, as either version of them keeps it.
+/// Memory limit [bytes] of this process's control group and its parents, in either version of them.
 double control_group_limit() {
   double limit = number_in("/sys/fs/cgroup/memory/memory.limit_in_bytes");
   std::ifstream groups("/proc/self/cgroup");

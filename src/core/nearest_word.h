@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a misspelled word may have meant.
+/// Suggestions for misspelled words.
 
 #include <string>
 #include <vector>

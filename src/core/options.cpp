@@ -31,7 +31,7 @@ std::optional<double> to_number(const std::string& text) {
   return value;
 }
 
-/// What a key means, and how values in other units become its own.
+/// Meaning of a key, and the conversion of values in other units.
 std::string remedy_of(const Key& key) {
   const UsualRange* usual = find_usual_range(key.name, key.unit);
   const std::string hint = usual ? usual->remedy() : "";
@@ -39,7 +39,7 @@ std::string remedy_of(const Key& key) {
   return "it is: " + key.meaning + (hint.empty() ? "" : "; " + hint);
 }
 
-/// Of the first number outside of the key's usual range; empty where there is none.
+/// Warning about the first number outside of the key's usual range; empty without one.
 std::string doubt_of(const Key& key, const std::vector<double>& numbers) {
   const UsualRange* usual = find_usual_range(key.name, key.unit);
   for (const double number : numbers)

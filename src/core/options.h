@@ -115,8 +115,9 @@ class Schema {
   Options read(const std::vector<std::string>& words) const;
   /// Reads entries as a file has them. @throws InputError
   Options read(const std::vector<Entry>& entries) const;
-  /// Looks at words of which those with a '$' are known only when the script runs, as far as they
-  /// can be told apart. Missing keys are no error. @throws InputError
+  /// Checks the words of a line before the script runs, when those with a '$' are still unknown. It
+  /// ends where keys and values cannot be distinguished. Missing keys are no error. @throws
+  /// InputError
   void check(const std::vector<std::string>& words) const;
   /// The table of keys for --help: a line for each with unit, range, default and meaning.
   std::string table() const;
@@ -148,7 +149,7 @@ class Options {
   const std::string& subject() const { return subject_; }
   /// Every declared key, with a value or without one.
   const std::vector<Key>& keys() const { return keys_; }
-  /// Former names that were used, a sentence each that says what to write instead.
+  /// Warnings about former names that were used: a sentence each, with the present name.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// The effective values, defaults included, in the order of declaration: "key value ...".
   std::vector<Entry> effective() const;

@@ -21,7 +21,7 @@ struct Heightmap {
   Vector2 spacing = Vector2::Zero();  ///< of nodes [m]
   int columns = 0, rows = 0;          ///< along x, along y
   std::vector<double> heights = {};   ///< [m]
-  std::string note = {};              ///< what a reader did to make a grid of them, for a person
+  std::string note = {};              ///< steps of a reader that made a grid of them, for a person
 
   /// Bilinear. A node stands for half a spacing around it, so that the map ends there.
   /// @throws InputError outside of the map
@@ -61,13 +61,13 @@ class GroundRelief {
   double height(double x, double y) const { return profile(x) + map_height(x, y); }
   double profile(double x) const;               ///< of all shapes but the heightmap [m]
   double map_height(double x, double y) const;  ///< [m] @throws InputError outside of it
-  /// Of a ground from a lower to an upper corner [m]; without a heightmap nothing.
+  /// Checks a heightmap, if there is one, for a ground from a lower to an upper corner [m].
   /// @throws InputError for a map that is coarser, higher or steeper than such a ground can be
   void check_map(const Vector2& lower, const Vector2& upper) const;
   /// Warnings of shapes that ground of this length and cell [m] cannot show, a sentence each.
   /// @param moves  with a wheel, over any distance
   std::vector<std::string> doubts(double length, double cell, bool moves) const;
-  /// Of the heightmap's nodes, equal for equal maps; empty without one.
+  /// Checksum of the heightmap's nodes, equal for equal maps; empty without a map.
   std::string map_checksum() const;
   std::string note() const;  ///< of the heightmap; empty without
   /// A run that continues must have the same heightmap. Keywords are compared by the fix.

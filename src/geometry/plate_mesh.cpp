@@ -15,7 +15,7 @@ namespace {
 
 constexpr double minimum_plate_angle = radians(5.0);
 constexpr int cone_sides = 12;
-// Of base and shaft: 20.27 and 15.88 mm in the standard ASAE S313.
+// Diameter of a cone's shaft over that of its base: 15.88 and 20.27 mm in the standard ASAE S313.
 constexpr double shaft_ratio = 0.783;
 
 /// Radius of the corners of a regular polygon over that of a circle of its area.

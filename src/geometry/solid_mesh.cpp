@@ -46,8 +46,8 @@ class SolidCheck {
     tolerance_ = solid_mesh_tolerance * (upper - lower).norm();
   }
 
-  /// Faults of one kind may have others as their consequence, so that inner walls and turned shells
-  /// are looked for in a closed surface only.
+  /// Checks for inner walls and turned shells only where the surface is closed: these faults may be
+  /// consequences of the others.
   void check() {
     check_degenerate();
     check_edges();
@@ -193,7 +193,7 @@ class SolidCheck {
 
   bool meet(int a, int b) const { return an_edge_crosses(a, b) || an_edge_crosses(b, a); }
 
-  /// Whether an edge of one triangle crosses another. Edges from a common node do not count.
+  /// True if an edge of one triangle crosses the other. Edges from a common node do not count.
   bool an_edge_crosses(int one, int other) const {
     const Vector3i &nodes = nodes_of(one), &others = nodes_of(other);
     const Corners x = corners(one), y = corners(other);
@@ -211,7 +211,7 @@ class SolidCheck {
     return false;
   }
 
-  /// Whether a point of its plane is in a triangle, edges included.
+  /// True if a point in the plane of a triangle is inside it, edges included.
   bool holds(const Corners& x, const Vector3& unit_normal, const Vector3& point) const {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const Vector3 along = x[(corner + 1) % 3] - x[corner];

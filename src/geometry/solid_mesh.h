@@ -26,7 +26,7 @@ constexpr double solid_mesh_tolerance = 1e-6;
 /// @throws InputError with file, facet and remedy of the first fault, and the number of each kind
 void check_solid(const SolidMesh& mesh);
 
-/// Of a solid of unit density with a closed surface.
+/// Mass properties of a solid of unit density with a closed surface.
 struct MassProperties {
   double volume = 0.0;                ///< [m^3]
   Vector3 centre = Vector3::Zero();   ///< [m] of mass

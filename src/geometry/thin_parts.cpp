@@ -39,7 +39,7 @@ double along_ray(const Surface& surface, std::size_t triangle, const Vector3& fr
   return t > 0.0 ? t : missed;
 }
 
-/// What the search knows of a surface.
+/// Surface with the thickness, neighbours and face of each triangle, for the search for thin parts.
 struct Search {
   explicit Search(const Surface& of)
       : surface(of),

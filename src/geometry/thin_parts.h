@@ -6,8 +6,8 @@
 /// A triangle belongs to a thin part if the ray from its middle into the body leaves through a
 /// triangle that faces the other way, within the largest thickness. Neighbours without a sharp edge
 /// between them make a face. A face that is narrower than the part is thick bounds no part: the tip
-/// of a grouser. Of the two faces of a part the larger one stands for it, half the thickness above
-/// the middle surface. A part that carries another one, as a rim its grousers, is left out.
+/// of a grouser. The larger of the two faces of a part stands for it, half the thickness above the
+/// middle surface. A part that carries another one, as a rim its grousers, is left out.
 
 #include <array>
 #include <vector>

@@ -65,7 +65,7 @@ class NodeTriangles {
   std::vector<int> triangles_;
 };
 
-/// Whether a point is inside a closed surface, by counting the crossings of a ray. Visits every
+/// True if a point is inside a closed surface, by counting the crossings of a ray. Visits every
 /// triangle.
 bool encloses(const Surface& surface, const Vector3& point);
 

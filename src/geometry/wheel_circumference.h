@@ -21,7 +21,7 @@ struct WheelCircumference {
   double node_radius = 0.0;  ///< [m] of the polygon with the area of the wheel's circle
 
   int columns() const { return static_cast<int>(angles.size()); }
-  /// Whether a bar stands between a column and the next.
+  /// True if a bar stands between a column and the next.
   bool under_bar(int column) const;
 };
 

@@ -203,7 +203,7 @@ class WheelMeshBuilder {
 
   /// The flat side: rings whose elements grow inwards, then a fan around the centre.
   void build_disc(Ring ring, int side) {
-    // of the elements: size of the next ring, depth over size
+    // Size of elements over that in the ring before; depth of elements over their size
     constexpr double growth = 1.5, flatness = 0.9;
     constexpr int fan = 9;
     double size = 2.0 * pi * ring.radius / static_cast<double>(ring.nodes.size());

@@ -3,7 +3,7 @@
 /// Contact of two clusters of sintered snow that crush in place (theory: grains, eqs. 5 to 12).
 ///
 /// A cluster is a lump of snow as light as the surrounding snow allows: its packing is dense and
-/// random, so snow compacts by crushing contacts, not by rearranging clusters. Of a contact:
+/// random, so snow compacts by crushing contacts, not by rearranging clusters. A contact has
 /// d = Ri + Rj, overlap u, unit normal n from j to i; stiffness k = E d along and across n.
 ///
 ///   state      u_p plastic overlap; X = (u_p - u_0)/d crushing, u_0 its value when sintered;

@@ -38,7 +38,7 @@ class SnowBond {
     return state.bonded ? bonded_square(state, d) / (d * d) : 0.0;
   }
 
-  /// One step.
+  /// Advances a contact by one step.
   static SnowBondResponse advance(const SnowBondParameters& law, const SnowContact& contact,
                                   SnowBondState& state, SnowBondEnergy* energy = nullptr);
   /// The two parts of advance(), from the trial of the state. Most steps are elastic ... @return
@@ -56,10 +56,10 @@ class SnowBond {
   /// Makes a whole bond without stress or, if the contact cannot sinter, a touch without stress.
   static SnowBondResponse sinter(const SnowBondParameters& law, const SnowContact& contact,
                                  SnowBondState& state, SnowBondEnergy* energy = nullptr);
-  /// In the springs [J]. @param normal  [N]
+  /// Energy in the springs of a contact [J]. @param normal  [N]
   static double stored(const SnowBondParameters& law, double d, const SnowBondState& state,
                        double normal);
-  /// Of a bond, by sintering under pressure.
+  /// Area of a bond by sintering under pressure [m^2].
   static double sintering_area(const SnowBondParameters& law, double d,
                                const SnowBondState& state) {
     return law.w * 0.25 * pi * d * (state.plastic - state.at_break);

@@ -70,7 +70,7 @@ struct SnowBondState {
   double crushing(double d) const { return (plastic - at_sintering) / d; }  ///< X
   static SnowBondState load(const double* values);
   void store(double* values) const;
-  /// What an elastic step changes.
+  /// Stores only the values that an elastic step changes.
   void store_elastic(double* values) const;
 };
 

@@ -128,7 +128,8 @@ inline void SnowBondStep::slip_and_crush() {
   }
 }
 
-/// To the shear surface, along the force as far as the strength is cohesion.
+/// Returns the force to the shear surface: towards zero for the share of cohesion in the strength,
+/// else across at constant normal force.
 inline void SnowBondStep::slip() {
   const double size = std::sqrt(trial_.squared[0]), pressing = trial_.normal;
   const double cohesion = law_.chi * share_ * strong_.Fb;

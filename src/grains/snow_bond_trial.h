@@ -86,7 +86,7 @@ inline bool SnowBondTrial::is_elastic(const SnowBondParameters& law, const SnowC
   return is_within(law, now.Fy, SnowBond::bonded_share(state, d) * now.Fb, radius_squared);
 }
 
-/// Of elastic motion: dampers are those of velocities, c v.
+/// Forces of elastic motion. The dampers act on velocities, c v.
 inline SnowBondResponse SnowBondTrial::response(const SnowBondParameters& law,
                                                 const SnowContact& contact,
                                                 SnowBondEnergy* energy) const {

@@ -7,7 +7,7 @@
 
 namespace furrow {
 
-/// Of the first vector and of the second.
+/// One component of both vectors.
 using Two [[gnu::vector_size(16)]] = double;
 
 struct TwoVectors {

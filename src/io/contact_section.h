@@ -23,9 +23,9 @@ namespace furrow {
 /// Replaces the path in a section `contact` of this file by the content of that file.
 /// @throws InputError, also where that file is absent
 void insert_contact_file(YamlTree& file, const std::string& path);
-/// Of a file in which insert_contact_file() has worked; empty without a section. @throws InputError
+/// Contact of a file after insert_contact_file(); empty without a section. @throws InputError
 GroundContact contact_of(const YamlTree& file);
-/// Of a file that has what follows `contact`. @throws InputError
+/// Contact from a file that holds the content of a section `contact`. @throws InputError
 GroundContact read_contact_file(const std::string& path);
 
 }  // namespace furrow

@@ -44,7 +44,7 @@ std::vector<std::string> split(const std::string& line, char separator) {
   return cells;
 }
 
-/// Of the line of names.
+/// Separator of the cells, from the line of names.
 char separator_of(const std::string& line) {
   for (const char separator : {';', '\t'})
     if (line.find(separator) != std::string::npos) return separator;
@@ -60,7 +60,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// What programs write in place of a missing number.
+/// True for the texts that programs write in place of a missing number.
 bool is_missing(const std::string& cell) {
   const std::string word = lower_case(cell);
   return word.empty() || word == "nan" || word == "na" || word == "n/a" || word == "#n/a" ||
@@ -75,9 +75,8 @@ bool parse_number(std::string cell, bool decimal_comma, double& value) {
   return status == std::errc{} && stop == cell.data() + cell.size() && std::isfinite(value);
 }
 
-/// Name and unit of a heading. Brackets hold a unit in any case; what stands behind the last "_", "
-/// ",
-/// "," or "/" may be part of the name.
+/// Name and unit of a heading. Brackets always hold a unit. Text behind the last underscore, blank,
+/// comma or slash may be part of the name.
 struct Heading {
   std::string name, unit;
   bool in_brackets = false;
@@ -101,7 +100,7 @@ Heading heading_of(const std::string& text) {
   return {text, "", false};
 }
 
-/// What values without a unit may be in, by their largest size.
+/// Units that values without a unit may have, distinguished by the largest value.
 struct Reading {
   const char* si;
   const char* other;   // unit

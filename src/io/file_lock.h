@@ -21,7 +21,7 @@ class FileLock {
   int handle_ = -1;
 };
 
-/// Whether someone, also in this process, holds the lock of a file that may be there.
+/// True if someone, also in this process, holds the lock of a file that may be there.
 bool is_locked(const std::string& path);
 
 }  // namespace furrow

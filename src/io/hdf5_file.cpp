@@ -42,7 +42,7 @@ std::string hdf5_cause() {
     return 0;
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &cause);
-  // Of a failed write: "..., error message = 'No space left on device', buf = ...".
+  // A failed write gives "..., error message = 'No space left on device', buf = ...".
   const std::string mark = "error message = '";
   const std::size_t begin = cause.find(mark), end = cause.find('\'', begin + mark.size());
   if (begin == std::string::npos || end == std::string::npos) return cause;
@@ -133,8 +133,8 @@ void write_dataset(Hdf5File& owner, hid_t file, const std::string& dataset, cons
 constexpr hsize_t best_packing = 1032;                // of deflate: bytes from one that is stored
 constexpr std::size_t longest_attribute = 64u << 10;  // [bytes] HDF5's own limit
 
-/// Refuses a dataset that says it has more values than its bytes in the file can hold, before
-/// memory is taken for them.
+/// Refuses a dataset that declares more values than its bytes in the file can hold, before memory
+/// is taken for them.
 void check_stored(const std::string& path, hid_t file, const std::string& dataset, hid_t data,
                   hsize_t count) {
   const Handle layout(H5Dget_create_plist(data), H5Pclose);

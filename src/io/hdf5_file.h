@@ -47,7 +47,7 @@ class Hdf5File {
   void write(const std::string& dataset, const std::vector<std::int64_t>& values);
   void write(const std::string& dataset, const Matrix3X& columns);
   void write(const std::string& dataset, const std::vector<Vector3i>& rows);
-  /// of any length; an attribute holds 64 KiB
+  /// Text of any length; an attribute holds 64 KiB.
   void write(const std::string& dataset, const std::string& text);
   std::string read_text(const std::string& dataset) const;
   std::vector<double> read_numbers(const std::string& dataset) const;         ///< 1-D

@@ -282,7 +282,7 @@ double plane_height(const Points& points, const Heightmap& map, const Bins& bins
   return none;
 }
 
-/// Of points that are on no regular grid, with a spacing that gives as many nodes as points.
+/// Heightmap of scattered points, on a regular grid of about as many nodes as points.
 Heightmap resampled(const TextLines& lines, const Points& points) {
   const auto [left, right] = std::minmax_element(points.x.begin(), points.x.end());
   const auto [front, back] = std::minmax_element(points.y.begin(), points.y.end());
@@ -372,7 +372,7 @@ Heightmap read_points(TextLines& lines) {
   return map;
 }
 
-/// Whether commas are decimal ones: between digits, in words that blanks or semicolons separate,
+/// True if commas are decimal ones: between digits, in words that blanks or semicolons separate,
 /// without any decimal point.
 bool has_decimal_commas(const std::string& text) {
   const auto is_digit = [&](std::size_t at) {

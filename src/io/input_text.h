@@ -25,7 +25,7 @@ std::string read_input_bytes(const std::string& path, const std::string& kind,
 /// @throws InputError where they are not text in UTF-8 (with the line)
 std::string text_of_bytes(std::string bytes, const std::string& path, const std::string& kind);
 
-/// Whether a text has a control character other than tabulators and line ends.
+/// True if a text has a control character other than tabulators and line ends.
 bool has_control_character(const std::string& text);
 
 }  // namespace furrow

@@ -7,8 +7,8 @@
 ///   law:
 ///     type: drucker_prager_cap            # a name of furrow-point laws
 ///     density: 1900                       # the keys of the law
-///   elasticity: { type: linear, ... }     # the law's other sections, each with its `type` where
-///   hardening: { type: table, ... }       # it has several
+///   elasticity: { type: linear, ... }     # other sections of the law, with a `type` where
+///   hardening: { type: table, ... }       # there are several
 ///   contact: contact/sand.yaml            # optional (contact_section.h)
 ///
 /// A variant names another file and gives what differs: `base: fresh_snow.yaml` (in the same
@@ -32,7 +32,7 @@ struct MaterialFile {
   MaterialModel model;
   MaterialSections sections;
   GroundContact contact;
-  std::vector<std::string> warnings;  ///< what is unusual, a sentence each, to be shown
+  std::vector<std::string> warnings;  ///< unusual values, a sentence each, to be shown
 
   std::unique_ptr<Material> make() const { return make_material(model, sections); }
 };

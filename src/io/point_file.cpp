@@ -150,7 +150,7 @@ MeasuredColumn column_of(const CsvTable& table, const YamlTree& name, const std:
   return in_path(name, [&] { return table.measured(name.text, si); });
 }
 
-/// What the sample of a curve has of its own: "sample: {law.e0: 0.58}".
+/// Reads the values that only the sample of this curve has: "sample: {law.e0: 0.58}".
 void read_sample(const YamlTree& map, PointFit& fit, const MaterialOptions& values,
                  FitCurve& curve) {
   if (!map.find("sample")) return;

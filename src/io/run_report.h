@@ -46,8 +46,8 @@ struct Audit {
   void set_energies(std::vector<EnergyTerm> terms, double residual);
 };
 
-/// What a run took: the process that brought it to its end, counted from its restart if there was
-/// one. Zero where not measured.
+/// Cost of the process that brought a run to its end, counted from its restart if there was one.
+/// Zero where not measured.
 struct Cost {
   double wall_time = 0.0;       ///< [s] of the stepping
   double simulated_time = 0.0;  ///< [s]

@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using State = SealCheck::State;
 
-/// A line of its own that readers of text and of LIGGGHTS's restart files pass over; of the same
-/// length for every file.
+/// Seal of a file: a separate last line, which readers of text and of LIGGGHTS's restart files pass
+/// over. It has the same length for every file.
 std::string seal(std::uint64_t length, const Checksum& checksum) {
   return fmt::format("\n# sealed by Furrow: {:016x} bytes, FNV-1a {:016x}\n", length,
                      checksum.value());

@@ -19,7 +19,7 @@ class SealedFile {
   /// @throws Error naming path and the system's reason, as write() and close() do; also when
   /// someone else is writing this file, or keeps its lock
   explicit SealedFile(std::string path);
-  /// Unless it was closed, nothing of it remains, and the former file of that name stays.
+  /// Removes the unfinished file unless close() was called; the previous file of that name stays.
   ~SealedFile();
   SealedFile(const SealedFile&) = delete;
   SealedFile& operator=(const SealedFile&) = delete;

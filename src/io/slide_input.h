@@ -10,7 +10,7 @@
 namespace furrow {
 
 void declare_slide_surface(Schema& schema);
-/// Of a schema that declares the surface and `cell`. @throws InputError
+/// Slide surface from the options of a schema that declares it and `cell`. @throws InputError
 std::optional<SlideSurface> read_slide_surface(const Options& options);
 
 }  // namespace furrow

@@ -26,7 +26,7 @@ namespace {
 constexpr std::uintmax_t largest_card = 4u << 20;  // [bytes]
 constexpr char what_a_card_is[] = "of a soil card, which furrow-post card make writes";
 
-/// Of a parameter: a number, or a map of value, error and unit. @return in the SI unit
+/// Reads a parameter: a number, or a map of value, error and unit. @return in the SI unit
 double value_of(const YamlTree& part, const std::string& name, const std::string& si,
                 const Range& range) {
   const std::string subject = "soil card, " + name;

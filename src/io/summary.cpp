@@ -32,7 +32,7 @@ constexpr char over_time[] = "± over time only";
 constexpr char verdict_head[] = "Verdict: ";
 constexpr std::size_t longest_verdict = 91;  // with its head a line of 100 characters
 
-/// Of a text in UTF-8.
+/// Number of characters of a text in UTF-8.
 std::size_t characters(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
@@ -54,7 +54,7 @@ std::string state_of(const SteadyValue& value) {
   return value.imposed ? "imposed by the scene" : value.steady ? "steady" : "not steady";
 }
 
-/// What a run is made for, first.
+/// Table of the main results of a run, which comes first.
 std::string answer_table(const Resistance& r) {
   std::string text = fmt::format("Main values, {}\n", over_time);
   for (const std::string& name :

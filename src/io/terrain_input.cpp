@@ -171,7 +171,7 @@ void check_cells(const Options& options) {
   }
 }
 
-/// Of the cells as they come out.
+/// Checks that the depth has enough cells, by the cells of the finished axis.
 void check_depth(const TerrainParameters& ground, const Options& options) {
   AxisLayout below = ground.z;
   below.upper = below.fine_upper = ground.surface;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a step of plastic flow does to the trial deviator, for a yield measure t = q g(c)
+/// Return of the trial deviator in a step of plastic flow, for a yield measure t = q g(c)
 /// (section/section.h). Flow is associated in the deviatoric plane, plastic deviatoric strain =
 /// Lambda d(t^2/2)/ds, so that with m = 3 G Lambda
 ///   q + m d(t^2/2)/dq = q_tr   (vectors in the deviatoric plane),

@@ -9,7 +9,7 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// What the return mapping of a step has found.
+/// Result of the return mapping of a step.
 struct ReturnedPoint {
   Symmetric deviator;  ///< s at the end [Pa]
   Lanes p;             ///< pressure at the end [Pa]

@@ -85,8 +85,8 @@ FURROW_INLINE void find_small_stretch(const Symmetric& x, Symmetric& log_u, Symm
       (commuting_product(x2, root_rest.plus_identity(3.0 / 8)) - x * Lanes(0.5)).plus_identity(1.0);
 }
 
-/// ln U and U^-1 by the eigenvalues of C. In a function of its own, because reads of single lanes
-/// would keep the caller's numbers in memory.
+/// ln U and U^-1 by the eigenvalues of C. A separate function, because reads of single lanes would
+/// keep the caller's numbers in memory.
 struct LargeStretch {
   Symmetric x, log_u, inverse_u;
 

@@ -23,7 +23,7 @@ namespace furrow {
 
 /// symmetric tensor: xx, yy, zz, xy, yz, xz (tensor components, no factor 2)
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-/// of strain and stress, in the order of Vector6
+/// Names of the components of strain and stress, in the order of Vector6.
 inline constexpr std::array<const char*, 6> component_names{"xx", "yy", "zz", "xy", "yz", "xz"};
 
 std::string to_string(Branch branch);

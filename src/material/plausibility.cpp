@@ -117,7 +117,7 @@ std::vector<Strength> given_strengths(const Options& law, const SectionOptions& 
   return rows;
 }
 
-/// Of a table its last row; of the exponential law where no void is left.
+/// Strength of the densest state: the last row of a table, or no voids for the exponential law.
 Strength densest(const Options& law, const SectionOptions& hardening,
                  const HardeningParameters& curve) {
   if (hardening.type != "exponential") return given_strengths(law, hardening).back();

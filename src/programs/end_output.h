@@ -3,7 +3,7 @@
 
 namespace furrow {
 
-/// What was printed is out. @throws Error when it is not, such as on a full disk
+/// Flushes the output. @throws Error when it cannot be written, such as on a full disk
 void end_output();
 
 }  // namespace furrow

@@ -57,7 +57,7 @@ void run(const std::string& input, const std::string& output, bool plot) {
   try {
     error = furrow::step_error(*material, run.path, history);
   } catch (const furrow::StateError&) {
-    // The run itself stands; its report says that the error is not known.
+    // The run itself is valid; its report marks the error as unknown.
   }
   std::cout << furrow::run_report(run, *material, history, error ? &*error : nullptr)
             << "  results       " << folder << '\n';

@@ -56,7 +56,7 @@ void print_csv(const std::string& folder, const furrow::Resistance& r) {
   fmt::print("\n");
 }
 
-/// What the command line asks for.
+/// Arguments of the command line.
 struct Request {
   std::vector<std::string> folders;
   std::vector<double> window;    // [s] begin and end; empty: found

@@ -22,7 +22,7 @@
 
 namespace {
 
-/// What the command line asks for.
+/// Arguments of the command line.
 struct Request {
   std::string input;
   std::string output;              // empty: results/<name of the input>

@@ -36,7 +36,7 @@ using namespace furrow;
 // The rim is held or moves up and down only, so these do not matter to a tyre at rest.
 const HubParameters rim{{30.0, 1.0, 0.6}, Vector3::Zero()};
 
-/// What the command line asks for.
+/// Arguments of the command line.
 struct Request {
   std::string file;
   std::vector<double> pressures;  // [kPa]
@@ -176,7 +176,7 @@ void report(Tyre& tyre, double load, const Relaxation& rest, const RigidPlane* p
     write_modes(name, tyre, tyre.natural_modes(plane, request.modes), request.file, load);
 }
 
-/// Brings a tyre to rest under a load [N]. @throws StateError that says what to do
+/// Brings a tyre to rest under a load [N]. @throws StateError with the remedy
 Relaxation settle_under(double load, Tyre& tyre, RigidPlane& plane, const SettleOptions& options) {
   tyre.set_load({0.0, 0.0, -load});
   try {

@@ -19,7 +19,7 @@ constexpr double least_support = 1e-6;  // of the stiffest coordinate
 
 double mass_of(const WheelRig& rig) { return rig.suspension()->mass(); }
 
-/// Of the sprung masses [m].
+/// Centre of the sprung masses in x and y [m].
 Vector2 centre_of_mass(const std::vector<WheelRig*>& rigs) {
   Vector2 sum = Vector2::Zero();
   double mass = 0.0;

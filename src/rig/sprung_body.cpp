@@ -61,7 +61,7 @@ void SprungBody::advance(std::vector<Strut>& struts, const Vector2& moment, doub
   }
 }
 
-/// Of the step before, now that the axles have moved.
+/// Adds the energies of the last step, when the axles have moved.
 void SprungBody::count_energy(const std::vector<Strut>& struts) {
   energy_.spring = 0.0;
   for (std::size_t i = 0; i < struts.size(); ++i) {

@@ -37,7 +37,7 @@ class SprungBody {
   void advance(std::vector<Strut>& struts, const Vector2& moment, double dt);
 
   const Vector3& position() const { return position_; }  ///< q [m, rad]
-  /// Of the time at which the last step began [J]:
+  /// Energies at the time at which the last step began [J]:
   /// kinetic + spring + damping_loss = weight_work + axle_work + moment_work.
   struct Energy {
     double kinetic = 0.0, spring = 0.0;
@@ -55,7 +55,7 @@ class SprungBody {
   Vector3 inertia_;
   Vector3 position_ = Vector3::Zero(), velocity_ = Vector3::Zero();
   Energy energy_;
-  // of the last step
+  // struts, turn and moment of the last step
   std::vector<double> heights_, forces_, dampers_, weights_, tops_;  // [m], [N], [N], [N], [m]
   Vector3 turned_ = Vector3::Zero();                                 // change of q
   Vector2 moment_ = Vector2::Zero();

@@ -12,9 +12,9 @@ namespace furrow {
 
 namespace {
 
-// Of the load: what the ground bears when a lowered wheel has come down on it.
+// Share of the load that the ground bears when a lowered wheel has come down on it.
 constexpr double touching_share = 0.02;
-constexpr double least_share = 0.05;  // of the load that counts for this
+constexpr double least_share = 0.05;  // least part of a growing load for it
 // dt^2 k/m and dt c/m of a suspension, whose force is constant over a step
 constexpr double largest_spring_step = 0.1, largest_damper_step = 0.2;
 
@@ -98,8 +98,8 @@ void WheelRig::follow_courses(double time, double dt) {
   if (mode_ == Mode::slip) spin_rate_ = spin_rate_of(slip_, slip_angle(middle));
 }
 
-/// What the wheel does depends on where it is and how the ground bears it, so that nothing else
-/// needs to be remembered.
+/// Brings the wheel back for another pass. Place and support of the wheel decide each motion, so
+/// that nothing else needs to be remembered.
 void WheelRig::go_back(double time, double dt) {
   const Ramp lifting = passes_.lifting(), returning = passes_.returning();
   const double middle = time + 0.5 * dt;
@@ -153,11 +153,11 @@ void WheelRig::drive_vertical(double time, double dt) {
   }
 }
 
-/// During the settling: a smooth way down to ground_level, then a creep until the ground bears the
-/// wheel. While the load grows, the rig holds the wheel whenever the ground bears more than the
-/// load, so that it does not swing. A wheel that meets no ground falls freely in the end. What the
-/// ground bears shows where the wheel is, so nothing needs to be remembered. The sprung mass of a
-/// suspension comes down with the wheel, and then swings freely.
+/// Moves the wheel while it settles: a smooth way down to ground_level, then a creep until the
+/// ground bears the wheel. While the load grows, the rig holds the wheel whenever the ground bears
+/// more than the load, so that it does not swing. A wheel that meets no ground falls freely in the
+/// end. The force on the ground shows where the wheel is, so nothing needs to be remembered. The
+/// sprung mass of a suspension comes down with the wheel, and then swings freely.
 /// @return whether the rig holds or moves the wheel
 bool WheelRig::lower(double time, double dt) {
   const double middle = time + 0.5 * dt;

@@ -82,18 +82,18 @@ class WheelRig {
   /// the step are known.
   std::vector<double> measure(double time, const GroundLosses& losses = {}) const;
 
-  /// Whether the rig sets a coordinate, "the load" or "the axle torque" of its wheel in every step.
+  /// True if the rig sets a coordinate, "the load" or "the axle torque" of its wheel in every step.
   bool sets(const std::string& coordinate) const;
   bool has_suspension() const { return suspension_.has_value(); }
   /// Null without one.
   const Suspension* suspension() const { return suspension_ ? &*suspension_ : nullptr; }
   const WheelHub& wheel() const { return wheel_; }
 
-  // Of a suspension that carries a part of a chassis, which computes its step after apply().
+  // Suspension that carries a part of a chassis, which computes its step after apply().
   void join() { joined_ = true; }
   void leave() { joined_ = false; }
   bool joined() const { return joined_; }
-  /// Whether the load has begun to grow. @param time [s] the middle of a step
+  /// True once the load has begun to grow. @param time [s] the middle of a step
   bool lowered(double time) const { return time >= load_ramp_.start; }
   /// [N] weight of the sprung mass in the axes of the ground
   const Vector3& sprung_weight() const { return sprung_weight_; }

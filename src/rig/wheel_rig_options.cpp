@@ -16,18 +16,19 @@ namespace {
 
 // Load over the weight of the wheel: beyond, it does not move, or is shot away.
 constexpr double least_load = 1e-3, largest_load = 1e5;
-// Of the diameter: a rig's damping that lets the wheel go down by less while it settles holds it.
+// Travel while the wheel settles, over its diameter; with less, the damping of the rig holds the
+// wheel.
 constexpr double least_travel = 1e-3;
-// Of load x radius: no ground holds it.
+// Axle torque over load x radius: no ground bears more.
 constexpr double largest_torque = 100.0;
-// Of the load.
+// Drawbar load over the load.
 constexpr double largest_drawbar_load = 100.0;
 constexpr double largest_speed = 1000.0;     // [m/s] of axle and rim
 constexpr double largest_slip_radius = 2.0;  // of the nominal radius
 // [m/s] while the wheel is brought back for another pass
 constexpr double largest_return_speed = 100.0, largest_lowering_speed = 10.0;
-// Of settle_time, for the lowering; its largest acceleration, of that which the load gives the
-// mass; largest second derivative of a smooth step over its range
+// Duration of the lowering over settle_time; its largest acceleration over that of the mass under
+// the load; largest second derivative of a smooth step over its range
 constexpr double largest_lowering_share = 0.25, lowering_acceleration = 0.5,
                  smooth_step_acceleration = 5.78;
 // Kinetic energy of the creep, of the work of the load over a hundredth of the radius; end of the

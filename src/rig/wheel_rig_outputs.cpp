@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a rig records: the channels of history.h5.
+// Channels that a rig records in history.h5.
 
 #include <cmath>
 
@@ -16,7 +16,7 @@ constexpr double standstill = 1e-12;
 
 }  // namespace
 
-/// What a row is computed from.
+/// State of rig and wheel from which a row is computed.
 struct WheelRig::Reading {
   const WheelRig& rig;
   const WheelHub& wheel;

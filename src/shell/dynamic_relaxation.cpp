@@ -11,7 +11,7 @@ namespace furrow {
 
 namespace {
 
-// of the unbalanced force on the support, relative to those on single nodes
+// Weight of the unbalanced force on the support among those on single nodes
 constexpr double support_share = 0.1;
 
 }  // namespace

@@ -52,7 +52,7 @@ class RelaxingStructure {
   virtual bool carries_its_load(double /*tolerance*/) const { return true; }
 };
 
-/// How the support moves while a structure comes to rest.
+/// Motion of the support while a structure settles.
 struct RelaxationSupport {
   enum class Motion { held, free, prescribed };
 

@@ -37,7 +37,8 @@ class ShiftedInverse {
   void perform_op(const double* in, double* out) const {
     Eigen::Map<VectorX>(out, rows()) = factors_.solve(Eigen::Map<const VectorX>(in, rows()));
   }
-  /// Of eigenvalues below the shift: A - sigma I = P^T L D L^T P has as many negative ones as D.
+  /// Number of eigenvalues below the shift: A - sigma I = P^T L D L^T P has as many negative ones
+  /// as D.
   Eigen::Index count_below() const { return (factors_.vectorD().array() < 0.0).count(); }
 
  private:
@@ -45,7 +46,7 @@ class ShiftedInverse {
   Eigen::SimplicialLDLT<Sparse> factors_;
 };
 
-// of eigenvalues: how far above the highest one found its multiplicity is counted
+// Relative distance above the highest eigenvalue found, up to which its multiplicity is counted
 constexpr double separation = 1e-6;
 constexpr double precision = 1e-12;
 constexpr int max_restarts = 1000;

@@ -16,8 +16,8 @@ constexpr std::size_t shell4_padding =
 struct Shell4Kind {
   /// in the element's axes; unless the element is mirrored
   double stiffness[24][24];
-  /// of half the sums and of half the differences of nodes that are each other's mirror image
-  /// (Shell4Mirror), if the element is its own mirror image in the plane of its axes 1 and 3
+  /// stiffness for half the sums and half the differences of nodes that are each other's mirror
+  /// image (Shell4Mirror), if the element is its own mirror image in the plane of its axes 1 and 3
   double mirror_even[12][12], mirror_odd[12][12];
   bool mirrored = false;
   double x[4][3];  ///< stress-free nodes in the element's axes [m]

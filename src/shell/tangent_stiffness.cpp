@@ -13,10 +13,10 @@ namespace furrow {
 
 namespace {
 
-// Of a turn [rad], and of a displacement over the length that a turn of one node moves its mass by:
-// rounding and curvature of the forces then are both below 1e-8 of a stiffness.
+// Size of a difference: a turn [rad], or a displacement over the length that a turn of one node
+// moves its mass by. Rounding and curvature of the forces are then both below 1e-8 of a stiffness.
 constexpr double difference = 1e-6;
-// of the forces of a motion of all nodes, of which differences explain all but their own error
+// Share of the forces in a motion of all nodes that the error of the differences may reach
 constexpr double unexplained = 1e-4;
 
 /// Colours such that nodes of one colour have no neighbour in common.

@@ -49,7 +49,7 @@ void add_neighbours(const std::vector<Element>& elements, NodeNeighbours& neighb
       neighbours[static_cast<std::size_t>(node)].insert(element.begin(), element.end());
 }
 
-/// Of a structure of shells alone.
+/// Neighbours of the nodes in a structure of shells alone.
 NodeNeighbours neighbours_of(const std::vector<Shell4::Quad>& quads, Eigen::Index nodes);
 
 /// K = -df/du [N/m, N, N m] about the present state.

@@ -52,7 +52,7 @@ class Lane {
   int lane_;
 };
 
-/// What holds in which lanes.
+/// True or false in each lane.
 class Mask {
  public:
 #ifdef __AVX512F__

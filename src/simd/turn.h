@@ -24,8 +24,8 @@ FURROW_INLINE Turn normalised(const Turn& a) {
   return {inverse * a.x, inverse * a.y, inverse * a.z, inverse * a.w};
 }
 
-/// Of a rotation matrix with columns c, by a quaternion p that is less than half a turn from it:
-/// 4 q q^T, which is linear in the matrix, times p is 4 (q . p) q.
+/// Quaternion of a rotation matrix with columns c, by a quaternion p that is less than half a turn
+/// from it: 4 q q^T, which is linear in the matrix, times p is 4 (q . p) q.
 FURROW_INLINE Turn turn_of(const Triple (&c)[3], const Turn& p) {
   const Lanes one = 1.0;
   const Lanes xx = one + c[0].x - c[1].y - c[2].z, yy = one - c[0].x + c[1].y - c[2].z,

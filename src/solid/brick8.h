@@ -50,7 +50,7 @@ class Brick8 {
   /// Smallest volume over stress-free volume at a Gauss point, at the last add_forces.
   double least_volume_ratio() const { return least_ratio_; }
   std::size_t kind_count() const;      ///< distinct stress-free shapes
-  void checkpoint(Checkpoint& state);  ///< what stable_time_step() follows
+  void checkpoint(Checkpoint& state);  ///< state of stable_time_step()
 
  private:
   struct Alike;   // elements of one kind

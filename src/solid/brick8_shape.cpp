@@ -16,7 +16,7 @@ constexpr double zeta[8] = {-1, -1, -1, -1, 1, 1, 1, 1};
 // Volume at a Gauss point over its mean below which it counts as none
 constexpr double least_share = 1e-6;
 
-/// Of the shape functions by the parameter coordinates, at a point; and their values.
+/// Values of the shape functions at a point, and derivatives by the parameter coordinates.
 struct Trilinear {
   Matrix38 derivative;
   Eigen::Matrix<double, 8, 1> value;

@@ -31,7 +31,7 @@ struct Course {
            static_cast<double>(to - from);
   }
   double mean() const { return mean(0, values.size()); }
-  /// Of the n-th quarter, 0 to 3.
+  /// Mean of the n-th quarter, 0 to 3.
   double quarter(std::size_t n) const {
     return mean(n * values.size() / 4, (n + 1) * values.size() / 4);
   }

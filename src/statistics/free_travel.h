@@ -23,7 +23,7 @@ enum class Travel { prescribed, travels, runs_away, digs_in, stalled, rolls_back
 
 struct TravelVerdict {
   Travel travel = Travel::travels;
-  std::string sentence;  ///< what happened, with its numbers; empty if prescribed or travelling
+  std::string sentence;  ///< reason, with its numbers; empty if prescribed or travelling
 };
 
 /// @param first_of_cruise row

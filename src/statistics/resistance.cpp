@@ -16,14 +16,14 @@ namespace furrow {
 
 namespace {
 
-// of load times radius, below which an axle torque is rounding: the wheel is towed
+// Axle torque over load times radius, below which it is rounding: the wheel is towed
 constexpr double no_torque = 1e-9;
-// of the load, by which forces differ in two frames: more than rounding
+// Difference of the forces in two frames over the load, above which it is more than rounding
 constexpr double same_frame = 1e-9;
-// of the load, below which a lateral force is that of a wheel that runs straight
+// Lateral force over the load, below which it is that of a wheel that runs straight
 constexpr double noise_sideways = 0.02;
 
-/// Whether another value of the verdict has the same force.
+/// True if another value of the verdict has the same force.
 bool repeats_another(const SteadyValue& value) {
   return value.name == "tractive_force" || value.name == "force_x" || value.name == "force_y";
 }
@@ -70,7 +70,7 @@ void share_error_of_negatives(std::vector<SteadyValue>& values, const std::strin
   if (std::abs(a.mean + b.mean) <= larger) a.standard_error = b.standard_error = larger;
 }
 
-/// Of the wheel [m], from its fastest turn; 0 where the history does not have it.
+/// Radius of the wheel [m], from its fastest turn; 0 where the history does not have it.
 double radius_of(const History& history) {
   if (!history.has("rim_speed") || !history.has("spin_rate")) return 0.0;
   const std::vector<double> spin = history.column("spin_rate"), rim = history.column("rim_speed");

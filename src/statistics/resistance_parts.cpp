@@ -10,9 +10,9 @@ namespace furrow {
 
 namespace {
 
-// of the work on a continuum: two sums of the same work differ by rounding
+// Rounding between two sums of the same work on a continuum, over the work
 constexpr double same_work = 1e-6;
-// of the work on grains: power at instants against works step by step
+// Difference of the power at instants from works step by step, over the work on grains
 constexpr double same_grain_work = 0.01;
 
 using Channels = std::vector<std::string>;
@@ -23,7 +23,7 @@ struct Part {
   Channels channels;
 };
 
-/// What a continuum took, of all bodies that press on it.
+/// Parts that a continuum takes from all bodies that press on it.
 const std::vector<Part>& parts_of_continuum() {
   static const std::vector<Part> list = {{"compaction", {"compaction_work"}},
                                          {"bulldozing", {"bulldozing_work"}},
@@ -33,15 +33,15 @@ const std::vector<Part>& parts_of_continuum() {
   return list;
 }
 
-/// What grains took, by the way in which a wheel gave it.
+/// Parts that grains take, by the way in which a wheel gives them.
 const std::vector<Part>& given_to_grains() {
   static const std::vector<Part> list = {{"grains, pressed down", {"grain_press_work"}},
                                          {"grains, pushed along", {"grain_push_work"}}};
   return list;
 }
 
-/// The same by place, of all bodies that press on them: compaction, bulldozing with what is lifted,
-/// and the rest.
+/// Parts that grains take from all bodies that press on them, by place: compaction, bulldozing with
+/// lifting, and the rest.
 const std::vector<Part>& places_of_grains() {
   static const std::vector<Part> list = {
       {"grains, below the track", {"grains_below_work"}},
@@ -51,7 +51,7 @@ const std::vector<Part>& places_of_grains() {
   return list;
 }
 
-/// What belongs to one wheel.
+/// Parts that belong to one wheel.
 const std::vector<Part>& parts_of_wheel() {
   static const std::vector<Part> list = {
       {"friction of wheel and ground", {"friction_loss"}},
@@ -131,7 +131,7 @@ ResistanceParts resistance_parts(const std::vector<History>& histories,
   const double travel = std::abs(windows.front().distance);
   if (!(travel > 0.0)) return result;
 
-  // of all wheels
+  // sum over all wheels
   const auto sum = [&](const std::function<double(const History&, const Window&)>& of_wheel) {
     double total = 0.0;
     for (std::size_t i = 0; i < histories.size(); ++i) total += of_wheel(histories[i], windows[i]);

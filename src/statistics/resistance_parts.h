@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What the resistance is made of: the energies of a run over a window, per metre of travel
+/// Parts of the resistance: the energies of a run over a window, per metre of travel
 /// (theory: resistance, eq. 1).
 
 #include <string>

@@ -38,8 +38,8 @@ bool is_constant(const std::vector<double>& values, double reference = 0.0) {
          std::max(1e-12, 1e-9 * std::max({std::abs(*high), std::abs(*low), reference}));
 }
 
-/// Whether a transient was left out until there was no more to leave out, and the values that
-/// remain still differ by more than is negligible.
+/// True if the longest transient that is allowed was left out, and the values that remain still
+/// differ by more than is negligible.
 bool ends_in_a_transient(std::size_t transient, const std::vector<double>& cruise) {
   if (static_cast<double>(transient) <= longest_transient * static_cast<double>(cruise.size()))
     return false;
@@ -166,7 +166,7 @@ void trim_to_whole_pitches(const History& history, Window& window) {
   window.how += fmt::format(", trimmed to {:.0f} whole pitches of grousers", whole);
 }
 
-/// Of a window that was given.
+/// Warning about a given window that begins before the cruise; else empty.
 std::string doubt_of_begin(const History& history, const Window& window) {
   const bool early = has_stages(history) && history.column(stage_channel)[window.first] <
                                                 static_cast<double>(RigStage::cruise);

@@ -37,8 +37,8 @@ struct Window {
 std::size_t first_row_of_cruise(const History& history);
 
 /// MSER-5 [White1997]: the truncation that minimises theory: errors, eq. 1, with means of five
-/// values. Of several minima that scatter explains the earliest counts; otherwise a calm end would
-/// turn everything before it into a transient.
+/// values. If scatter explains several minima, the earliest counts; otherwise a calm end would turn
+/// everything before it into a transient.
 /// @return how many values to leave out, at most the first half of the series
 std::size_t mser_truncation(const std::vector<double>& values);
 

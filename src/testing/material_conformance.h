@@ -227,7 +227,7 @@ TEST_P(MaterialConformance, FiftyRigidTurnsKeepTheStress) {
            0.0);
     angle = next;
   }
-  // What the rotations strain, the stiffness turns into stress.
+  // The stiffness turns the strain of the rotations into stress.
   const double input_error = 2e-14 * material_->moduli(start).wave();
   EXPECT_LT((stress_of(state) - stress_of(start)).norm(),
             1e-10 * material_->stress_scale(start) + input_error);
@@ -334,7 +334,7 @@ TEST_P(MaterialConformance, NoStepLeavesTheYieldSurfaceOrTakesBackHeat) {
   }
 }
 
-/// Of steps without rotation: what dev(strain) - (s_end - s_start)/(2 G) sums up to.
+/// Sums dev(strain) - (s_end - s_start)/(2 G) over steps without rotation.
 TEST_P(MaterialConformance, EquivalentPlasticStrainIsWhatElasticityDoesNotTake) {
   const std::optional<std::size_t> kept = material_->find_field("eps_dev_pl");
   if (!kept) return;

@@ -13,7 +13,7 @@ namespace {
 
 // Share of the bricks' own step: their stiffness follows the deformation, a step goes before it
 constexpr double brick_reserve = 0.9;
-// While a tyre comes to rest its bricks may be squeezed to this share of their height
+// Share of their height to which bricks may be squeezed while a tyre settles
 constexpr double relaxation_reserve = 0.7;
 // [kg m^2] of nodes that no shell has: they do not turn, but are divided by
 constexpr double no_inertia = 1e-30;
@@ -121,7 +121,7 @@ Wrench BrickTyre::hand_over(Matrix3X& on_nodes) {
   return on_rim;
 }
 
-/// Of a line with voids, the highest.
+/// Point of a line of the unloaded tread farthest from the axle; a line may have voids.
 Vector3 BrickTyre::unloaded_tread_point(int line) const {
   Vector3 highest = Vector3::Zero();
   for (int i = 0; i < mesh_.grid.around; ++i) {

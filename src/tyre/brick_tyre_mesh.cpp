@@ -101,7 +101,7 @@ class Builder {
     return {carcass_node(i, j), carcass_node(i, j + 1), carcass_node(i + 1, j + 1),
             carcass_node(i + 1, j)};
   }
-  /// of the elements between stations j and j + 1
+  /// Zone of the elements between stations j and j + 1
   std::size_t zone(int j) const {
     const double middle = 0.5 * std::abs(at(j) + at(j + 1));
     std::size_t zone = 0;

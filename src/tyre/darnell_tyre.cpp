@@ -13,7 +13,7 @@ namespace furrow {
 
 namespace {
 
-// of a ring, that section_width() looks at: profiles by the chain take time
+// Number of profiles of a ring for section_width(): profiles by the chain take time
 constexpr std::size_t max_profiles = 72;
 
 std::unique_ptr<Sidewall> make_sidewall(const TyreParameters& tyre, bool direct,

@@ -114,8 +114,8 @@ void NodalTyre::compute_internal() {
 /// Forces on the surface: sets contact_ and contact_on_rim_.
 void NodalTyre::compute_contact() { contact_on_rim_ = of_whole(hand_over(contact_)); }
 
-/// What elements and pressure do to the rim of the whole: the opposite of their sum on the nodes,
-/// and what they do to beads.
+/// Wrench of elements and pressure on the rim of the whole tyre: the opposite of their sum on the
+/// nodes, and their action on the beads.
 Wrench NodalTyre::internal_on_rim() const {
   Wrench on_rim = internal_on_beads();
   on_rim.force -= nodes_.force.rowwise().sum();
@@ -125,7 +125,7 @@ Wrench NodalTyre::internal_on_rim() const {
   return of_whole(on_rim);
 }
 
-/// Of the computed part.
+/// Wrench of elements and pressure on the beads of the computed part.
 Wrench NodalTyre::internal_on_beads() const {
   Wrench on_beads;
   for (const Eigen::Index n : beads_) {
@@ -147,7 +147,7 @@ void NodalTyre::end_interval() {
   surface_follows_ = true;
 }
 
-/// What a deformed tyre is refused for is seldom what is wrong.
+/// Adds likely causes to an error: the symptom in a deformed tyre is seldom the cause.
 void NodalTyre::advance(double dt) try { step(dt); } catch (const StateError& problem) {
   throw StateError(
       fmt::format("{}; at {:g} Pa it carries a load of {:.4g} N and its axle moves at {:.3g} m/s; "

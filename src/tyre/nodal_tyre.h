@@ -114,7 +114,7 @@ class NodalTyre : public Tyre {
 
   bool surface_follows_ = true;  // in every step
 
-  // Of the present step, of the whole tyre
+  // State of the present step, of the whole tyre
   double elastic_ = 0.0;   // [J]
   double volume_ = 0.0;    // [m^3] of the air, but for a constant
   Wrench contact_on_rim_;  // handed over by the surface

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How a NodalTyre comes to rest, and vibrates about it: its nodes move, its rim is the support.
+// Relaxation of a NodalTyre, and vibration about its rest: its nodes move, its rim is the support.
 
 #include <algorithm>
 #include <cmath>

@@ -36,7 +36,7 @@ class NodeStep {
 
  private:
   double rate_;
-  // Of each node, padded
+  // Values of each node, padded
   std::vector<double> mass_, inertia_;                           // [kg], [kg m^2]
   std::array<std::vector<double>, 3> mobility_, spin_mobility_;  // inverse, or 0 where held
 };

@@ -17,7 +17,7 @@ constexpr double step_limit = 0.3;            // [rad] of any segment in one ste
 constexpr double shortest_step = 1e-8;        // of Newton's
 constexpr double sufficient_decrease = 1e-4;  // of what the slope promises (Armijo)
 constexpr double gradient_tolerance = 1e-12;  // of the largest forces times lengths
-// of the potential's terms: a difference below is none
+// Difference of the potential over its terms, below which it is none
 constexpr double rounding = 1e-13;
 // [rad] of any segment: a warm start that ends farther away is not trusted
 constexpr double farthest_from_arc = 1.2;
@@ -166,7 +166,7 @@ void SidewallChain::find_step(double scale) {
   axes_.solve(step_);
 }
 
-/// Goes along step_ as far as the potential decreases. False when it does not.
+/// Follows step_ while the potential decreases. False when it does not.
 bool SidewallChain::search_line(const SidewallEnd& end, double pressure, VectorX& angles) {
   const double l = parameters().length;
   const double slope = step_.tail(n_ - 2).dot(gradient_.tail(n_ - 2));
@@ -219,7 +219,7 @@ SidewallResponse SidewallChain::solve(const SidewallEnd& end, double pressure, V
   const SidewallParameters& sidewall = parameters();
   const double a = end.a, r = end.r;
   const double omega = sidewall.bead_width + sidewall.taper * r;
-  // of the chord's pressure, at the tread
+  // Share of the chord's pressure that acts at the tread
   const double share = 0.5 * sidewall.bead_width + sidewall.taper * r / 3.0;
   response.on_tread = {
       -multiplier_[0], -multiplier_[1] - pressure * a * omega,

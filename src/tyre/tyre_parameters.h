@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a tyre is made of: rim, tread band, sidewalls. Tyre files (io/tyre_file.h) are read into
+/// Parameters of a tyre: rim, tread band, sidewalls. Tyre files (io/tyre_file.h) are read into
 /// these.
 ///
 /// Section of the tyre: A is the axial coordinate, outwards from the mid-plane, and R the radius

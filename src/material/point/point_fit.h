@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a fit of a law to measured curves asks of furrow-point: parameters that may change, and the
-/// curves of a material. furrow-post minimises the difference.
+/// Input of a fit of a law to measured curves: parameters that may change, and the curves of a
+/// material. furrow-point computes the curves, furrow-post minimises the difference.
 
 #include <limits>
 #include <optional>
@@ -70,7 +70,7 @@ class FitParameter : public MaterialNumber {
 /// A measured curve: the last segments of its path end at the measured points.
 struct FitCurve {
   std::string name;
-  /// what the sample has of its own, and the value as text: "law.e0" and "0.58"
+  /// values that only this sample has, with their text: "law.e0" and "0.58"
   std::vector<std::pair<MaterialNumber, std::string>> sample;
   PointPath path;
   std::string driven_by, driven_unit;  ///< the path's targets
@@ -82,7 +82,7 @@ struct FitCurve {
   double deviation = 0.0;
 };
 
-/// Whether one path of one sample has both curves.
+/// True if both curves belong to one path of one sample.
 bool share_a_path(const FitCurve& one, const FitCurve& other);
 
 /// The channel at the measured points of a path that was driven.

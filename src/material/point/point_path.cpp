@@ -55,7 +55,7 @@ void set_normal(PathSegment& segment, Control control, double target) {
   for (const int component : {xx, yy, zz}) set(segment, component, control, target);
 }
 
-/// Exactly one of two lists of targets is given; says which.
+/// Requires exactly one of two lists of targets. @return whether it is the first
 bool first_of(const Options& o, const std::string& first, const std::string& second) {
   if (o.given(first) == o.given(second))
     throw InputError(

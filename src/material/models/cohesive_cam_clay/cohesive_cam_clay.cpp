@@ -13,7 +13,8 @@ namespace furrow {
 
 namespace {
 
-// Of shear failure q/p is below 3; ellipses that fit the lateral stress of snow have 3 to 4.
+// Largest plausible M. Shear failure has q/p below 3; ellipses that fit the lateral stress of snow
+// have 3 to 4.
 constexpr double largest_M = 20.0;
 
 std::unique_ptr<Material> create_cohesive_cam_clay(const MaterialOptions& sections) {

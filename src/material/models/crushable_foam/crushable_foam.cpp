@@ -46,11 +46,11 @@ std::unique_ptr<Material> create_crushable_foam(const MaterialOptions& sections)
   return std::make_unique<CrushableFoam>(o.number("density"), parameters);
 }
 
-// Of pc0: beyond the upper, M is nearly singular; below the lower, the foam would carry a pressure
-// from all sides that is many times what crushes it from one.
+// Usual range of sigma0 over pc0. Above, M is nearly singular; below, the foam would carry a
+// pressure from all sides that is many times what crushes it from one.
 const Range usual_sigma0 = Range::closed(0.3, 2.8);
 
-/// Of sections that belong to two foams, or have another unit.
+/// Warnings about sections that belong to two foams, or have another unit.
 std::vector<std::string> doubts_of_foam(const MaterialOptions& sections) {
   const std::unique_ptr<Material> material = create_crushable_foam(sections);
   const double pc0 = static_cast<const CrushableFoam&>(*material).pc(0.0);
