@@ -109,7 +109,7 @@ CommandLine::Variable as_variable(const std::string& option,
   return {words[0], {words.begin() + 1, words.end()}};
 }
 
-/// Of two values LIGGGHTS would silently take the first.
+/// Adds a variable once. LIGGGHTS would silently take the first of two values.
 void add_variable(CommandLine& line, CommandLine::Variable variable) {
   for (const CommandLine::Variable& other : line.variables)
     if (other.name == variable.name)

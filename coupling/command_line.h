@@ -26,8 +26,8 @@ CommandLine read_command_line(const std::vector<std::string>& words);
 /// @throws InputError
 void check_command_line(const CommandLine& line);
 
-/// What LIGGGHTS is started with instead of "-screen none": its mesh fixes write to the screen
-/// without asking whether there is one. @param words the program's name and what follows
+/// Arguments for the start of LIGGGHTS, without "-screen none": its mesh fixes write to the screen
+/// and do not check that there is one. @param words the program's name and what follows
 std::vector<std::string> words_for_liggghts(std::vector<std::string> words);
 
 /// Variables and files of the script, as JSON. @throws InputError

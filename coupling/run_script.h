@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What the executable and the Python module do with a script.
+/// Run of a script, for the executable and the Python module.
 
 #include "lammps.h"
 
@@ -10,7 +10,7 @@ namespace furrow::coupling {
 /// of the script.
 void run_script(LAMMPS_NS::LAMMPS& lammps);
 
-/// After a script that was not stopped.
+/// Warns of a script that ended normally without a run.
 void warn_without_run(LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace furrow::coupling

@@ -40,7 +40,7 @@ class Reader {
   ScriptVariables found_;
 };
 
-/// LIGGGHTS's rule: from a # that stands in no quotes.
+/// Removes a comment as LIGGGHTS does: from a # outside of quotes.
 std::string without_comment(const std::string& line) {
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {

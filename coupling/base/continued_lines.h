@@ -31,7 +31,7 @@ class ContinuedLines {
 
   LAMMPS_NS::LAMMPS& lammps_;
   bool unchecked_ = false;  // a checkpoint was read
-  // Of the checkpoint.
+  // Lines of the checkpoint's script.
   std::string fixes_;        // names, a line each
   std::string properties_;   // id and values, a line each
   std::string controllers_;  // name of the fix, keyword and value, a line each

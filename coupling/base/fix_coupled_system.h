@@ -38,7 +38,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
 
   /// The system of a LIGGGHTS instance; made on first use.
   static FixCoupledSystem& of(LAMMPS_NS::LAMMPS& lammps);
-  /// The same, or null.
+  /// The coupled system of the scene, or null without one.
   static FixCoupledSystem* find(LAMMPS_NS::LAMMPS& lammps);
 
   // Not owned: each must outlive the system or be removed. @param name for errors
@@ -49,17 +49,17 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   void add(MotionController& controller, const std::string& name);
   void remove(const MotionController& controller);
 
-  // Of a body that was added.
+  // Results for a body that was added.
   ContactLedger& ledger(const Body& body) { return load(body).ledger; }
   /// Where moments of this step are taken about: the middle of the body's nodes.
   const Vector3& moment_reference(const Body& body) { return load(body).reference; }
   const MomentumAudit& audit(const Body& body) { return load(body).audit; }
   /// For the wall: contacts with grains in this step, of this rank.
   std::vector<GrainContact>& contacts(const Body& body) { return load(body).contacts; }
-  /// Of contacts with grains since the start, of all ranks; up to the step before that of the
+  /// Work of contacts with grains since the start, of all ranks; up to the step before that of the
   /// forces, like the works of the body itself.
   const ContactWork& contact_work(const Body& body) { return load(body).work; }
-  /// Whether any force has acted on a body since the process started.
+  /// True if any force has acted on a body since the process started.
   bool touched(const Body& body) { return load(body).touched; }
 
   double time() const { return time_; }            ///< of the scene [s], also after a restart
@@ -69,7 +69,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   /// Warns of targets of a rig as a run does that begins with them. @throws InputError for those
   /// that it would refuse. Collective.
   void check_targets() { scene_watch_->after_change_of_targets(); }
-  /// Of the body whose stable step is the smallest now. Collective.
+  /// Limit by the body whose stable step is the smallest now. Collective.
   CoupledSystem::StepLimit step_limit() const { return system_.step_limit(); }
   const Communicator& communicator() const { return communicator_; }
 
@@ -113,8 +113,8 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   bool has_run_ = false;
   double time_ = 0.0, sub_steps_ = 0.0;
   bool restored_ = false;
-  // Whether forces on nodes are those of all ranks. clear_forces() and the grains of a step leave
-  // them partial.
+  // Forces on nodes are those of all ranks. clear_forces() and the grains of a step leave them
+  // partial.
   bool forces_complete_ = false;
 };
 

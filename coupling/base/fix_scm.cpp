@@ -21,8 +21,8 @@ std::optional<SoilCard> card_of(const Options& options, const std::string& folde
   return read_soil_card((std::filesystem::path(folder) / options.text("card")).string());
 }
 
-/// Of the line, and of the cards of its patches with the stiffness, damping and flow of the line.
-/// None for a line that has no parameter of a soil.
+/// Soils of the line and of the cards of its patches. All have the stiffness, damping and flow of
+/// the line. None for a line that has no parameter of a soil.
 std::optional<SoilPatches> soils_of(const Options& options, const std::optional<SoilCard>& card,
                                     const HeightFieldParameters& field, const std::string& folder) {
   using Values = std::map<std::string, double>;

@@ -17,7 +17,7 @@ class FixScm : public FurrowFix {
   static const Outputs<FixScm>& outputs();
   HeightField& field() { return field_; }
   const HeightField& field() const { return field_; }
-  /// Of the line, and of its patches; none: a surface alone, for contact/rft.
+  /// Soils of the line and of its patches; none: a surface alone, for contact/rft.
   const std::optional<SoilPatches>& soils() const { return soils_; }
   const std::optional<SoilCard>& card() const { return card_; }
 

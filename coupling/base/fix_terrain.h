@@ -14,17 +14,16 @@ class FixTerrain : public FixBody {
  public:
   ContinuumTerrain& terrain() const { return static_cast<ContinuumTerrain&>(body()); }
   bool half_model() const { return options().flag("symmetry"); }
-  /// Outputs of a half model are those of the whole terrain: a sum over the computed half times
-  /// this.
+  /// Factor from sums over the computed half to outputs, which are those of the whole terrain.
   double symmetry_factor() const { return half_model() ? 2.0 : 1.0; }
-  /// Whether it follows a body, and drops what lies behind it.
+  /// True if the terrain follows a body, and drops the ground that lies behind it.
   bool moves() const { return options().given("follow"); }
-  /// Of the undisturbed terrain along x, y or z [m].
+  /// Extent of the undisturbed terrain along x, y or z [m].
   std::pair<double, double> extent(int direction) const;
-  /// Whether a point lies in the undisturbed terrain; a trough does not belong to it.
+  /// True if a point lies in the undisturbed terrain, whose trough is no part of it.
   bool contains(const Vector3& point) const;
 
-  /// Without a copy of the terrain as its line makes it.
+  /// Restores the terrain without keeping a copy as its script line makes it.
   void restart(char* buffer) override { FurrowFix::restart(buffer); }
 
  protected:

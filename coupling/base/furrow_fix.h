@@ -102,8 +102,8 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, publ
   /// Saves or restores the state. Called on all ranks; the bytes of rank 0 are written, and all
   /// ranks read them back.
   virtual void checkpoint(Checkpoint&) {}
-  /// Whether the state belongs to these options alone. A run is then continued with the same ones,
-  /// except for those that may_change().
+  /// True if the state depends on these options. A run is then continued with the same ones, except
+  /// for those that may_change().
   virtual bool state_needs_options() const { return true; }
   /// Runs an action that all ranks run alike; what it throws becomes the error of all.
   template <class Action>

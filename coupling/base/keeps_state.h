@@ -7,9 +7,9 @@ namespace furrow::coupling {
 class KeepsState {
  public:
   virtual ~KeepsState() = default;
-  /// Whether a continued run needs the state that a checkpoint keeps of this fix.
+  /// True if a continued run needs the state that a checkpoint keeps of this fix.
   virtual bool must_be_restored() const = 0;
-  /// Whether the fix has its state from a checkpoint.
+  /// True if the fix has its state from a checkpoint.
   virtual bool restored() const = 0;
 };
 

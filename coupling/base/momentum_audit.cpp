@@ -11,7 +11,7 @@ namespace furrow::coupling {
 
 namespace {
 
-// of the force scale: round-off of the sums, nothing else
+// Tolerance over the force scale: round-off of the sums, nothing else
 constexpr double momentum_tolerance = 1e-10;
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a fix adds to a LIGGGHTS restart file: its length in bytes (an int, which LIGGGHTS reads),
+/// Record of a fix in a LIGGGHTS restart file: its length in bytes (an int, which LIGGGHTS reads),
 /// then a Checkpoint. On rank 0 only.
 
 #include <cstdio>

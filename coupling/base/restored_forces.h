@@ -33,7 +33,7 @@ class RestoredForces {
   /// @param system  whose contact forces are saved
   void checkpoint(Checkpoint& state, bool in_run, const CoupledSystem& system);
 
-  /// Whether a checkpoint has brought forces that the next step needs.
+  /// True while a checkpoint has brought forces that the next step needs.
   bool waiting() const { return waiting_; }
   // Phases of a set-up and of the step after it; nothing happens unless forces are waiting.
   /// Before grains are sorted. The run without a break adds up forces in the order that the

@@ -24,7 +24,7 @@ double rounded_down(double value) {
   return std::floor(value / unit) * unit;
 }
 
-/// What a step is measured by.
+/// Time to which a step is compared.
 struct Measure {
   const char* what;  // "the Rayleigh time"
   double warning, limit, recommended;

@@ -43,7 +43,7 @@ std::string tyre_path(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   return (std::filesystem::path(script_folder(lammps)) / options.text("file")).string();
 }
 
-/// Psi, bar and kPa are told from Pa by their size.
+/// Pressure in Pa; values in psi, bar or kPa are refused by their size.
 double read_pressure(const Options& options, double of_file) {
   const double pressure = options.has("pressure") ? options.number("pressure") : of_file;
   if (pressure < min_pressure || pressure > largest_inflation)
@@ -66,7 +66,7 @@ void inflate(const Options& options, Tyre& tyre) {
   }
 }
 
-/// Tread and sidewalls turn the rim to and fro in the steps of the tread.
+/// Tread and sidewalls turn the rim back and forth in the steps of the tread.
 void check_rim(const Options& options, const HubParameters& hub, double bead_radius) {
   if (options.flag("half") && hub.centre.y() != 0.0)
     throw InputError(options.where("axle"),

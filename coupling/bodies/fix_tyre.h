@@ -38,7 +38,8 @@ double read_pressure(const Options& options, double of_file);
 /// @throws InputError for a half model beside its plane of symmetry, or an inertia that no rim with
 /// beads of this radius [m] has
 void check_rim(const Options& options, const HubParameters& hub, double bead_radius);
-/// Brings a tyre to rest without a load. @throws InputError for a pressure that it does not hold
+/// Inflates a tyre without a load until it rests. @throws InputError for a pressure at which it
+/// does not
 void inflate(const Options& options, Tyre& tyre);
 /// @throws InputError for a damping that is faster than a step [s]
 void check_damping(const Options& options, double stable_step);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What the fixes of bodies from mesh files share.
+/// Common functions of the fixes of bodies from mesh files.
 
 #include "coupling/base/fix_body.h"
 #include "geometry/solid_mesh.h"

@@ -37,7 +37,7 @@ constexpr double nearly = 0.98;
 // A plane in the place of a surface mesh: cosine between both normals, share of the mesh's area,
 // and distance behind the mesh in radii of a grain.
 constexpr double aligned = 0.7, covered_share = 0.05, behind = 0.5;
-// Of terrain under a wheel, in lengths of the wheel.
+// Size of terrain under a wheel, in lengths of the wheel.
 constexpr double longest_window = 30.0, longest_track = 200.0, widest_terrain = 30.0,
                  deepest_terrain = 10.0;
 constexpr double largest_pull = 1.0;    // over the vertical force: sand of 45 degrees
@@ -45,7 +45,7 @@ constexpr double cells_of_a_lug = 2.5;  // in height and spacing of grousers
 constexpr double sideways = 0.5;        // largest vertical part of a tool's direction
 constexpr double beyond_rim = 1.01;     // distance of a grouser's corner from the axle, in radii
 constexpr double near_end = 0.75;       // diameters of the wheel
-// Of surcharge and weight, either over the other.
+// Ratio of surcharge and weight of the grains, either over the other.
 constexpr double surcharge_ratio = 2.0;
 // Force on the steep faces of a wheel along its axle, over the vertical force on the wheel
 constexpr double small_side_force = 0.03;
@@ -55,14 +55,14 @@ struct Span {
   double length() const { return upper - lower; }
 };
 
-/// What the check knows of a contact.
+/// Body and terrain of a contact, with their extents.
 struct Pair {
   const FixBody& body;
   const FixTerrain& terrain;
   Span body_x, body_y, terrain_x, terrain_y;
 };
 
-/// A half model stands for the whole.
+/// Extents of a half model are those of the whole.
 Pair describe(FixContactContinuum& contact) {
   const Body& body = contact.body_fix().body();
   const FixTerrain& terrain = contact.terrain_fix();
@@ -132,7 +132,7 @@ Radii radii_of_grains(const LAMMPS_NS::LAMMPS& lammps) {
   return {-ranks.max(-radii.smallest), ranks.max(radii.largest)};
 }
 
-/// Whether a wall lies where a grain on the triangle would rest, or so close above that none fits
+/// True if a wall lies where a grain on the triangle would rest, or so close above that none fits
 /// between.
 bool replaces(LAMMPS_NS::PrimitiveWall& wall, const Vector3& centre, const Vector3& normal,
               const Radii& radii) {

@@ -30,22 +30,22 @@ namespace furrow::coupling {
 namespace {
 
 constexpr char move_all[] = "write 'fix move all nve/sphere'";
-// Of gravity: a slope of 60 degrees, steeper than any ground stands.
+// Downward share of gravity: a slope of 60 degrees, steeper than any ground stands.
 constexpr double least_downward_share = 0.5;
 constexpr double straight = 1.0;  // [degrees] of gravity from straight down
-// Of planets and moons that a vehicle may roll on, by a wide margin.
+// Gravity [m/s^2] of planets and moons that a vehicle may roll on, by a wide margin.
 const Range usual_gravity = Range::closed(0.05, 30.0);
 // Load over width and length of the body [Pa]; tyres of lorries have 1e5, of aircraft 4e5.
 const Range usual_pressure = Range::closed(20.0, 5e5);
-// What hangs on an axle is part of its mass, and part of the load. So a wheel that is heavier than
-// a solid one of steel [kg/m^3], and than its load by this factor, has a mass in other units.
+// Mass of a wheel, which includes all that hangs on the axle. If the wheel is heavier than a solid
+// one of steel [kg/m^3], and than its load by this factor, its mass is in other units.
 constexpr double solid_steel = 7850.0, usual_lift = 1.5;
-// Between two values of one gravity, over the larger.
+// Difference between two values of one gravity, over the larger.
 constexpr double same_gravity = 2e-3, similar_gravity = 0.05;
 constexpr double same_pace = 1e-9;  // of speeds and times of two rigs
-// Over sqrt(g length of the body), and on a rigid plane [m/s]: a speed in another unit is beyond.
+// Speed over sqrt(g length of the body), and on a rigid plane [m/s]: beyond, it is in another unit.
 constexpr double usual_froude = 1.0, usual_road_speed = 70.0;
-// over the wave speed
+// speed of a body over the wave speed
 constexpr double mach_warning = 0.3, mach_limit = 1.0;
 // travel in a step over the radius of the smallest grain
 constexpr double travel_warning = 0.1, travel_limit = 1.0;
@@ -80,8 +80,8 @@ struct GivenGravity {
   Vector3 vector;  // [m/s^2]
 };
 
-/// Of a rig only where it is written, makes a force of a mass, or a mass of a force. Of a height
-/// field only where it is written, or a card holds in it.
+/// Every gravity that a line of the scene uses. A rig uses it where it is given, or makes a force
+/// of a mass or a mass of a force; a height field where it is given, or a card holds in it.
 std::vector<GivenGravity> gravities(const Scene& scene) {
   const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
   std::vector<GivenGravity> given;

@@ -32,8 +32,8 @@ constexpr int shrink_wrapped = 2;         // of Domain::nonperiodic
 constexpr double large_overlap = 0.02;    // of the smaller of two boxes around bodies
 constexpr double inside = 0.5;            // winding number
 constexpr double level_tolerance = 1e-3;  // of the body's size, on a continuum or a plane
-// Of the largest diameter, on grains: a bed's level may be that of its middles, of its highest
-// grains or a mean, and a few grains may stick out.
+// Difference of a level over the largest diameter of the grains: a bed's level may be that of its
+// middles, of its highest grains or a mean, and a few grains may stick out.
 constexpr double grain_tolerance = 3.0;
 constexpr double deep_start = 0.05;  // of the height of a body
 constexpr double near_base = 0.1;    // of the depth of a terrain
@@ -64,14 +64,15 @@ bool are_pulled_down(const LAMMPS_NS::LAMMPS& lammps) {
   return sum.z() < 0.0;
 }
 
-/// Planes, which do not end; cylinders along x or y have a lower half.
+/// True for a point above a plane, which does not end, or above the lower half of a cylinder along
+/// x or y.
 bool is_below(LAMMPS_NS::PrimitiveWall& wall, double* x) {
   double to_wall[3] = {0.0, 0.0, 0.0};
   wall.resolveContact(x, 0.0, to_wall);
   return to_wall[2] < 0.0 || (to_wall[2] != 0.0 && (to_wall[0] != 0.0 || to_wall[1] != 0.0));
 }
 
-/// What may hold up a grain that is above it.
+/// Walls and bodies that may hold up a grain above them.
 struct Floors {
   std::vector<LAMMPS_NS::PrimitiveWall*> walls;
   std::vector<std::pair<Vector3, Vector3>> bodies;  // corners of the boxes around them
@@ -87,7 +88,8 @@ struct Floors {
                     x[2] > lower.z();
            });
   }
-  /// Bodies that go with a wheel may be any number of periods away from the box.
+  /// True for an x within a body's box. Bodies that follow a wheel may be any number of periods
+  /// away.
   bool is_along(double x, double lower, double upper) const {
     const double off = x - 0.5 * (lower + upper);
     return std::abs(period > 0.0 ? std::remainder(off, period) : off) <= 0.5 * (upper - lower);
@@ -185,12 +187,12 @@ double size_of(const FixBody& fix) {
   return (upper - lower).maxCoeff();
 }
 
-/// By how much a level differs from a given one beyond what is known of it.
+/// Difference of a level from a given one, beyond the tolerance of the level.
 double excess(const Level& level, double given) {
   return std::abs(given - level.z) - level.tolerance;
 }
 
-/// Of those under a body that sets off in this run, the one nearest to a given one.
+/// Level under a body that sets off in this run; of several, the one nearest to a given level.
 std::optional<Level> level_at_start(const Scene& scene, const DrivenBody& driven, double given) {
   const double start = driven.options.number("start") + 0.5 * scene.step();
   if (scene.time() > start || scene.end() <= start) return std::nullopt;

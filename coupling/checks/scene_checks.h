@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What only the scene as a whole shows: a wheel that touches nothing, cells too wide for it,
+/// Checks that need the scene as a whole: a wheel that touches nothing, cells too wide for it,
 /// grains that nothing moves. One table of rules (scene_checks.cpp), which furrow/system applies to
-/// every run. What one line shows to be wrong, its fix refuses by itself.
+/// every run. Faults that a single line shows are refused by its fix.
 ///
 /// A rule is a function that looks at the scene, at one of its fixes or at one driven body, and
 /// returns a finding or nothing. All ranks call it alike, and it returns the same on all.
@@ -64,7 +64,7 @@ Found sub_steps_are_few(const Scene& scene);
 Found step_suits_grains(const Scene& scene);
 /// Friction below zero would drive the grains, and cohesion push them apart.
 Found properties_are_not_negative(const Scene& scene);
-/// Degrees or percent for a coefficient; g/cm3 for kg/m3.
+/// Finds degrees or percent in the place of a coefficient.
 Found friction_is_a_coefficient(const Scene& scene);
 Found grains_have_the_density_of_matter(const Scene& scene);
 Found grain_work_looks_in_the_run(const Scene& scene, const FixGrainWork& work);
@@ -79,9 +79,9 @@ Found grains_turn(const Scene& scene, const LAMMPS_NS::Fix& mover);
 Found one_fix_moves_a_grain(const Scene& scene);
 Found bed_has_one_weight(const Scene& scene);
 Found some_fix_moves_a_grain(const Scene& scene);
-/// In a step, when a gravity of variables has its value.
+/// Checks in a step, when a gravity of variables has its value.
 Found weight_pulls_down(const Scene& scene, LAMMPS_NS::FixGravity& gravity);
-/// Of terrain, of grains, and of the load that a rig makes of a mass.
+/// Compares gravity of terrain, of grains, and of the load that a rig makes of a mass.
 Found scene_has_one_gravity(const Scene& scene);
 Found slope_is_given_once(const Scene& scene);
 Found wheels_on_moving_terrain_keep_pace(const Scene& scene, const FixTerrain& terrain);
@@ -90,12 +90,12 @@ Found body_sets_off(const Scene& scene, const DrivenBody& driven);
 Found body_comes_to_its_speed(const Scene& scene, const DrivenBody& driven);
 /// Beyond the waves' speed the ground ahead answers as to an impact, not to a roll.
 Found waves_outrun_body(const Scene& scene, FixContactContinuum& contact);
-/// Kilometres per hour or centimetres per second for metres per second.
+/// Finds kilometres per hour or centimetres per second in the place of metres per second.
 Found speed_suits_the_ground(const Scene& scene, const DrivenBody& driven);
 Found sinkage_ends_above_the_base(const Scene& scene, FixContactContinuum& contact);
-/// Grams for kilograms, millimetres for metres.
+/// Finds a load in grams, or a body in millimetres.
 Found load_suits_the_body(const Scene& scene, const DrivenBody& driven);
-/// Grams for kilograms of a wheel or tyre; plates have no mass.
+/// Finds a wheel or tyre with a mass in grams; plates have no mass.
 Found mass_suits_the_load(const Scene& scene, const DrivenBody& driven);
 Found body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& driven);
 
@@ -106,29 +106,29 @@ double count_grains(const LAMMPS_NS::LAMMPS& lammps);
 /// `change_box` moves and stretches grains; bodies and terrain stay.
 Found box_is_as_it_was(const Scene& scene);
 Found grains_are_above_terrain(const Scene& scene, FixTerrain& terrain);
-/// In a step, when gravity is known: grains with no wall, mesh or standing grain below them.
+/// Checks in a step, when gravity is known: grains with no wall, mesh or standing grain below them.
 Found grains_have_a_floor(const Scene& scene);
-/// After a run: LIGGGHTS drops grains that leave the box without an error.
+/// Checks after a run: LIGGGHTS drops grains that leave the box without an error.
 Found grains_stay_in_the_box(const Scene& scene);
-/// Two wheels that a copied line has put into one another. @return of the first such body
+/// Finds two wheels that a copied line has put into one another. @return of the first such body
 Found bodies_are_apart(const Scene& scene, const FixBody& body);
 Found body_starts_above_the_field(const Scene& scene, FixContactScm& contact);
 Found axle_stays_above_the_field(const Scene& scene, FixContactScm& contact);
 /// A road below the base is a hard bottom; above it, it carries what the terrain should.
 Found plane_is_below_terrain(const Scene& scene, FixContactContinuum& contact);
-// In the run in which a body sets off; later there is a rut. A continuum and a plane know their
-// level; of grains the highest under the body counts.
+// Checks in the run in which a body sets off; later there is a rut. A continuum and a plane know
+// their level; of grains the highest under the body counts.
 Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven);
 Found ground_level_is_the_ground(const Scene& scene, const DrivenBody& driven);
 Found track_is_at_the_ground(const Scene& scene, const FixGrainWork& work);
-/// During a run: does the base of a terrain carry a body?
+/// Checks during a run that the base of a terrain does not carry a body.
 Found body_stays_off_the_base(const Scene& scene, FixContactContinuum& contact);
-/// During a run: has a body come through the grains to the surface mesh of the terrain that carries
-/// them?
+/// Checks during a run that no body comes through the grains to the surface mesh of the terrain
+/// that carries them.
 Found body_stays_off_the_surface_mesh(const Scene& scene, const FixWallGranBody& wall);
 
 // ---- what touches what (contact.cpp)
-/// Is a mesh of this body in a wall/gran/body?
+/// True if a mesh of this body is in a wall/gran/body.
 bool touches_grains(const LAMMPS_NS::LAMMPS& lammps, const FixBody& body);
 /// A stock wall would move grains without moving the body.
 Found stock_wall_has_no_body(const Scene& scene, const LAMMPS_NS::FixWallGran& wall);
@@ -142,24 +142,24 @@ Found no_wall_replaces_the_surface_mesh(const Scene& scene, const FixTerrain& te
 Found surcharge_is_the_grains_weight(const Scene& scene, const FixTerrain& terrain);
 Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& terrain);
 Found body_touches_something(const Scene& scene, FixBody& body);
-// Is continuum terrain large enough, and fine enough, for what presses on it?
+// Checks that continuum terrain is large enough, and fine enough, for the bodies that press on it.
 Found terrain_is_wide_enough(const Scene& scene, FixContactContinuum& contact);
 Found terrain_is_deep_enough(const Scene& scene, FixContactContinuum& contact);
 Found terrain_is_long_enough(const Scene& scene, FixContactContinuum& contact);
-/// Where the rig will bring a wheel by the end of the run.
+/// Compares terrain with the place to which the rig will bring a wheel by the end of the run.
 Found travel_stays_on_terrain(const Scene& scene, FixContactContinuum& contact);
 Found travel_stays_on_the_field(const Scene& scene, FixFieldContact& contact);
 Found travel_stays_in_the_box(const Scene& scene, const FixMeshBody& mesh);
-/// Of ground that does not follow it.
+/// Checks terrain that does not follow its wheel.
 Found wheel_stays_off_the_end(const Scene& scene, FixContactContinuum& contact);
-/// Centimetres for metres.
+/// Finds terrain in centimetres in the place of metres.
 Found terrain_has_the_size_of_a_wheels(const Scene& scene, FixContactContinuum& contact);
 Found cells_show_the_body(const Scene& scene, FixContactContinuum& contact);
 Found cells_of_the_field_show_the_body(const Scene& scene, FixContactScm& contact);
 Found cells_show_the_grousers(const Scene& scene, FixContactContinuum& contact);
 Found thin_parts_divide_the_ground(const Scene& scene, FixContactContinuum& contact);
 Found cells_of_the_field_show_the_grousers(const Scene& scene, FixContactScm& contact);
-/// After a run.
+/// Checks after a run, when the sinkage is known.
 Found cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact);
 /// The soil contact model has no pressure on upright faces. With camber a side of a wheel is not
 /// upright.

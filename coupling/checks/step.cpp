@@ -30,7 +30,7 @@ constexpr double sub_steps_to_aim_at = 10;  // for the remedy
 constexpr double shortest_step = 1e-9;      // [s] sound passes a micrometre of rock in it
 // [kg/m3] of single grains: light foam, steel, and ice
 constexpr double lightest_grain = 10, heaviest_grain = 8000, density_of_ice = 920;
-// Of pairs of types; LIGGGHTS looks at the elastic ones itself.
+// Properties of pairs of types; LIGGGHTS checks the elastic ones itself.
 constexpr const char* not_negative[] = {"coefficientFriction", "coefficientRollingFriction",
                                         "coefficientRollingViscousDamping",
                                         "cohesionEnergyDensity"};
@@ -41,7 +41,8 @@ bool is_whole_number(const std::string& word) {
                                         [](unsigned char letter) { return std::isdigit(letter); });
 }
 
-/// Of a fix that looks once in so many steps. A script of many short runs may mean it.
+/// Checks the interval of a fix that acts once in so many steps. A script of many short runs may
+/// mean it.
 Found interval_fits(const Scene& scene, const Options& options, const std::string& consequence) {
   const long every = options.integer("every"), steps = scene.lammps.update->nsteps;
   if (every <= steps) return {};
@@ -100,7 +101,7 @@ Found sub_steps_are_few(const Scene& scene) {
   return slow;
 }
 
-/// Of grains that a wall/gran/body or a cell/servo holds.
+/// Checks grains that a wall/gran/body or a cell/servo holds.
 Found step_suits_grains(const Scene& scene) {
   const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
   for (const auto* wall : fixes_of<const FixWallGranBody>(modify))

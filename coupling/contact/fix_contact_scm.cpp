@@ -154,7 +154,8 @@ FixContactScm::FixContactScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   provide(outputs());
 }
 
-/// Of a wheel on this ground, the plastic work is compaction and the shear friction.
+/// Adds the losses of a wheel on this ground: plastic work is compaction, the work of shear
+/// friction.
 void FixContactScm::add_losses(const Body& wheel, GroundLosses& losses) const {
   if (&wheel != &body()) return;
   const ScmContact::Losses& own = contact_.losses();
@@ -165,8 +166,8 @@ void FixContactScm::add_losses(const Body& wheel, GroundLosses& losses) const {
 }
 
 /// A mass m on a spring k with a dashpot c is stable for steps of dt up to k = 4 m/dt^2 and, with
-/// damping that lags by half a step, c = m/dt. Of a tyre all are those of an area of its tread, of
-/// a wheel those of its largest contact, half its outline.
+/// damping that lags by half a step, c = m/dt. For a tyre m, k and c are those of an area of its
+/// tread, for a wheel those of its largest contact, half its outline.
 void FixContactScm::check_stability() {
   double mass, step = update->dt;
   if (const auto* tyre = dynamic_cast<const Tyre*>(&body())) {

@@ -73,8 +73,8 @@ BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& sur
   remember_rebuild();
 }
 
-/// Of a body that a checkpoint has brought, periods away: LIGGGHTS takes no triangle whose centre
-/// is outside of the box.
+/// Shift by whole periods that brings a centre into the box: LIGGGHTS takes no triangle whose
+/// centre is outside, and a checkpoint may bring a body that is periods away.
 Vector3 BodyMesh::shift_into_box(const Vector3& centre) const {
   const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
   Vector3 shift = Vector3::Zero();

@@ -29,8 +29,8 @@ namespace furrow::coupling {
 
 namespace {
 
-// of its radius: a grain that overlaps a body by more before the first step would be shot out of
-// the bed
+// Overlap over the radius of a grain: one that overlaps a body by more before the first step would
+// be shot out of the bed
 constexpr double max_overlap_at_start = 0.1;
 
 }  // namespace

@@ -19,7 +19,7 @@ class FixMeshBody;
 struct ContactLedger;
 struct GrainContact;
 
-/// A FixWallGran, so not a FurrowFix; its keywords are LIGGGHTS's.
+/// The class is a FixWallGran, so not a FurrowFix; its keywords are LIGGGHTS's.
 class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
  public:
   FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
@@ -27,7 +27,7 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
   static OutputTable outputs() { return {}; }
 
   bool uses(const LAMMPS_NS::Fix& other) const override;
-  /// Of its meshes.
+  /// Bodies of the meshes in this wall.
   std::vector<const Body*> bodies() const;
   void setup(int vflag) override;
 

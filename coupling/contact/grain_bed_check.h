@@ -46,7 +46,7 @@ class GrainBedCheck {
 
   LAMMPS_NS::LAMMPS& lammps_;
   std::string where_;
-  // of a grain's diameter; infinite for plastic contacts, which overlap by design
+  // overlap limit over a grain's diameter; infinite for plastic contacts, which overlap by design
   double overlap_limit_ = 0.0;
   double mean_diameter_ = 0.0, density_ = 0.0;
   double deepest_ = 0.0;

@@ -51,9 +51,9 @@ Courses table_of(const Options& options) {
   return courses;
 }
 
-/// A rig is made with the wheel where the script puts it, also when the run continues: lowering,
-/// heading and camber are told from there. A wheel that comes from a restart file then goes back to
-/// the state it had.
+/// Makes a rig with the wheel where the script puts it, also when the run continues: lowering,
+/// heading and camber start there. A wheel that comes from a restart file then goes back to the
+/// state it had.
 WheelRig make_rig(const Options& options, FixWheelHub& wheel_fix, const Courses& table) {
   WheelHub& wheel = wheel_fix.hub();
   if (!wheel_fix.state_as_made()) return WheelRig(options, wheel, table);

@@ -20,7 +20,7 @@ class FixWheelRig : public FixRig, public MotionController {
   void init() override;
   void setup(int vflag) override;
   void apply(double time, double dt) override;
-  /// Of grains on a slope.
+  /// Tilts the gravity of grains on a slope.
   void post_force(int) override;
 
   /// Other targets from the next step on, each a key and its value as a script writes them.

@@ -10,9 +10,10 @@ class LAMMPS;
 
 namespace furrow::coupling {
 
-/// Of every continuum of the scene, in the place of its keyword's. @param tilt rotation
+/// Turns the gravity of every continuum of the scene, as its keyword gives it. @param tilt rotation
 void tilt_gravity_of_terrain(LAMMPS_NS::LAMMPS& lammps, const Matrix3& tilt);
-/// Adds to the forces on grains what is between the gravity of each fix gravity and the turned one.
+/// Adds to the forces on grains the difference between the turned gravity and that of each fix
+/// gravity.
 void tilt_gravity_of_grains(LAMMPS_NS::LAMMPS& lammps, const Matrix3& tilt);
 
 }  // namespace furrow::coupling

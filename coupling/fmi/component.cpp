@@ -168,7 +168,7 @@ class WheelComponent : public Component {
 
 using Maker = Component* (*)(fmi2String, fmi2String, fmi2String, const fmi2CallbackFunctions*);
 
-/// Of this copy.
+/// Makes a component by this copy of the library.
 Component* make(fmi2String name, fmi2String guid, fmi2String resources,
                 const fmi2CallbackFunctions* callbacks) {
   const std::lock_guard turn(process_lock());

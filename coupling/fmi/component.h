@@ -44,7 +44,7 @@ class Component {
   virtual fmi2Status unsupported(fmi2String function) = 0;
 };
 
-/// Of the first copy of the library in this process.
+/// Makes a component by the first copy of the library in this process.
 /// @return null where it is refused, with the reason in the logger
 Component* make_component(fmi2String name, fmi2String guid, fmi2String resources,
                           const fmi2CallbackFunctions& callbacks);

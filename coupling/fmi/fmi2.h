@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Types of FMI 2.0.5, as far as co-simulation needs them. After the headers of the standard,
+/// Types of FMI 2.0.5 that co-simulation needs. After the headers of the standard,
 /// github.com/modelica/fmi-standard, (C) Modelica Association Project "FMI", 2-clause BSD licence.
 
 #include <cstddef>

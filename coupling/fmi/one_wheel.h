@@ -14,7 +14,7 @@
 
 namespace furrow::coupling::fmi {
 
-/// What the importer sets and reads.
+/// Inputs that the importer sets, and outputs that it reads.
 struct Values {
   std::array<double, real_count> reals{};
   std::array<bool, boolean_count> booleans = boolean_starts;
@@ -25,7 +25,7 @@ struct Values {
 
 class OneWheel {
  public:
-  /// Where a wheel is, and the files of a checkpoint: none before the first step.
+  /// Place of a wheel, and the files of a checkpoint: none before the first step.
   struct State {
     std::array<double, 5> pose{};
     std::map<std::string, std::string> files;
@@ -42,10 +42,10 @@ class OneWheel {
   double advance(double step, Values& values);
   void read(Values& values) const;
   State state() const;
-  /// Whether state() is that from which this wheel began, so that steps from there have the same
+  /// True if state() is that from which this wheel began, so that steps from there have the same
   /// bits. Neighbour lists of grains differ after a step.
   bool begins_at_state() const;
-  /// What Furrow has warned of since the last call.
+  /// Warnings of Furrow since the last call.
   std::vector<std::string> take_warnings() { return session_->take_warnings(); }
 
  private:

@@ -56,7 +56,7 @@ extern const std::array<Variable, boolean_count> booleans;
 extern const std::array<Variable, first_script_variable> strings;
 constexpr std::array<bool, boolean_count> boolean_starts{true, false};
 
-/// What an FMU keeps in its resources next to the script.
+/// Data that an FMU keeps in its resources next to the script.
 struct Contents {
   struct ScriptVariable {
     std::string name, value;

@@ -18,7 +18,7 @@ class WheelFmu {
  public:
   enum class Phase { instantiated, initializing, stepping, discarded, terminated, failed };
 
-  /// What fmi2GetFMUstate keeps.
+  /// State that fmi2GetFMUstate keeps.
   struct Snapshot {
     Phase phase;
     Values values;

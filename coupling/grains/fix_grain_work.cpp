@@ -161,8 +161,8 @@ FixGrainWork::Taken FixGrainWork::power(const PairContact& contact) const {
   const double normal = contact.force.dot(n);
   Vector3 tangential = contact.force - normal * n;
   const Vector3 rolling = contact.torque + arm_i * n.cross(tangential);
-  // of a contact that slides LIGGGHTS has cut the spring in this step, and would now add the
-  // damping of one that sticks
+  // LIGGGHTS has cut the spring of a sliding contact in this step, and would now add the damping of
+  // one that sticks
   const double limit = friction(contact) * std::abs(normal);
   if (tangential.norm() > limit) tangential *= limit / tangential.norm();
   Taken taken;

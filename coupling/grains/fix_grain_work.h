@@ -30,12 +30,12 @@ class FixGrainWork : public FurrowFix, public CountsLosses {
   void checkpoint(Checkpoint& state) override;
 
  private:
-  /// What the contacts take.
+  /// Powers that contacts take [W].
   struct Taken {
     double slide = 0.0, roll = 0.0, press = 0.0;
     double sum() const { return slide + roll + press; }
   };
-  /// Where the wheel's track is: between its sides, and up to the foremost point in the ground.
+  /// Track of the wheel: between its sides, and up to the foremost point in the ground.
   struct Track {
     double centre[2], half_width, front;
   };
@@ -45,9 +45,9 @@ class FixGrainWork : public FurrowFix, public CountsLosses {
   double friction(const PairContact& contact) const;
   Track track() const;
   Place place_of(const PairContact& contact, const Track& track) const;
-  /// [W]
+  /// Power that a contact takes [W].
   Taken power(const PairContact& contact) const;
-  // Of all grains of this rank [W]: against gravity, by all forces, by those of the wheel
+  // Powers of all grains of this rank [W]: against gravity, by all forces, by those of the wheel.
   double lifting_power() const;
   double power_of_all_forces() const;
   double power_of_wheel() const;

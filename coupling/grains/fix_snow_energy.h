@@ -51,7 +51,7 @@ class FixSnowEnergy : public FurrowFix {
   void begin_step();
   double over_ranks(double value) const;
 
-  // Of this rank: in the present step, and since the start.
+  // Energies of this rank: in the present step, and since the start.
   struct Present {
     double stored = 0.0, bonds = 0.0;
   } present_;

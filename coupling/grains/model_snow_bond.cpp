@@ -249,7 +249,7 @@ furrow::SnowContact SnowBondModel::contact_of(const SurfacesIntersectData& touch
   State state = State::load(values);
   const bool sinters = is_sintered(touching);
   if (!moves(touching)) {
-    // of the parameters that this run has; where they are those of before, the bits stay
+    // hardening by the parameters of this run; if they have not changed, its bits stay
     const double X = state.crushing(contact.d);
     if (!state.hardening.is_at(parameters, X))
       state.hardening = furrow::SnowHardening::at(parameters, X);

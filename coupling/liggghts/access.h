@@ -49,7 +49,7 @@ FILE* file_of(const LAMMPS_NS::FixAveTime& fix);
 /// private); a '*' stands for the step.
 std::vector<std::string> checkpoint_names(const LAMMPS_NS::LAMMPS& lammps);
 
-/// Whether the contact in this slot has been found again in the present step
+/// True if the contact in this slot has been found again in the present step
 /// (FixContactHistoryMesh::keepflag_, protected).
 bool contact_seen(LAMMPS_NS::FixContactHistoryMesh& history, int grain, int slot);
 

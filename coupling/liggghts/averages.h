@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a fix ave/time has summed up, in members that are private.
+/// Sums of a fix ave/time, which are private members.
 
 #include "core/checkpoint.h"
 #include "fix_ave_time.h"
@@ -12,7 +12,7 @@ void checkpoint_averages(Checkpoint& state, LAMMPS_NS::FixAveTime& fix);
 
 /// The step that adds to the sums next.
 LAMMPS_NS::bigint next_step(const LAMMPS_NS::FixAveTime& fix);
-/// Whether its file has a block of rows for each step (mode vector), not one row.
+/// True if its file has a block of rows for each step (mode vector), not one row.
 bool writes_blocks(const LAMMPS_NS::FixAveTime& fix);
 
 }  // namespace furrow::coupling

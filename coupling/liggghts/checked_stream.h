@@ -12,7 +12,7 @@ namespace furrow::coupling {
 /// not arrive there; the stream itself if there is no memory for that. @param name for the error
 FILE* checked_stream(FILE* stream, const std::string& name);
 
-/// What could not be written since the last call, on this rank: name and reason; empty if all was.
+/// Failed writes since the last call, on this rank: name and reason; empty if there was none.
 std::string take_stream_failure();
 
 }  // namespace furrow::coupling

@@ -75,7 +75,7 @@ std::string path_being_written, path_read, set_name;
 
 fs::path particle_folder(const std::string& checkpoint) { return checkpoint + ".particles"; }
 
-/// Of the restart files that this process replaces again and again.
+/// Locks of the restart files that this process replaces again and again.
 std::map<std::string, FileLock>& own_locks() {
   static std::map<std::string, FileLock> locks;
   return locks;

@@ -32,13 +32,13 @@ std::unique_ptr<RankFiles> rank_files(const LAMMPS_NS::LAMMPS& lammps, const std
                                       const std::string& fix);
 /// Collective. @throws Error on all ranks when the file of one is not written
 void close_rank_files(const LAMMPS_NS::LAMMPS& lammps, RankFiles& files);
-/// On the disk, of a checkpoint that may be there: restart file and particles.
+/// Size on the disk of a checkpoint that may be there: restart file and particles.
 std::uintmax_t bytes_of_checkpoint(const std::string& path);
-/// Whether another run that goes on replaces this restart file in turn, with its line 'restart'.
+/// True if the line 'restart' of another run in progress replaces this restart file.
 bool belongs_to_another_run(const std::string& path);
-/// The run continues from this checkpoint.
+/// Records that the run continues from this checkpoint.
 void note_checkpoint_read(const std::string& path);
-/// Empty for a run from the start.
+/// Checkpoint from which the run continues; empty for a run from the start.
 const std::string& checkpoint_read();
 
 /// @param path of a checkpoint; a '*' stands for a step, and means the latest

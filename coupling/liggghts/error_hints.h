@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What to do about errors of LIGGGHTS whose texts do not say it.
+/// Remedies for errors of LIGGGHTS whose texts give none.
 
 #include <string>
 

@@ -50,7 +50,7 @@ std::string report_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, Sou
   return whole;
 }
 
-/// Whether all ranks come here; false when one of them waits for this one elsewhere.
+/// True if all ranks come here; false when one of them waits for this one elsewhere.
 bool all_arrive(MPI_Comm ranks) {
   MPI_Request request;
   MPI_Ibarrier(ranks, &request);

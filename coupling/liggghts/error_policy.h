@@ -26,14 +26,14 @@ struct SourcePlace {
   int line;
 };
 
-/// All ranks have come to the same error: they leave together, dumps and logs closed. What was
-/// thought to befall all may befall one (a particle of its part of the terrain): then as
+/// Stops all ranks after an error that all have: they leave together, dumps and logs closed. An
+/// error that should befall all may befall one (a particle of its part of the terrain): then as
 /// stop_alone(), after five seconds. Collective.
 [[noreturn]] void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text,
                                 SourcePlace place);
 
-/// An error of this rank alone: the others cannot be told, so the run is aborted. Only rank 0 knows
-/// the number of the script's line; it saves results (rescue.h).
+/// Stops after an error of this rank alone: no message reaches the others, so the run is aborted.
+/// Only rank 0 knows the number of the script's line; it saves results (rescue.h).
 [[noreturn]] void stop_alone(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place);
 
 }  // namespace furrow::coupling

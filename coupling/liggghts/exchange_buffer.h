@@ -22,7 +22,7 @@ struct PackedGrain {
 /// Ids of the fixes that ride with the grains, in the order of their parts.
 std::vector<std::string> riders(const LAMMPS_NS::LAMMPS& lammps);
 
-// Of a packed grain.
+// Numbers of a packed grain.
 inline const double* packed_position(const double* grain) { return grain + 1; }  ///< [m]
 inline double* packed_velocity(double* grain) { return grain + 4; }              ///< [m/s]
 inline double packed_radius(const double* grain) { return grain[11]; }           ///< [m]

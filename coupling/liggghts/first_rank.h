@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What rank 0 does alone, for instance with a file, and all ranks must know the end of.
+/// Actions of rank 0 alone, for instance with a file, whose outcome all ranks must know.
 
 #include <exception>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What the fixes property/global of a scene give to its contact models.
+/// Values that the fixes property/global of a scene give to its contact models.
 
 #include <map>
 #include <string>
@@ -13,7 +13,7 @@ class FixPropertyGlobal;
 
 namespace furrow::coupling {
 
-/// The values of each, in digits, by id.
+/// Values of each property, in digits, by id.
 std::map<std::string, std::string> global_properties(const LAMMPS_NS::LAMMPS& lammps);
 
 /// The property of all types of grains, or of all pairs of types; null where a scene has none.

@@ -48,7 +48,7 @@ void check_library(const LAMMPS_NS::LAMMPS& lammps) {
   check_room(lammps.modify, "Modify");
   check_room(lammps.input, "Input");
   check_room(lammps.domain, "Domain");
-  // Of the tables that styles are added to: entries that every LIGGGHTS has must be found.
+  // Tables of styles: entries that every LIGGGHTS has must be found there.
   if (!has_fix_style(lammps, "wall/gran") || !has_fix_style(lammps, "mesh/surface"))
     refuse("its table of fix styles is elsewhere");
   if (!has_command(lammps, "delete_atoms")) refuse("its table of commands is elsewhere");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Is the LIGGGHTS library at hand the one this executable was built for?
+/// Compares the LIGGGHTS library that is loaded with the one this executable was built for.
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace furrow::coupling {
 /// The only version whose class layouts and symbols the files of this folder know.
 inline constexpr char liggghts_version[] = "3.8.0";
 
-/// Functions as the linker knows them: overrides.cpp stands in front of them and calls them.
+/// Symbols of the functions that overrides.cpp replaces; it calls the originals.
 namespace symbol {
 inline constexpr char create[] = "_ZN9LAMMPS_NS6LAMMPS6createEv";
 inline constexpr char write_restart[] = "_ZN9LAMMPS_NS12WriteRestart5writeEPc";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Functions of libliggghts that this executable, or the Python module, stands in front of: the
-// dynamic linker finds ours first. They need default visibility, everything else in coupling/ is
-// hidden.
+// Functions of libliggghts that this executable, or the Python module, replaces: the dynamic linker
+// finds ours first. They need default visibility, everything else in coupling/ is hidden.
 
 #include <algorithm>
 #include <cstdio>
@@ -156,7 +155,7 @@ FURROW_EXPORTED void Integrate::ev_set(bigint step) {
   original(this, step);
 }
 
-/// Whether neighbour lists are made in this step.
+/// True if neighbour lists are made in this step.
 FURROW_EXPORTED int Neighbor::decide() {
   static const auto original = next_function<int(Neighbor*)>(symbol::decide);  // every step
   const bool due = original(this) != 0;

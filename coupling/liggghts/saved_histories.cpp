@@ -32,7 +32,7 @@ void for_each_grain_of_pairs(LAMMPS_NS::LAMMPS& lammps, Visit&& visit) {
   }
 }
 
-/// What stock walls without a mesh keep for each grain: FixWallGran names it "history_<id>".
+/// Contact histories of stock walls without a mesh: FixWallGran names them "history_<id>".
 std::vector<LAMMPS_NS::FixPropertyAtom*> histories_of_walls(const LAMMPS_NS::LAMMPS& lammps) {
   auto found = fixes_of<LAMMPS_NS::FixPropertyAtom>(*lammps.modify);
   found.erase(std::remove_if(found.begin(), found.end(),

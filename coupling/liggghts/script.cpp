@@ -22,7 +22,7 @@ namespace furrow::coupling {
 
 namespace {
 
-/// Number of the line that the stream has just been read up to; 0 when it cannot be told (standard
+/// Number of the line that the stream has just been read up to; 0 when it is unknown (standard
 /// input).
 long line_number(FILE* file) {
   const long position = file ? std::ftell(file) : -1;

@@ -24,8 +24,8 @@ struct ScriptLine {
   long number;  ///< of its first line in the file
   std::string text;
 };
-/// What follows the present line in its file, continued lines joined. Empty for standard input.
-/// Rank 0 only.
+/// Lines after the present one in its file, continued lines joined. Empty for standard input. Rank
+/// 0 only.
 std::vector<ScriptLine> later_lines(const LAMMPS_NS::LAMMPS& lammps);
 
 /// Why a file is no text that LIGGGHTS reads line by line; empty for one that is, or cannot be

@@ -22,10 +22,10 @@
 
 namespace furrow::coupling {
 
-/// Spheres with masses of their own, and nothing that wants to know of single contacts: then the
-/// loop is short, and compiled in one with the model. What passes between the two is local, so the
+/// Short loop over pairs of spheres with separate masses, when nothing else needs the single
+/// contacts: compiled in one with the model. Values that pass between the two are local, so the
 /// compiler keeps in registers what LIGGGHTS's loop writes to memory for each pair. Every sum has
-/// LIGGGHTS's order: forces are the same to the last bit. Any other case goes LIGGGHTS's own way.
+/// LIGGGHTS's order: forces are the same to the last bit. In any other case LIGGGHTS's loop runs.
 /// For a model whose beginPass does nothing, and whose endPass takes nothing from the last contact.
 ///
 /// Where the processor has AVX2, the loop is compiled for it, whose instructions have three

@@ -25,7 +25,7 @@ namespace {
 
 using namespace LAMMPS_NS;
 
-// What a signal handler may touch.
+// Flags that a signal handler may touch.
 volatile std::sig_atomic_t stop_wanted = 0;  // the signal
 volatile std::sig_atomic_t checkpoint_wanted = 0;
 volatile std::sig_atomic_t confirms = 1;

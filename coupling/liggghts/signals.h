@@ -9,9 +9,9 @@
 
 namespace furrow::coupling {
 
-/// A second of them ends the process at once.
+/// Handles these signals. A second of them ends the process at once.
 void handle_signals();
-/// Whether this process is the one that tells the user at once that a signal has come.
+/// Sets this process to report at once that a signal has come, or not.
 void confirm_signals(bool confirm);
 
 /// At the one place of a step where it is decided whether neighbour lists are made: if any rank has
@@ -21,8 +21,9 @@ void confirm_signals(bool confirm);
 /// @return whether a checkpoint is written in this step, which takes new lists
 bool follow_signals(const LAMMPS_NS::LAMMPS& lammps, bool lists);
 
-/// Before each command: a script that loops without a run ends a second after its signal. A script
-/// that comes to its next run in that time ends there, with a checkpoint. Collective.
+/// Checks for a signal before each command: a script that loops without a run ends a second after
+/// its signal. If its next run begins within that second, the script ends there, with a checkpoint.
+/// Collective.
 /// @return whether the command is left out
 bool stop_between_commands(const LAMMPS_NS::LAMMPS& lammps);
 
@@ -31,10 +32,11 @@ void note_step();
 
 /// The signal that all ranks have agreed to end on; 0: none.
 int agreed_signal();
-/// Of a run that did not come to its end: 128 and the signal, as shells have it, or 1 for an error.
+/// Exit status of a run that stopped early: 128 and the signal, as shells have it, or 1 for an
+/// error.
 int failure_status();
 
-/// Whether a run is one of the scene. False while a bed is prepared.
+/// True if a run is one of the scene. False while a bed is prepared.
 bool run_can_be_continued();
 
 /// While it lives, a signal ends the process at once: there is nothing to continue. A single
@@ -50,7 +52,7 @@ class NoCheckpointOnSignal {
   bool before_;
 };
 
-/// After a script that such a signal has ended: tells on rank 0 at which step, and how to continue.
+/// Reports a stop by such a signal, after the script, on rank 0: the step, and how to continue.
 void report_stop(LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace furrow::coupling

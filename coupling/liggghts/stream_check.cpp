@@ -30,7 +30,7 @@ void check(FILE* stream, const std::string& name) {
                   name));
 }
 
-/// Where the screen takes nothing, what is wrong with it is said elsewhere too.
+/// Reports a fault of the screen on stderr, because the screen may take nothing.
 void check_screen(FILE* screen) try {
   check(screen, "what goes to the screen");
 } catch (const StateError& problem) {

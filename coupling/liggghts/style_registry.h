@@ -26,7 +26,7 @@
 
 namespace furrow::coupling {
 
-/// What a style reports: the table of that name in its page.
+/// Outputs of a style: the table of that name in its page.
 struct OutputTable {
   /// "entry": f_ID[1], f_ID[2], ...; "channel": of a results file; "variable": of the script
   std::string what;
@@ -53,9 +53,9 @@ struct StyleRow {
   StyleRow(Style style);
 };
 
-/// Sorted by name.
+/// All styles, sorted by name.
 const std::vector<Style>& styles();
-/// By its name or a former one; null for a style that is not Furrow's.
+/// Finds a style by its name or a former one; null for a style that is not Furrow's.
 const Style* find_style(const std::string& name);
 
 /// The styles of some kinds as errors name them: "tyre/brick, wheel/rigid or plate/rigid".

@@ -22,9 +22,9 @@ class CommandRunUntilSteady : protected LAMMPS_NS::Pointers {
   void command(int narg, char** arg);
 
  private:
-  /// What is not steady yet, in words; empty when all is. Collective.
+  /// Names the quantities that are not steady yet; empty when all are. Collective.
   std::string unsteady(const std::vector<FixWheelHistory*>& histories, double target) const;
-  /// [s] until the first of the wheels comes to the end of the ground; infinite without one.
+  /// Time until the first of the wheels reaches the end of the ground [s]; infinite without one.
   double time_left(const std::vector<FixWheelHistory*>& histories) const;
   void run(long steps);
 };

@@ -67,7 +67,7 @@ void FixProgress::setup(int) {
   sub_steps_ = system ? system->sub_steps() : 0.0;
 }
 
-/// Of the steps since the last look. Collective: particles are spread over the ranks.
+/// Adds the work of the steps since the last call. Collective: particles are spread over the ranks.
 void FixProgress::add_work() {
   work_.grain_steps += nevery * static_cast<double>(atom->natoms);
   const FixCoupledSystem* system = FixCoupledSystem::find(*lmp);
@@ -94,7 +94,7 @@ void FixProgress::end_of_step() {
   if (last || elapsed - printed_ >= interval_) print(elapsed, last);
 }
 
-/// What is computed a second, each in its own unit; LIGGGHTS's steps where there is nothing else.
+/// Work in a second, each kind in a separate unit; LIGGGHTS's steps where there is nothing else.
 std::string FixProgress::rates(double elapsed) const {
   const std::pair<double, const char*> all[] = {{work_.grain_steps, "grain steps/s"},
                                                 {work_.particle_updates, "particle updates/s"},

@@ -21,7 +21,7 @@ class FixProgress : public FurrowFix {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// What was computed since the start of the run.
+  /// Work since the start of the run.
   struct Work {
     double grain_steps = 0.0, particle_updates = 0.0, tyre_steps = 0.0;
   };

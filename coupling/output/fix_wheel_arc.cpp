@@ -120,7 +120,7 @@ void FixWheelArc::write_profile() {
   });
 }
 
-/// The rows so far are part of it: the file of a run that went further is written anew.
+/// Saves the rows so far too: a continued run replaces the file of one that went further.
 void FixWheelArc::checkpoint(Checkpoint& state) {
   const Communicator& ranks = FixCoupledSystem::of(*lmp).communicator();
   std::vector<double> sums = arc_.sums();

@@ -115,7 +115,7 @@ GroundLosses FixWheelHistory::ground_losses() {
   losses.contact_damping += work.contact;
   losses.press = work.press;
   losses.push = work.push;
-  // what is left of the wheel's work
+  // remainder of the wheel's work
   losses.contact_springs =
       -wheel.hub().energy_budget().contact_work -
       (losses.continuum + losses.press + losses.push + losses.friction + losses.contact_damping);

@@ -34,7 +34,7 @@ class FixWheelHistory : public FixHistory {
   void write_frame() override;
   void close() override;
   RunClosing closing();
-  /// Of everything that the wheel touches. Collective.
+  /// Losses in everything that the wheel touches. Collective.
   GroundLosses ground_losses();
 
   FixRig& rig_fix_;

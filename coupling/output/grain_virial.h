@@ -16,8 +16,8 @@ void add_grain_virial(LAMMPS_NS::LAMMPS& lammps);
 /// Asks for the last step of the run that begins.
 void ask_for_grain_virial(LAMMPS_NS::LAMMPS& lammps);
 
-/// Of this rank's grains, see Grains::virial. None when this step was not asked for, after an
-/// interruption, and of a run without steps, whose set-up computes other forces. Collective.
+/// Stress of this rank's grains, see Grains::virial. None when this step was not asked for, after
+/// an interruption, and after a run without steps, whose set-up computes other forces. Collective.
 std::optional<Matrix3X> grain_virial(LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace furrow::coupling

@@ -32,7 +32,8 @@ using SessionPointer = std::shared_ptr<Session>;
 
 // ---- MPI ----------------------------------------------------------------------------------------
 
-/// At the end of Python. What mpi4py has started, it finalizes itself, later.
+/// Closes all sessions at the end of Python. If mpi4py has started MPI, it finalizes MPI itself,
+/// later.
 void close_all(const std::vector<std::weak_ptr<Session>>& sessions, bool started_here) {
   for (const std::weak_ptr<Session>& each : sessions)
     if (const SessionPointer session = each.lock()) session->close();

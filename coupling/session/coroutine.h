@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A function that can pause in the middle and continue later: it has a stack of its own.
+/// A function that can pause in the middle and continue later: it has a separate stack.
 
 #include <cstddef>
 #include <exception>

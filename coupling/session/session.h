@@ -64,9 +64,9 @@ class Session : private Driver {
   long step_number() const;  ///< of LIGGGHTS
   double time() const;       ///< of the scene [s]
   bool interrupted() const { return interrupted_now_; }
-  /// Runs what changes the scene between steps; its warnings come to take_warnings().
+  /// Runs a change of the scene between steps; its warnings go to take_warnings().
   void change(const std::function<void()>& action);
-  /// What Furrow has warned of since the last call, on the first rank.
+  /// Warnings of Furrow since the last call, on the first rank.
   std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
  private:

@@ -27,7 +27,7 @@ double volume_below(double plane, double z, double r) {
   return M_PI * t * t * (r - t / 3.0);
 }
 
-/// What the bed covers: of the box along a periodic axis, else what the grains span.
+/// Area of the bed: that of the box along a periodic axis, else the span of the grains.
 struct Extent {
   Vector2 lower, upper;  // [m]
   double area() const { return (upper - lower).prod(); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What is known of a settled bed of grains.
+/// Measured properties of a settled bed of grains.
 
 #include "core/outputs.h"
 #include "coupling/terrain/bed_surface.h"
@@ -19,10 +19,10 @@ struct BedFacts {
   double settle_steps = 0.0;
 };
 
-/// As variables of the script.
+/// Facts of a bed as variables of the script.
 const Outputs<const BedFacts>& bed_outputs();
 
-/// Measures the bed that stands in the box now. Collective.
+/// Measures the bed in the box. Collective.
 /// @param surface at which the bed was levelled
 BedFacts measure_bed(LAMMPS_NS::LAMMPS& lammps, const BedSurface& surface);
 

@@ -27,7 +27,7 @@ constexpr double linear_step_limit =
 constexpr double level_tolerance = 0.5;                         // of the depth
 constexpr double many_grains = 3e5, density_of_steel = 8000.0;  // steel [kg/m3]
 
-/// Of this machine and this process [bytes].
+/// Memory that is available on this machine and to this process [bytes].
 double available_memory() {
   double available = std::numeric_limits<double>::infinity();
   std::ifstream file("/proc/meminfo");

@@ -11,11 +11,11 @@
 
 namespace furrow::coupling {
 
-/// Over the mean diameter, in the beds that come with Furrow: 0.85, 1 and 1.15 of it, in equal
-/// numbers.
+/// Smallest grain over the mean diameter. The beds that come with Furrow have 0.85, 1 and 1.15 of
+/// it, in equal numbers.
 inline constexpr double smallest_grain = 0.85;
 
-/// Of the bed, in mean diameters.
+/// Least size of a bed in mean diameters.
 inline constexpr double least_size = 2.0;
 
 /// Checks the size of the bed in grains, its memory and its time step. It knows the parameters of
@@ -24,8 +24,8 @@ inline constexpr double least_size = 2.0;
 /// @throws InputError
 void check_bed_parameters(const Options& options);
 
-/// What may be meant but hardly is, a sentence each: coefficients of friction, densities, a bed
-/// that takes hours.
+/// Warnings about values that are allowed but hardly meant, a sentence each: coefficients of
+/// friction, densities, a bed that takes hours.
 std::vector<std::string> doubts_of_bed(const Options& options);
 
 /// @throws StateError for grains that flew apart, or have sunk far below the surface

@@ -123,7 +123,7 @@ std::vector<std::string> BedScript::commands(const std::string& section) const {
   return found;
 }
 
-/// Of those that no command sets.
+/// Parameters that the commands read and do not set.
 std::vector<std::string> BedScript::parameters_that_are_read() const {
   static const std::regex read(R"(\$\{bed_(\w+)\}|\bv_bed_(\w+))");
   static const std::regex set(R"(^\s*variable\s+bed_(\w+))");

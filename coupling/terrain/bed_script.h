@@ -10,7 +10,7 @@
 
 namespace furrow::coupling {
 
-/// Of a parameter that was renamed: its present name.
+/// Present name of a parameter that was renamed; of others their name.
 std::string current_name(const std::string& parameter);
 
 class BedScript {
@@ -20,9 +20,9 @@ class BedScript {
 
   const std::filesystem::path& path() const { return path_; }
   const std::string& text() const { return text_; }
-  /// Whether Furrow levels the bed, before the section "#: levelled", and not the script.
+  /// True if Furrow levels the bed, before the section "#: levelled", and not the script.
   bool leaves_levelling() const { return has("levelled"); }
-  /// Whether it pours the bed up to the highest place of its surface.
+  /// True if the script pours the bed up to the highest place of its surface.
   bool reads_highest() const;
   /// Commands of a section, continued lines joined.
   std::vector<std::string> commands(const std::string& section) const;

@@ -104,7 +104,7 @@ void BedSurface::measure(const std::string& where) {
        "make the bed deeper or the relief lower");
 }
 
-/// Of the rms height: what an average over one grain takes away.
+/// Share of the rms height that an average over one grain takes away.
 double BedSurface::fine_share() const {
   const double step = diameter_ / per_diameter;
   const auto count = [&](double half) { return static_cast<int>(2.0 * half / step) + 1; };

@@ -14,7 +14,7 @@ namespace furrow::coupling {
 
 class BedSurface {
  public:
-  /// Of a line `bed`. A relief needs the parameters length, width and diameter.
+  /// Surface of a line `bed`. A relief needs the parameters length, width and diameter.
   /// @param folder from which the relative path of a heightmap is found
   /// @throws InputError for a relief that the bed cannot have
   BedSurface(const Options& options, const std::string& folder);
@@ -25,10 +25,10 @@ class BedSurface {
   double lowest() const { return lowest_; }    ///< [m]
   double highest() const { return highest_; }  ///< [m]
   double mean() const { return mean_; }        ///< [m]
-  /// Of the relief's heightmap, equal for equal maps; empty without one.
+  /// Checksum of the relief's heightmap, equal for equal maps; empty without one.
   std::string map_checksum() const { return relief_.map_checksum(); }
 
-  /// What grains of this size do not show of the relief, a sentence each.
+  /// Features of the relief that grains of this size do not show, a sentence each.
   std::vector<std::string> doubts() const;
   /// In a box that is periodic, the relief must go on behind its end. @throws InputError
   void check_period(const LAMMPS_NS::LAMMPS& lammps) const;

@@ -48,7 +48,7 @@ std::string processors_line(const int (&grid)[3]) {
   return line;
 }
 
-/// Of the parameters: "length 0.2, width 0.1", equal for equal beds.
+/// Text of the parameters: "length 0.2, width 0.1", equal for equal beds.
 std::string values_of(const Options& options, const BedSurface& surface) {
   Schema relief("");
   declare_relief(relief);

@@ -31,7 +31,7 @@ class CommandBed : protected LAMMPS_NS::Pointers {
     std::string value;
     std::string written;  // the name in the line, which may be a former one
   };
-  /// What the line asks for.
+  /// Values of the line.
   struct Request {
     BedScript script;
     BedSurface surface;
@@ -39,7 +39,7 @@ class CommandBed : protected LAMMPS_NS::Pointers {
     std::vector<Parameter> parameters;  // depth among them
     std::string values;                 // of all parameters, equal for equal numbers
 
-    /// Equal for equal beds.
+    /// Text that identifies the bed, equal for equal beds.
     std::string identity() const;
   };
   /// The files of a bed that was made: a folder, which is there whole or not at all.
@@ -49,7 +49,7 @@ class CommandBed : protected LAMMPS_NS::Pointers {
     std::filesystem::path restart() const { return folder / "bed.restart"; }
     /// A name and a value on each line, then how it was made.
     std::filesystem::path facts() const { return folder / "facts.txt"; }
-    /// What is damaged; nothing when all is whole.
+    /// Damage of the files; empty when all is whole.
     std::string problem() const;
     /// @throws InputError for a folder or file that another user may have changed
     void require_trusted() const;

@@ -211,7 +211,7 @@ void FixBedWindow::initial_integrate(int) {
   if (due_) next_reneighbor = update->ntimestep;
 }
 
-/// Terrain moves on when a remap interval of its own ends; the bed follows in the same step.
+/// Terrain moves on when one of its remap intervals ends; the bed follows in the same step.
 bool FixBedWindow::moved_on() {
   ContinuumTerrain& terrain = terrain_->terrain();
   terrain.follow(middle_of_body() - behind_ + 0.5 * domain->prd[0]);
@@ -245,8 +245,8 @@ void FixBedWindow::renew(std::int64_t slab) {
   ++renewed_;
 }
 
-/// What stands in the slab, the slab frozen until now, and grains of the rut that lie in the grains
-/// to come or in the ground that has come.
+/// Removes the grains in the slab, the slab frozen until now, and grains of the rut that lie in the
+/// grains to come or in the ground that has come.
 void FixBedWindow::take_out(std::int64_t slab, const std::vector<std::size_t>& fresh) {
   const double middle = domain->boxlo[0] + (static_cast<double>(slab) + 0.5) * slab_length_;
   const auto from_middle = [&](double x) {

@@ -35,8 +35,8 @@ constexpr double edge_refinement = 3.0;  // of the cells along the sides of a bo
 constexpr double same_length = 1e-6;     // of a cell: ground and period of the box
 const std::vector<std::string> followable = {"wheel", "body"};
 
-/// Of ground that follows one wheel: by what the wheel's line says, not by where the wheel is, so
-/// that it is the same when a run is continued.
+/// Size of ground that follows one wheel, from the wheel's line and not its place, so that it is
+/// the same when a run is continued.
 std::optional<GroundSize> size_by_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   if (!options.given("follow") || options.given("follow_last")) return {};
   const auto* wheel = dynamic_cast<const WheelHub*>(
@@ -292,7 +292,8 @@ void FixTerrainContinuum::apply(double, double) {
     terrain().follow(middle);
 }
 
-/// Ground with slabs moves on with the grains on it, when their bed/window says so.
+/// Refuses a body that leaves ground with slabs, which moves on only with the grains of a
+/// bed/window.
 void FixTerrainContinuum::refuse_to_be_left(double middle) const {
   const Axis& x = terrain().grid().axis(0);
   const double slab = (x.upper() - x.lower()) / static_cast<double>(options().integer("slabs"));

@@ -19,7 +19,7 @@ class FixTerrainContinuum : public FixTerrain, public MotionController {
   static Schema schema(const std::optional<GroundSize>& size = {});
   static const Outputs<TerrainReading>& outputs() { return terrain_outputs(); }
 
-  /// Whether one of the bodies that it follows is this one.
+  /// True if the terrain follows this body.
   bool follows(const Body& body) const;
 
   int setmask() override;

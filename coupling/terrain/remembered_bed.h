@@ -17,8 +17,8 @@ namespace furrow::coupling {
 /// index in that order; its latest copy in the run has another tag.
 class RememberedBed {
  public:
-  /// The bed that stands in the box now, its grains at rest. Collective; grains have just been
-  /// exchanged and carry their contact histories.
+  /// Remembers the bed in the box, its grains at rest. Collective; grains have just been exchanged
+  /// and carry their contact histories.
   /// @throws StateError for an atom style whose grains are packed in another way
   void remember(LAMMPS_NS::LAMMPS& lammps);
   /// Before every run that puts grains in: the fixes that ride with the grains, and their order,
