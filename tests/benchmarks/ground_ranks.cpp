@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What several ranks cost: the rigid wheel of [Shoop2001] settles on 0.20 m of snow (half model);
-// what a rank computes and sends in a sub-step.
+// Cost of several ranks: the rigid wheel of [Shoop2001] settles on 0.20 m of snow (half model).
+// Prints what a rank computes and sends in a sub-step.
 //   mpirun -n <ranks> build/tests/benchmarks/ground_ranks [cell in m] [seconds] [blocks along x, y]
 // MPI's profiling interface counts calls and processor time here: that of the whole program, as MPI
 // sees it.
@@ -83,7 +83,7 @@ int run(int argc, char** argv) {
   WheelOnGround scene(ground, ranks);
   const ContinuumTerrain& soil = scene.soil();
 
-  scene.step();  // what the first step alone needs does not count
+  scene.step();  // the first step has costs of its set-up
   traffic = {};
   const HaloTraffic before = soil.halo_traffic();
   const Traffic asking = traffic;

@@ -52,7 +52,7 @@ class Scene {
     for (std::size_t first = 0; first < size(); first += chunk)
       kernels_.find_weights(grid_.view(), part(first), weights_.data());
   }
-  /// What a step has, by chunks as the ground does it.
+  /// Kernels of a step without a transfer, by chunks as the ground calls them.
   void step() {
     for (std::size_t first = 0; first < size(); first += chunk) {
       const ParticleView particles = part(first);

@@ -41,7 +41,7 @@ void BM_step(benchmark::State& timer) {
   timer.counters["elements"] = static_cast<double>(timer.range(0) * timer.range(1));
 }
 
-/// What a coupled system asks for where only grains press: forces held over an interval of seven
+/// Interval that a coupled system asks for where only grains press: forces held over seven
 /// sub-steps, the surface needed at its end.
 void BM_interval(benchmark::State& timer) {
   DarnellTyre tyre = make_tyre(static_cast<int>(timer.range(0)), static_cast<int>(timer.range(1)));

@@ -58,7 +58,7 @@ TEST_P(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
   EXPECT_GT(weight, 1.0);
   const double grains_gain = scene.upward_momentum() - before;
   EXPECT_NEAR(-impulse, weight * time + grains_gain, 1e-3 * weight * time);
-  // What the base gave carries the ground, its grains and their change of momentum.
+  // The impulse of the base carries the ground, its grains and their change of momentum.
   double mass = 0.0;
   for (const ParticleGroup& phase : ground.unsynchronised_groups())
     for (std::size_t p = 0; p < phase.particles.size(); ++p)

@@ -98,9 +98,9 @@ void expect_alike(const Outcome& a, const Outcome& b, double share) {
 
 /// This holds the wiring: what is halved, doubled and mirrored, where a fault is a factor of two.
 /// The mechanics agree to 1e-6 on one and the same half of ground
-/// (tests/verification/tyre/half_on_ground_test.cpp). What differs here is the ground's grid, whose
-/// splines end in the plane of symmetry of the half and go on in the whole: 1.4 % with cells of
-/// half the tread's half width (2.5 % in cycles, in which small differences live on).
+/// (tests/verification/tyre/half_on_ground_test.cpp). The difference here is the ground's grid,
+/// whose splines end in the plane of symmetry of the half and go on in the whole: 1.4 % with cells
+/// of half the tread's half width (2.5 % in cycles, in which small differences live on).
 TEST(HalfTyre, OnHalfAGroundIsTheWholeOnTheWhole) {
   const Outcome half = roll(true), whole = roll(false);
   EXPECT_GT(whole.spin, 0.2);

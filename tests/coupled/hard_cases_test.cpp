@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"very soft", 1e5, 2e-4, 0.08, 0.2, 0.0}),
     [](const auto& entry) { return fmt::format("case_{}", entry.index); });
 
-/// A column of sticky grains whose side is taken away falls and comes to rest: kinetic energy never
+/// A column of sticky grains whose side is taken away falls until it rests: kinetic energy never
 /// exceeds what gravity gives.
 TEST(HardCases, CohesiveColumnCollapses) {
   Scene scene;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A sphere held against a faceted sheet gives Hertz's force F = 4/3 E* sqrt(R) delta^(3/2)
+// A sphere pressed into a faceted sheet gives Hertz's force F = 4/3 E* sqrt(R) delta^(3/2)
 // everywhere: on faces, over edges and corners, on flat, convex and concave sheets, also when the
 // sheet was flat at the start and bent afterwards, also with obtuse triangles. Closed form: Hertz
 // (1882), with E* = E/(2 (1 - nu^2)) for equal materials.
@@ -77,7 +77,7 @@ class HertzOnFacets : public testing::TestWithParam<Case> {};
 TEST_P(HertzOnFacets, ForceIsHertzEverywhere) {
   const Case& c = GetParam();
   Surface start = make_sheet(cells, side, height);
-  // of the sheet in its plane: angles beyond 120 degrees
+  // shear of the sheet in its plane: angles beyond 120 degrees
   const double shear = c.obtuse ? 1.5 : 0.0;
   start.x.row(1) += shear * start.x.row(0);
   const Matrix3X flat = start.x;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What Furrow knows of LIGGGHTS beyond its public interface, compared with the headers and the
-// library at hand. When one of these fails, Debian's package has changed: read coupling/liggghts
-// again with its new source before anything else.
+// Facts about LIGGGHTS beyond its public interface that Furrow relies on, compared with the headers
+// and the installed library. When one of these fails, Debian's package has changed: read
+// coupling/liggghts again with its new source before anything else.
 
 #include <algorithm>
 #include <utility>
@@ -58,7 +58,8 @@ TEST(LiggghtsLibrary, AnotherVersionIsRefusedWithWhatToInstall) {
   EXPECT_THAT(message, HasSubstr("install liggghts 3.8.0 of Debian 12 or 13"));
 }
 
-/// Of libliggghts-dev 3.8.0+repack1-9 on amd64: a subclass must agree with the library's objects.
+/// Sizes in libliggghts-dev 3.8.0+repack1-9 on amd64: a subclass must agree with the library's
+/// objects.
 TEST(LiggghtsLibrary, ClassesHaveTheSizesOfThePackage) {
   EXPECT_EQ(sizeof(LAMMPS_NS::Fix), 544u);
   EXPECT_EQ(sizeof(LAMMPS_NS::FixWallGran), 928u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Bodies from mesh files: forces and motion are those of the built-in body of the same shape,
-// whatever the triangles.
+// Bodies from mesh files: forces and motion are those of the built-in body of the same shape, for
+// any triangles.
 
 #include <cmath>
 

@@ -79,7 +79,7 @@ std::vector<Row> table(const std::string& page, const Row& head) {
   return rows;
 }
 
-/// What a value may be: "> 0", "integer >= 1", "2 numbers", "`yes`, `no`".
+/// Text of the values that a key allows: "> 0", "integer >= 1", "2 numbers", "`yes`, `no`".
 std::string range_of(const Key& key) {
   if (!key.choices.empty()) return fmt::format("`{}`", fmt::join(key.choices, "`, `"));
   if (key.kind == Key::Kind::text) return "";
@@ -183,7 +183,7 @@ TEST(Pages, EveryPageBelongsToAStyleAndIsListed) {
   }
 }
 
-/// Of all pages of the project.
+/// Paths of all pages of the project.
 std::vector<std::filesystem::path> all_pages() {
   const std::filesystem::path root = FURROW_SOURCE_DIR;
   std::vector<std::filesystem::path> pages = {root / "README.md", root / "CONTRIBUTING.md"};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A plate pushed onto a grain that is held: sinkage is speed times time, force and pressure are
-// Hertz's (1882), F = 4/3 E* sqrt(R) delta^(3/2), E* = E/(2 (1 - nu^2)), and the fix says so to
-// LIGGGHTS.
+// Hertz's (1882), F = 4/3 E* sqrt(R) delta^(3/2), E* = E/(2 (1 - nu^2)), and the outputs of the fix
+// in LIGGGHTS are these.
 
 #include <cmath>
 

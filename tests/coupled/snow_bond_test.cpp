@@ -203,7 +203,7 @@ TEST(SnowBondModel, AWallIsHalfOfAContact) {
   }
 }
 
-/// What a lump of clusters has [SI].
+/// Momentum of a lump of clusters, and its moment [SI].
 struct Sums {
   Vector3 momentum = Vector3::Zero(), moment = Vector3::Zero();  // about the origin
   double scale = 0.0, moment_scale = 0.0;

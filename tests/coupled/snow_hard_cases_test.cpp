@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Hard cases of sintered snow. What must hold in each: no cluster is lost, every number is finite,
-// and the energy that a plate, a wheel and gravity give is found again: in motion, in the springs,
-// in crushing, in dampers, and in bonds that broke. The error is that of the time step.
+// Hard cases of sintered snow. In each no cluster is lost, every number is finite, and the energy
+// that a plate, a wheel and gravity give is found again: in motion, in the springs, in crushing, in
+// dampers, and in bonds that broke. The error is that of the time step.
 
 #include <cmath>
 
@@ -21,7 +21,7 @@ constexpr double gravity = 9.81, density = 340.0, diameter = 0.02;  // [m/s^2], 
 constexpr double start_height = 0.13, layer_height = 0.06;          // [m] of the plate, of layers
 constexpr double energy_error = 0.03;                               // of the largest energy
 
-/// Of clusters and their contacts [J]; only what acts from outside changes it.
+/// Energy of clusters and their contacts [J]; only external forces change it.
 double energy_of_snow(Scene& scene) {
   const LAMMPS_NS::Atom& atom = *scene.lammps().atom;
   double weight = 0.0, contacts = 0.0;

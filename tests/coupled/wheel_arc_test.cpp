@@ -31,8 +31,8 @@ void add_wheel(Scene& scene, double level) {
       2.0 * radius, width, level + radius + 0.001, speed, slip, level));
 }
 
-/// Force and torque on the wheel, mean over an interval, as its surface and as its arc have them.
-/// @param least_sliding  of rim and ground, over that of the rim and ground at rest
+/// Compares force and torque on the wheel, mean over an interval, from its surface and from its
+/// arc. The rim must slide on the ground by more than a share of its speed on ground at rest.
 void compare(Scene& scene, int settling, int steps, double least_sliding) {
   const std::string folder =
       testing::TempDir() + fmt::format("wheel_arc_{}_{}", scene.ranks(), scene.rank());

@@ -34,7 +34,7 @@ void make_bed(Scene& scene) {
 
 struct Outcome {
   double standing_force;  // mean vertical force while standing [N]
-  // of the load and of what the wheel's momentum and the rig's damping took up in that time [N]
+  // load, and what the wheel's momentum and the rig's damping took up in that time [N]
   double expected_force;
   double worst_slip_error;
   double energy_residual, energy_scale;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What fuzz targets share.
+/// Helpers that fuzz targets share.
 
 #include <unistd.h>
 
@@ -14,7 +14,7 @@
 
 namespace furrow::fuzz {
 
-/// A folder that goes with the program, laid out as inputs/, for readers that want a path.
+/// A folder for one run of the program, laid out as inputs/, for readers that want a path.
 class InputFolder {
  public:
   InputFolder()

@@ -40,7 +40,7 @@ void checkpoint_with(Part& part, Checkpoint& state, RankNumbers& numbers) {
   part.checkpoint(state);
 }
 
-/// What a checkpoint holds; equal states are equal in every bit.
+/// Content of a checkpoint; equal states are equal in every bit.
 struct SavedState {
   std::vector<char> bytes;
   NumbersInMemory numbers;

@@ -8,8 +8,8 @@
 
 namespace furrow::test {
 
-/// What an action says when it throws an `Expected`, or "no error". Anything else that it throws
-/// goes on, and fails the test.
+/// Text of the error that an action throws as `Expected`, or "no error". Any other exception goes
+/// on, and fails the test.
 template <class Expected = Error, class Action>
 std::string error_of(Action&& action) {
   try {

@@ -9,7 +9,7 @@
 
 namespace furrow {
 
-/// What a membrane is made of.
+/// Material and thickness of a membrane.
 struct MembraneMaterial {
   double young = 0.0;         ///< E [Pa]
   double poisson = 0.0;       ///< nu [-]
@@ -39,7 +39,7 @@ class Membrane : public Body {
 
  private:
   struct Element {
-    // of the three shape functions in the element's own plane axes [1/m]
+    // gradients of the three shape functions in the element's plane axes [1/m]
     Eigen::Matrix<double, 2, 3> gradient;
     double volume;  // reference area times thickness [m^3]
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a tyre costs in a coupled step: the time in the bodies' advance (all of the tyre's sub-steps
+// Cost of a tyre in a coupled step: the time in the bodies' advance (all of the tyre's sub-steps
 // and the rig) and in the mesh that follows it, over the time of whole steps of the same run. The
 // tyre is lowered onto 100,000 grains of 10 mm. They lie in a cubic lattice, six contacts a grain,
 // as many as in a poured bed: it needs no settling.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a body's mesh wall costs: time per step with mesh/body + wall/gran/body over that with
-// LIGGGHTS's own rigid moving mesh (mesh/surface + move/mesh + wall/gran), same bed, same wheel,
-// same motion. Two instances take turns, a few hundred steps each, so that a noisy machine meets
+// Cost of a body's mesh wall: time per step with mesh/body + wall/gran/body over that with
+// LIGGGHTS's rigid moving mesh (mesh/surface + move/mesh + wall/gran), same bed, same wheel, same
+// motion. Two instances run alternately, a few hundred steps each, so that a noisy machine meets
 // both alike; the ratio of each pair is taken and its median printed.
 //
 //   build/tests/benchmarks/coupled/wall_cost [pairs] [steps]        or under mpirun -n 2

@@ -56,8 +56,8 @@ class FixHook : public coupling::FurrowFix {
   Scene& scene_;
 };
 
-/// A second instance in one process registers every contact model again and says so some 230 times
-/// on the terminal.
+/// Runs an action without terminal output: a second instance in one process registers every contact
+/// model again, with some 230 messages.
 template <class Action>
 auto silently(Action&& action) {
   std::fflush(nullptr);

@@ -72,7 +72,7 @@ class Scene {
   double grain_mass() const;
   /// Kinetic energy of all grains, rotation included [J].
   double grain_kinetic_energy() const;
-  /// Of all grains, along z [N s].
+  /// Momentum of all grains along z [N s].
   double upward_momentum() const;
   /// z of the highest point of a grain [m].
   double top_of_grains() const;

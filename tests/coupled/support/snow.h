@@ -14,7 +14,7 @@ inline constexpr char snow_model[] = "model snow/bond";
 void snow_contacts(Scene& scene, const SnowBondParameters& first, const SnowBondParameters& second);
 void snow_contacts(Scene& scene, const SnowBondParameters& law);
 
-/// What touches is bonded, in one step.
+/// Bonds all clusters that touch, in one step.
 void sinter(Scene& scene);
 
 /// Entry of fix snow/energy 'energy', from 1.

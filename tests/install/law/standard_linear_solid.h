@@ -27,7 +27,7 @@ class StandardLinearSolid : public furrow::PointwiseMaterial {
   StandardLinearSolid(double density, const StandardLinearSolidParameters& parameters);
 
   bool rate_dependent() const override { return true; }
-  /// of a sudden step
+  /// Moduli of a sudden step.
   furrow::ElasticModuli moduli(const furrow::VectorX& state) const override;
 
  private:

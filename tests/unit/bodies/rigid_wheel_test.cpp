@@ -208,8 +208,8 @@ TEST(RigidWheel, FreeRotationKeepsEnergyToRoundOffAndAngularMomentumToSecondOrde
   EXPECT_NEAR(std::log2(error[1] / error[2]), 2.0, 0.05);
 }
 
-/// Random forces over 1e5 steps; every work is counted, so that the balance closes to round-off
-/// whatever the modes are.
+/// Random forces over 1e5 steps; every work is counted, so that the balance closes to round-off in
+/// all modes.
 void expect_closed_balance(const std::array<RigidWheel::Motion, 6>& motions) {
   RigidWheel wheel(small_wheel());
   std::mt19937 random(7);

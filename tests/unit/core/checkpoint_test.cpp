@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is saved comes back bit for bit; what is damaged, foreign or of another scene is refused.
+// A checkpoint returns what was saved, bit for bit; a damaged, foreign or unsuitable one is
+// refused.
 #include "core/checkpoint.h"
 
 #include <cmath>

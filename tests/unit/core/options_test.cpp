@@ -136,7 +136,7 @@ TEST(Options, AFormerNameIsTakenOverWithAWarningThatGivesTheNewOne) {
               HasSubstr("'weightless_start' is now called 'initial_stress'; write "
                         "'initial_stress no'"));
   EXPECT_TRUE(renamed_schema().read(test::words("weightless_start no")).flag("initial_stress"));
-  // What took effect is told in the new words.
+  // Effective options have the new names.
   EXPECT_EQ(options.effective()[0].key, "remap_interval");
 }
 

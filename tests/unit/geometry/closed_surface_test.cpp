@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A surface that should be the skin of a solid: what is wrong with it is said with the edge.
+// A surface that should be the skin of a solid: errors name the edge at fault.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

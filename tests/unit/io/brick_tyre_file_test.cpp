@@ -19,7 +19,7 @@ const std::string inputs = FURROW_SOURCE_DIR "/inputs/tyres/";
 
 class BrickTyreFileTest : public ::testing::Test {
  protected:
-  /// What the reader says of the ribbed tyre with one text replaced by another.
+  /// Error of the reader for the ribbed tyre with one text replaced by another.
   std::string refusal(const std::string& from, const std::string& to) {
     const std::string text = with(read_text_file(inputs + "p235_75r15_ribbed.yaml"), from, to);
     return error_of([&] { read_brick_tyre_file(scratch_.file("tyre.yaml", text)); });
@@ -127,7 +127,7 @@ TEST_F(BrickTyreFileTest, BadFilesAreRefusedWithTheirPlace) {
               HasSubstr("does not exist"));
 }
 
-/// Of [Shoop2001]'s belts few points make a curve with a valley half way to the shoulder.
+/// Few points along [Shoop2001]'s belts make a curve with a valley half way to the shoulder.
 TEST_F(BrickTyreFileTest, AnOutlineThatRisesBetweenItsPointsIsRefused) {
   BrickTyreParameters tyre = read_brick_tyre_file(inputs + "p235_75r15_smooth.yaml");
   check(tyre);

@@ -128,8 +128,8 @@ TEST(Hdf5File, GrowsAndShrinksAcrossChunks) {
   EXPECT_THAT(file.members("/history"), ElementsAre("time", "load", "angle"));
 }
 
-/// HDF5 finds what is altered of its own records by their checksums, so nothing else than a refusal
-/// or other numbers can come of it.
+/// HDF5 notices changes in its internal records by their checksums, so a changed byte leads to a
+/// refusal or to other numbers, and to nothing else.
 TEST(Hdf5File, AnAlteredByteIsSurvived) {
   const Scratch scratch;
   const std::string path = scratch.path("whole.h5"), altered = scratch.path("altered.h5");

@@ -24,7 +24,7 @@ SteadyValue value(const std::string& name, const std::string& unit, double mean,
   return found;
 }
 
-/// Of a driven wheel at a prescribed slip.
+/// Summary of a driven wheel at a prescribed slip.
 Summary summary() {
   Summary summary;
   summary.info.title = "rigid wheel";

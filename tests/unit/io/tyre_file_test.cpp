@@ -17,7 +17,7 @@ const std::string inputs = FURROW_SOURCE_DIR "/inputs/tyres/";
 
 class TyreFileTest : public ::testing::Test {
  protected:
-  /// What the reader says of the 235/75 R15 with one text replaced by another.
+  /// Error of the reader for the 235/75 R15 with one text replaced by another.
   std::string refusal(const std::string& from, const std::string& to) {
     const std::string text = with(read_text_file(inputs + "p235_75r15.yaml"), from, to);
     return error_of([&] { read_tyre_file(scratch_.file("tyre.yaml", text)); });

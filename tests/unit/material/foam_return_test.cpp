@@ -35,7 +35,7 @@ struct Step {
     const Real p = std::abs(pressure(De));
     return De == 0 ? q_trial : q_trial * p / (p + 2 * shear * std::abs(De) / 3);
   }
-  /// of the yield function
+  /// Excess of the yield function.
   Real excess(Real De) const {
     const Real pc = law.pc(static_cast<double>(eps_n + De));
     return std::hypot((pt - pc) / 2 + pressure(De), q(De) / law.parameters().M) - (pc + pt) / 2;

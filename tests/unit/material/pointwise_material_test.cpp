@@ -39,7 +39,7 @@ TEST_F(PointwiseMaterials, GiveWhatKernelsOfTheSameEquationsGive) {
   }
 }
 
-/// sigma = K tr(e) I + 2 G dev(e) holds for the rotated sums only if the law's own tensor is
+/// sigma = K tr(e) I + 2 G dev(e) holds for the rotated sums only if the tensor of the law is
 /// rotated as the stress is.
 TEST_F(PointwiseMaterials, TheirTensorsAreRotatedWithTheStress) {
   std::mt19937 engine(12);

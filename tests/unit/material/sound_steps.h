@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What every step of a yielding law must be, and paths that are hard for all of them.
+/// Requirements on every step of a yielding law, and paths that are hard for all of them.
 
 #include <vector>
 

@@ -48,7 +48,7 @@ const Particles& particles_of(const Scene& scene) {
   return const_cast<ContinuumTerrain&>(scene.ground).groups()[0].particles;
 }
 
-/// Kept by the order of creation, whatever the order in memory.
+/// Values in the order of creation, for any order in memory.
 std::vector<Vector3> by_id(const Scene& scene, std::size_t column) {
   const Particles& particles = particles_of(scene);
   std::vector<Vector3> values(particles.size());
@@ -126,7 +126,7 @@ TEST(ActiveGround, SleepingGroundStaysAndIsHeld) {
   const double weight = 200.0 * standard_gravity * length * 0.1 * depth;
   const double impulse = scene.ground.boundary_impulse(Face::z_lower).z() - before,
                change = scene.ground.energy_budget().momentum.z() - momentum;
-  // what holds the border carries the rest
+  // the force that holds the border carries the rest
   EXPECT_NEAR(impulse, weight * time + push + change, 0.02 * (weight * time + push));
 }
 

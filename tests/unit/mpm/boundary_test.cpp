@@ -137,7 +137,7 @@ TEST(Boundary, HalfModelHasTheFarFieldOfTheWhole) {
   EXPECT_LT((half - whole).norm(), 1e-14);
 }
 
-/// What held the ground at the start is held on: a node on several faces is held once.
+/// Forces that held the ground at the start hold it on: a node on several faces is held once.
 TEST(Boundary, ForcesOfTheStartAreHeld) {
   for (const int count : {1, 2, 3}) {
     FaceArray<BoundaryKind> kinds;
@@ -219,7 +219,7 @@ void restore(Boundary& boundary, const std::vector<char>& bytes, bool keep_sums)
   state.finish();
 }
 
-/// Of the last values that were saved.
+/// Last numbers that were saved.
 std::vector<double> last_numbers(const std::vector<char>& bytes, std::size_t count) {
   std::vector<double> numbers(count);
   const std::size_t size = count * sizeof(double);
@@ -282,8 +282,8 @@ TEST(Boundary, TheFaceAheadComesToUndisturbedGround) {
   }
 }
 
-/// Behind, the face holds whatever the ground carries there: nodes at rest stay at rest, also those
-/// that another face held; nodes that move go on.
+/// Behind, the face holds any force that the ground carries there: nodes at rest stay at rest, also
+/// those that another face held; nodes that move go on.
 TEST(Boundary, TheFaceBehindHoldsWhatTheGroundCarriesThere) {
   Grid grid = small_grid();
   FaceArray<BoundaryKind> kinds = only(Face::x_lower, BoundaryKind::absorbing);

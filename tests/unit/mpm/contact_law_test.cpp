@@ -81,7 +81,7 @@ TEST(PenaltyLaw, SlidesAtTheLimitOfFriction) {
   EXPECT_NEAR(touch.losses.friction, 0.3 * normal * (slid - stretch), 1e-9);
 }
 
-/// Springs stretch by the motion since the last step, whatever the next step's length.
+/// Springs stretch by the motion since the last step, for any length of the next step.
 TEST(PenaltyLaw, SpringStretchesByTheLastStep) {
   ContactParameters parameters;
   parameters.damping = 0.0;
@@ -208,7 +208,7 @@ TEST(NarrowPhase, TheGapFollowsTheMotionAlongTheNormal) {
               -1e-3 + 2.0 * 2.0 * dt, 1e-15);
 }
 
-/// Half way between the walls of a groove a particle is thrown to and fro: the wall that it has
+/// A particle half way between the walls of a groove is thrown back and forth: the wall that it has
 /// just come nearer to is the closest one. Its gap must not grow by every step.
 TEST(NarrowPhase, ToAndFroBetweenTwoWallsTheGapStays) {
   std::vector<Vector3> normals, velocities;
@@ -219,7 +219,7 @@ TEST(NarrowPhase, ToAndFroBetweenTwoWallsTheGapStays) {
   EXPECT_NEAR(followed(-1e-3, normals, velocities, velocities), -1e-3, 1e-12);
 }
 
-/// As it is thrown to and fro between walls that move apart, it lets go of both by their motion:
+/// A particle thrown back and forth between walls that move apart lets go of both by their motion:
 /// else a spring would press them apart, and give work, without end.
 TEST(NarrowPhase, WallsThatMoveApartLetGo) {
   const double apart = 0.3;  // [m/s] of each wall

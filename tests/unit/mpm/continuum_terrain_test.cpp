@@ -218,8 +218,8 @@ TEST(Terrain, StopsWhenParticlesLeaveTheGrid) {
                         "m): enlarge the grid ('clearance_above', 'length', 'width')"));
 }
 
-/// A particle close to a wall that moves towards it is stopped there, whatever the remap
-/// interval; the place half-way through the interval would be beyond.
+/// A particle close to a wall that moves towards it is stopped there, for any remap interval; the
+/// place half-way through the interval would be beyond.
 TEST(Terrain, AParticleThatMeetsAWallStaysInside) {
   TerrainParameters parameters =
       box(material_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
@@ -277,7 +277,7 @@ TEST(Terrain, ALawsRefusalNamesTheParticle) {
   ContinuumTerrain ground(parameters, Communicator());
   Particles& particles = ground.groups()[0].particles;
   const std::size_t broken = particles.size() - 5;
-  // What only the law reads: others are not touched by it.
+  // State that only the law reads: a fault there touches no other particle.
   particles.data(column::state + *parameters.layers[0].material->find_field("eps_vol_pl"))[broken] =
       std::nan("");
   const Vector3 x = particles.position(broken);

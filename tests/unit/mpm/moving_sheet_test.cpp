@@ -104,7 +104,7 @@ TEST(MovingSheet, PatchesMeetWithoutAGap) {
   EXPECT_GT(deformed, 1e-4);
 }
 
-/// What presses where two slabs meet is what the ground gains, in momentum and about any point.
+/// Forces where two slabs meet are the ground's gain, in momentum and about any point.
 TEST(MovingSheet, ForcesAndMomentsAreKept) {
   TerrainParameters parameters = moving_ground();
   parameters.remap_interval = 1;

@@ -67,9 +67,9 @@ TEST(Multirate, TerrainKeepsTheTimeOfTheGrainsWhenTheirStepChanges) {
   EXPECT_GT(terrain, 300.0);
 }
 
-/// Leapfrog's position after n steps of T is cos(n theta) with sin(theta/2) = w T/2, whatever the
-/// step of the grains: the forces of an interval lie symmetric about the mass. Rounding grows with
-/// the number of steps.
+/// Leapfrog's position after n steps of T is cos(n theta) with sin(theta/2) = w T/2, for any step
+/// of the grains: the forces of an interval lie symmetric about the mass. Rounding grows with the
+/// number of steps.
 TEST(Multirate, SpringIsThatOfLeapfrogToRounding) {
   for (const int steps : {1, 2, 5})
     for (const int periods : {1, 4, 100})
@@ -115,7 +115,7 @@ struct Block {
   double energy_of_springs() {
     return 0.5 * stiffness * (ground.surface().x.row(2).array() - free_height).square().sum();
   }
-  /// Of springs and ground, with what the discretisation took.
+  /// Energy of springs and ground, with what the discretisation took.
   double energy() {
     const EnergyBudget budget = ground.energy_budget();
     return energy_of_springs() + budget.kinetic_energy + budget.stored_energy +

@@ -39,7 +39,7 @@ TEST(Overburden, ElasticGroundCarriesItsWeight) {
   find_overburden(deep({{material_of(elastic(1e9, nu, rho)), 2.0}}), 0.0, levels);
   for (const ParticleLevel& level : levels) {
     const double stress = rho * standard_gravity * level.z;
-    // of the density's change, rho g z/M
+    // the tolerance is the density's change, rho g z/M
     EXPECT_NEAR(level.state[field::stress + 2] / stress, 1.0, 1e-4);
     EXPECT_NEAR(level.state[field::stress] / level.state[field::stress + 2], nu / (1.0 - nu), 1e-4);
     EXPECT_EQ(level.state[field::stress + 5], 0.0);

@@ -34,7 +34,7 @@ TerrainParameters washboard(double height = amplitude, double length = 0.8) {
   return ground;
 }
 
-/// Of each column of particles: the tops of its particles, by place.
+/// Tops of the columns of particles, by place.
 std::map<double, double> tops(ContinuumTerrain& ground) {
   std::map<double, double> top;
   for_particles(ground, [&](const Particles& particles, std::size_t p) {
@@ -71,7 +71,7 @@ TEST(Relief, EveryParticleCarriesTheWeightAboveIt) {
   });
 }
 
-/// What a window adds ahead is what a longer ground has there from the start.
+/// Ground that a window adds ahead is that of a longer ground from the start.
 TEST(Relief, MovingWindowContinuesTheProfile) {
   TerrainParameters moving = washboard();
   moving.window = true;

@@ -89,7 +89,7 @@ double growth_on_a_plate(double damping, double of_bound) {
   spring.stiffness = of_bound * std::pow(root / (2.0 * cfl), 2);
   TerrainParameters parameters =
       box(material_of(elastic(modulus, 0.0, density)), {0, 0, 0}, {0.6, 0.6, 0.6}, h);
-  parameters.cfl = 0.01;  // what the contact checks is not what this test steps with
+  parameters.cfl = 0.01;  // the contact checks another step than this test takes
   parameters.remap_interval = 64;
   ContinuumTerrain ground(parameters, Communicator());
   bool found = false;

@@ -139,7 +139,8 @@ struct Sums {
   Vector3 centre = Vector3::Zero(), momentum = Vector3::Zero(), angular = Vector3::Zero();
 };
 
-/// Of this rank's particles; the affine velocity counts with D = cell^2/4 of a uniform grid inside.
+/// Sums of this rank's particles; the affine velocity counts with D = cell^2/4 of a uniform grid
+/// inside.
 inline Sums sums_of(ContinuumTerrain& ground) {
   Sums sums;
   Vector3 D;

@@ -492,7 +492,7 @@ TEST(Transfer, UniformStressIsInEquilibrium) {
   EXPECT_LT(top.max(), 0.2);
 }
 
-/// A force beside a particle acts where it is said to act: force and moment.
+/// A force next to a particle keeps its point of action: force and moment.
 TEST(Transfer, PointForceKeepsForceAndMoment) {
   Cloud cloud(1);
   const PointForce one{{0.07, 0.33, 0.02}, {3.0, -1.0, 2.0}, {0.03, -0.01, 0.04}};

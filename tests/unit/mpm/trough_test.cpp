@@ -98,7 +98,8 @@ TEST(Trough, TheSheetLiesOnAllFaces) {
   }
 }
 
-/// What grains press with that fill the trough and have the ground's density and K0 = nu/(1 - nu).
+/// Presses as grains at rest that fill the trough and have the ground's density and K0 = nu/(1 -
+/// nu).
 void press_as_grains_at_rest(Surface& sheet) {
   sheet.clear_forces();
   for (std::size_t t = 0; t < sheet.triangle_count(); ++t) {
@@ -132,8 +133,8 @@ Rest after_rest(double cell) {
       ground.boundary_impulse(Face::z_lower).z() / (steps * dt * weight * depth * width * length)};
 }
 
-/// Closed form: nothing moves, and the base gives rho g h over the whole width. What the faces give
-/// way is the grid's, in the cells beside them, and halves with these.
+/// Closed form: nothing moves, and the base gives rho g h over the whole width. The faces give way
+/// by an error of the grid, in the cells next to them, which halves with these.
 TEST(Trough, GroundUnderGrainsStaysAtRestAndCarriesThem) {
   const Rest coarse = after_rest(0.05), fine = after_rest(0.025);
   EXPECT_LT(coarse.moved, 0.02);

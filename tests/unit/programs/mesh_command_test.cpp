@@ -69,7 +69,7 @@ class MeshCommand : public testing::Test {
     return repair(scratch_.path("part.stl"));
   }
   std::string output() const { return scratch_.path("out.obj"); }
-  /// Of the written solid.
+  /// Volume of the written solid.
   double volume() const {
     const SolidMesh mesh = read_mesh_file(output());
     EXPECT_NO_THROW(check_solid(mesh));

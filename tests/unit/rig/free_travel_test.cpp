@@ -100,9 +100,9 @@ TEST(FreeTravel, OnAnInclinedPlaneAccelerationsAreThoseOfTheClosedForms) {
                    floor_of(hill.friction), 1.4, 160);
     EXPECT_NEAR(acceleration(history), hill.a,
                 hill.friction == 0.0 ? 1e-9 : 0.02 * std::abs(hill.a));
-    // the ground carries the part of the weight that is square to it
+    // the ground carries the part of the weight that is normal to it
     EXPECT_NEAR(mean(history, "force_z"), m * g * cosine(hill.slope), 1.5);
-    // what pulls is the ground's force less the wheel's own inertia
+    // the pull is the ground's force less the wheel's own inertia
     EXPECT_NEAR(mean(history, "drawbar_pull"),
                 m * g * sine(hill.slope) + (hill.mass - 3.0) * acceleration(history), 0.02 * m * g);
   }

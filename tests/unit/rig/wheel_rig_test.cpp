@@ -230,7 +230,7 @@ TEST(WheelRig, OnAFloorTheWheelCarriesItsLoad) {
   EXPECT_NEAR(last[channel("force_z")], 60.0, 1e-6);
   EXPECT_NEAR(last[channel("load")], 60.0, 1e-12);
   EXPECT_GT(last[channel("damping_loss")], 0.0);
-  // the energy that left with the damper is what load and rig gave and the floor does not hold
+  // the damper took the energy that load and rig gave and the floor has not stored
   EXPECT_NEAR(last[channel("contact_work")] + last[channel("load_work")] +
                   last[channel("drive_work")] - last[channel("damping_loss")],
               last[channel("kinetic_energy")], 1e-12);
@@ -375,7 +375,7 @@ TEST(WheelRig, TheTipRadiusIncludesGrousersAndTheMeaningOfSlipStatesIt) {
               HasSubstr("v_rim = spin rate x tip radius 0.22 m, v = forward speed"));
 }
 
-// Coulomb friction opposes the travel, whatever the heading of a locked wheel.
+// Coulomb friction opposes the travel, for any heading of a locked wheel.
 TEST(WheelRig, TractiveAndLateralForceAreThoseOfTheTravelInTheWheelFrame) {
   RigidWheel wheel = make_wheel(0.2003);
   const Floor floor;

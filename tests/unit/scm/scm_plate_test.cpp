@@ -240,7 +240,7 @@ TEST(ScmPlate, ValuesInOtherUnitsAreRefusedOrDoubted) {
     return doubts(soil_from(schema.read(words), sand)).size();
   };
   EXPECT_EQ(doubts_with({"c", "0.25"}), 1u);
-  EXPECT_EQ(doubts_with({"c", "2e-16"}), 0u);  // what a fit gives for 0
+  EXPECT_EQ(doubts_with({"c", "2e-16"}), 0u);  // result of a fit for 0
   EXPECT_EQ(doubts_with({"K", "4.3e-5"}), 1u);
   for (const auto& [key, value] : std::map<std::string, double>{
            {"k_phi", 2407.4}, {"phi", 0.557}, {"K", 11.4}, {"c", 2.5e6}, {"stiffness", 1e5}}) {

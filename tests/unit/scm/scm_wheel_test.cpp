@@ -110,7 +110,7 @@ Load wong_reece(const Soil& soil, double slip) {
   return load;
 }
 
-/// Of an error C h^p, from values of cells h, h/2 and h/4.
+/// Order p of an error C h^p, from values of cells h, h/2 and h/4.
 double observed_order(const std::array<double, 3>& values) {
   return std::log2(std::abs((values[0] - values[1]) / (values[1] - values[2])));
 }

@@ -25,7 +25,7 @@ constexpr double subgrade = 2e7;                                 // [Pa/m]
 const double load = (unsprung + sprung) * standard_gravity;      // [N]
 const double natural = std::sqrt(spring / sprung) / (2.0 * pi);  // [Hz]
 
-/// Of a rigid cylinder on an elastic bed, F = 4/3 K b d sqrt(2 R d): d under the load.
+/// Penetration d of a rigid cylinder on an elastic bed under the load, F = 4/3 K b d sqrt(2 R d).
 const double penetration =
     std::pow(0.75 * load / (subgrade * width * std::sqrt(2.0 * radius)), 2.0 / 3.0);
 const double contact_stiffness = 1.5 * load / penetration;

@@ -299,7 +299,7 @@ TEST(Resistance, AQuantityAndItsNegativeShareOneError) {
 
 using Rates = std::map<std::string, double>;  // channel -> [J/m]
 
-/// What wheel, snow and grains take, 0.5 J/m less than axle and load put in.
+/// Rates of all parts in wheel, snow and grains, 0.5 J/m less than axle and load put in.
 Rates rates_of_all_parts() {
   return {{"compaction_work", 50.0}, {"bulldozing_work", 20.0},    {"grid_loss", 4.0},
           {"continuum_work", 74.0},  {"friction_loss", 8.0},       {"contact_damping_loss", 1.0},
@@ -308,7 +308,7 @@ Rates rates_of_all_parts() {
           {"load_work", 5.0},        {"grain_press_work", 9.0},    {"grain_push_work", -2.0}};
 }
 
-/// Of a run of 10 m in which every energy grows at its own constant rate, with the rig's channels.
+/// Parts of a run of 10 m in which every energy grows at a constant rate, with the rig's channels.
 ResistanceParts parts_of(const Rates& rates) {
   History history(WheelRig::channels());
   for (int i = 0; i <= 500; ++i) {

@@ -118,8 +118,8 @@ TEST(SteadyState, SwingsDoNotHideSlowWandering) {
   EXPECT_GE(covered, 0.90 * seeds);
 }
 
-// The ripple of grousers: its incomplete period is an error of the mean that the bars must hold,
-// whatever the phase.
+// The ripple of grousers: its incomplete period is an error of the mean that the bars must hold, in
+// any phase.
 TEST(SteadyState, PeriodicRipplesAreSteadyAndTheirErrorIsNotUnderstated) {
   int covered = 0, steady = 0;
   const int phases = 100;
@@ -230,8 +230,8 @@ TEST(SteadyState, MserLeavesOutADecayingTransientAndNoMore) {
   EXPECT_EQ(mser_truncation({1.0, 2.0, 3.0}), 0u);
 }
 
-// Of a signal without a transient that is correlated over a twentieth of it, more than a fifth is
-// left out in 0.8 % of the runs; by the least of the statistic alone, in 6 %.
+// A signal without a transient that is correlated over a twentieth of it loses more than a fifth in
+// 0.8 % of the runs; by the least of the statistic alone, in 6 %.
 TEST(SteadyState, MserDoesNotTakeACalmEndForTheSteadyPart) {
   int much = 0;
   const int seeds = 500;

@@ -17,7 +17,7 @@ namespace {
 using test::error_of;
 using ::testing::HasSubstr;
 
-/// What a wheel takes for each metre [N]. The ground's parts are of both wheels, and their sum is
+/// Resistances of a wheel [N]. The parts of the ground are those of both wheels, and their sum is
 /// that of both works on the continuum.
 struct Wheel {
   double load, put_in, continuum, friction, springs, tyre;
@@ -93,7 +93,7 @@ TEST(Vehicle, ItsWheelsTogetherKnowTheParts) {
   EXPECT_NEAR(vehicle.values[2].mean, -40.0, 1e-9);
 }
 
-/// What nothing accounts for is shown, not hidden in a part.
+/// A remainder that nothing accounts for is shown, not hidden in a part.
 TEST(Vehicle, WhatIsMissingIsNotAccountedFor) {
   Wheel other = rear;
   other.put_in += 2.0;

@@ -111,7 +111,7 @@ TEST(BrickTyreParameters, NarrowestVoidAndRib) {
   }
 }
 
-/// Of a section that is an arc of 8 cm, whose tension at 200 kPa is 16 kN/m where it is widest.
+/// The section is an arc of 8 cm, whose tension at 200 kPa is 16 kN/m where it is widest.
 TEST(BrickTyreParameters, ATensionOfFourTimesTheShearStiffnessWrinklesWithoutCords) {
   BrickTyreParameters tyre = tyre_file("smooth", 2e5);
   tyre.carcass.cords = false;

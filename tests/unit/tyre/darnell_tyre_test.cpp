@@ -47,8 +47,8 @@ std::pair<Vector3, Vector3> momenta(const DarnellTyre& tyre) {
   return {linear, angular};
 }
 
-/// What the tread does to the rim of a tyre at rest, the moment of an upright one: the rim is held
-/// for a step so short that nothing moves, and what holds it is read. It stays held.
+/// Wrench of the tread on the rim of a tyre at rest, the moment of an upright one: the rim is held
+/// for a step so short that nothing moves, and the holding force is read. It stays held.
 Wrench wrench_on_rim(DarnellTyre& tyre) {
   for (const auto& coordinates : {translations, rotations})
     for (const Coordinate c : coordinates) tyre.hold(c);
@@ -295,8 +295,8 @@ TEST(DarnellTyre, RefusesWhatCannotBe) {
               HasSubstr("under a tread of"));
 }
 
-/// The rim is pulled away from the tread until a sidewall is straight: the error says what and
-/// where.
+/// The rim is pulled away from the tread until a sidewall is straight: the error names fault and
+/// place.
 TEST(DarnellTyre, AStretchedSidewallStopsTheRun) {
   DarnellTyreSettings settings = coarse(false);
   settings.direct = true;

@@ -89,7 +89,7 @@ TEST(SidewallChain, ForcesOfBothEndsBalanceThePressure) {
   }
 }
 
-/// Of a strip between two meridians the tyre's gas does work p dV, V = 2 pi integral of A R dR +
+/// The tyre's gas does work p dV on a strip between two meridians, V = 2 pi integral of A R dR +
 /// ...: the potential holds that volume.
 TEST(SidewallChain, ASectorsAreaIsItsVolumePerCircumferenceOfTheTread) {
   const double R_bead = 0.208, R_tread = 0.3475;

@@ -260,7 +260,7 @@ TEST(FoamClosedForm, ConfinedCompressionHasNoLateralStress) {
   }
 }
 
-/// Hydrostatic compression follows p = pc, tension p = -pt whatever the volume.
+/// Hydrostatic compression follows p = pc, tension p = -pt at any volume.
 TEST(FoamClosedForm, HydrostaticStrengths) {
   const auto material = material_of(stiff_foam);
   for (const double strain : {-0.3, 0.05}) {

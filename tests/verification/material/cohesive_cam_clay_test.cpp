@@ -17,7 +17,7 @@ using testing_paths::mixed_step;
 using testing_paths::strain_of;
 using testing_paths::stretch;
 
-/// p0 = 1 kPa exp(10 eps), whatever the sign of eps.
+/// Strength p0 = 1 kPa exp(10 eps), for eps of either sign.
 constexpr double first_strength = 1e3, growth = 10;
 double strength(double eps) { return first_strength * std::exp(growth * eps); }
 
@@ -82,8 +82,8 @@ TEST(CamClayClosedForm, ConfinedCompression) {
 }
 
 /// Triaxial compression at the lateral stress sigma_c ends in the critical state p = c, q = B a,
-/// whatever the density it starts from: q = N p with N = B (1 + beta)/(1 - beta), and
-/// p = sigma_c/(1 - N/3), p0 = 2 p/(1 - beta).
+/// from any density at the start: q = N p with N = B (1 + beta)/(1 - beta), and p = sigma_c/(1 -
+/// N/3), p0 = 2 p/(1 - beta).
 TEST(CamClayClosedForm, TriaxialCompressionEndsInTheCriticalState) {
   const double pressure = 2e3;
   for (const Shape& shape : {Shape{0.6, 0}, Shape{1.2, 0.1}, Shape{1.8, 0.05}}) {

@@ -67,7 +67,7 @@ TEST(CohesiveCapClosedForm, IsotropicStrengths) {
   }
 }
 
-/// Below the shear line K0 = nu_p/(1 - nu_p), whatever the other keys.
+/// Below the shear line K0 = nu_p/(1 - nu_p), for all other keys.
 TEST(CohesiveCapClosedForm, LateralStressIsThatOfThePlasticPoissonRatio) {
   for (const double nu_p : {0.0, 0.1, 0.2, 0.4})
     for (const double aspect : {0.0, 1.0, 3.0})

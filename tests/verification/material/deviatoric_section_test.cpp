@@ -133,9 +133,9 @@ TEST(DeviatoricSection, StrengthInCompressionAndExtension) {
   }
 }
 
-/// Plane strain without change of volume, [Lade1975]: the section is that of I3 = const at a mean
-/// stress p' = 2 q_c/(9 w) of its own, and flow normal to it has no strain along y where s2 = 2 s1
-/// s3/(s1 + s3). With m = (s1 + s3)/2 that is s1 s3 = m (3 p' - 2 m) and I3 = m (3 p' - 2 m)^2.
+/// Plane strain without change of volume, [Lade1975]: the section is that of I3 = const at a
+/// separate mean stress p' = 2 q_c/(9 w), and flow normal to it has no strain along y where s2 = 2
+/// s1 s3/(s1 + s3). With m = (s1 + s3)/2 that is s1 s3 = m (3 p' - 2 m) and I3 = m (3 p' - 2 m)^2.
 /// The strain is turned too, so that the principal axes are not those of the grid.
 TEST(DeviatoricSection, StrengthInPlaneStrain) {
   const double tangent = std::tan(radians(40));

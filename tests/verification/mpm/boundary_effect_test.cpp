@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What sides and base of the ground are expected to change, next to the runs of the study
+// Expected effects of sides and base of the ground, next to the runs of the study
 // inputs/validation/ground_size.
 
 #include <algorithm>

@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, Column,
                                                 0.03, 0.15}),
                          [](const auto& one) { return std::string(one.param.name); });
 
-/// Each particle has the stress of its own density, if it shares nothing with its cell.
+/// Each particle has the stress at its density, if it shares nothing with its cell.
 TEST_P(Column, FollowsTheLawInConfinedCompression) {
   const double cell = 0.02, height = 0.2;
   const auto material = material_of(GetParam().material);

@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Contact, Enforcements, ::testing::ValuesIn(contact_law_
 /// normal force, exactly.
 TEST_P(Enforcements, SlidesAsCoulombSays) {
   const double slope = std::atan(0.6), duration = 0.2;
-  // of a block that bounces and shakes, the base slips less than the middle while it presses more
+  // if a block bounces and shakes, its base slips less than the middle while it presses more
   Incline incline(slope, law(0.3, 1.0));
   incline.run(duration);
   const double a = standard_gravity * (std::sin(slope) - 0.3 * std::cos(slope));

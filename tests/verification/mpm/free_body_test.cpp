@@ -51,7 +51,7 @@ TEST(FreeFlight, IsExact) {
   EXPECT_NEAR(after.kinetic / before.kinetic, 1.0, 1e-12);
   EXPECT_NEAR(after.mass / before.mass, 1.0, 1e-15);
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    // of 1 MPa
+    // stress [Pa] in a block of 1 MPa
     for (std::size_t s = 0; s < 6; ++s)
       EXPECT_LT(std::abs(particles.data(column::state + s)[p]), 1e-6);
   });
@@ -79,7 +79,7 @@ TEST(FreeFlight, FallsUnderGravity) {
   EXPECT_LT(std::abs(budget.residual()), 1e-10 * budget.load_work);
 }
 
-/// What a spin about a slanted axis loses and how much the body is strained, over five turns.
+/// Losses of a spin about a slanted axis, and strain of the body, over five turns.
 struct Spin {
   double momentum = 0.0, angular = 0.0, energy = 0.0, strain = 0.0;  // relative
 };

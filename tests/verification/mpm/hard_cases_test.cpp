@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What users will do to a ground, coarse and short: each case ends with finite numbers and its
-// energies accounted for, or stops with its cause.
+// Extreme uses of a ground, coarse and short: each case ends with finite numbers and its energies
+// accounted for, or stops with its cause.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -127,7 +127,7 @@ void press(ContinuumTerrain& ground, double top, double force) {
 }
 
 /// Without friction, and without sideways strain for want of Poisson's ratio, the loaded half moves
-/// as a column of its own between smooth walls, and the other half not at all.
+/// as a separate column between smooth walls, and the other half not at all.
 TEST(SlideSurface, WithoutFrictionTwoColumnsMoveAlone) {
   const auto column_to = [](double upper) {
     const double top = 8 * cell;

@@ -51,7 +51,7 @@ constexpr char porous_snow[] =
     "elasticity.kappa 0.005 elasticity.e0 3.5 nu 0.3 pt_el 5000 hardening exponential pc0 5000 "
     "lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5";
 
-/// What makes the scene another.
+/// Choices that make one scene differ from another.
 struct Variant {
   const char* name;
   bool window, slide, sheet;
@@ -169,7 +169,7 @@ struct State {
   int steps = 0;
 };
 
-/// What a scene answers; of many ranks, on each of them.
+/// Results of a scene; on each of its ranks.
 struct Answer {
   explicit Answer(Scene& scene)
       : energy(scene.ground.energy_budget()),
@@ -412,7 +412,7 @@ TEST(Blocks, CoverAllCellsAndOwnEveryNodeOnce) {
   }
 }
 
-/// What a rank stores and sends, in closed form. It has the nodes of its cells, of one cell more
+/// Closed form of what a rank stores and sends. It has the nodes of its cells, of one cell more
 /// towards each neighbour, and two nodes more, as many as splines reach beyond a cell. Blocks with
 /// 4 or more cells share nodes with the next block only: 4 layers of them. A node has 4 numbers of
 /// 8 bytes; a step sends it once, for forces, and the first step of a remap interval once more, for

@@ -299,7 +299,7 @@ TEST(Presets, InvertedTableFollowsTheOedometer) {
   EXPECT_LT(oedometer_error("variants/fresh_snow_abele_gow_log"), 1e-3);
 }
 
-/// Of the readings of [Shoop2001] Table 3, p = sigma_1 is the nearest to the oedometer.
+/// The reading p = sigma_1 of [Shoop2001] Table 3 is the nearest to the oedometer.
 TEST(Presets, SigmaOneIsTheReadingNearestToTheOedometer) {
   const double sigma1 = oedometer_error("variants/fresh_snow_shoop");
   EXPECT_LT(sigma1, 0.12);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The numbers of src/material/snow.md, which compares three laws for snow: each is computed anew
-/// by the file of inputs/points that its row names.
+/// The numbers of src/material/snow.md, which compares three laws for snow: each is computed by the
+/// file of inputs/points that its row names.
 
 #include <algorithm>
 #include <cmath>

@@ -52,7 +52,7 @@ NaturalModes modes_of(Structure& structure, const ShellModel& model, int count) 
 struct Cantilever {
   static constexpr double length = 1.0;  // [m]
 
-  /// Of square elements: one element wide, whatever their number.
+  /// Square elements, for any number of them: one element wide.
   explicit Cantilever(int elements)
       : model(mapped_shell(
             elements, 1,

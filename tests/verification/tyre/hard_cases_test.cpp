@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where a thin belt is at its limit: little air under much load, a crowned tread, a tread that
-// buckles inside its shoulder. The tyre comes to rest or says why not; what is tested are balances
-// and orders that hold for any tyre.
+// Limits of a thin belt: little air under much load, a crowned tread, a tread that buckles inside
+// its shoulder. The tyre settles, or the error gives the reason; what is tested are balances and
+// orders that hold for any tyre.
 
 #include <cmath>
 #include <functional>
@@ -87,7 +87,7 @@ TEST(HardCases, BottomedIsRefused) {
 
 /// A crowned tread touches with its middle. Under its full load the barrel, which is curved both
 /// ways, snaps through: the middle of the print lifts, the tread carries at the front and the rear
-/// of it, and the tyre comes to rest all the same.
+/// of it, and the tyre settles all the same.
 TEST(HardCases, CrownedTread) {
   const auto crown = [](TyreParameters& tyre) { tyre.tread.crown = 0.01; };
   const Rest light = press(103e3, 600.0, 6, 72, crown), heavy = press(103e3, 6227.0, 6, 72, crown),

@@ -104,7 +104,7 @@ void expect_many_turns(Tyre& tyre, double least, double largest) {
   EXPECT_GT(run.rolling_radius, least);
   EXPECT_LT(run.rolling_radius, largest);
   EXPECT_GT(run.deflection, 0.02);
-  // What the drag takes, the damping turns into heat (free spin, steady).
+  // The damping turns the work of the drag into heat (free spin, steady).
   EXPECT_NEAR(-run.force_x * 6.0 / run.damping_power, 1.0, 0.25);
 }
 

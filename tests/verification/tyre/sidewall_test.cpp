@@ -20,7 +20,7 @@
 namespace furrow::sidewall_test {
 namespace {
 
-/// The strip between two meridians, whatever the file says.
+/// The strip between two meridians, for a tyre file of any model.
 SidewallParameters sector_of(const TyreParameters& tyre) {
   SidewallParameters sidewall = tyre.sidewall;
   sidewall.bead_width = tyre.bead_radius / tyre.tread.radius;
@@ -37,8 +37,8 @@ double order(const std::vector<double>& errors) {
   return std::log2(errors[errors.size() - 2] / errors.back());
 }
 
-/// Without bending stiffness a chain is an arc: the tension is p times the radius. Of a polygon it
-/// is the inner radius, exactly.
+/// Without bending stiffness a chain is an arc: the tension is p times the radius. For a polygon
+/// that is the inner radius, exactly.
 TEST(Sidewall, MembraneTensionIsPressureTimesRadius) {
   const double p = 241e3, length = 0.161;
   const SidewallEnd end{-0.004, 0.1395, 0.0};
@@ -54,7 +54,7 @@ TEST(Sidewall, MembraneTensionIsPressureTimesRadius) {
     const SidewallResponse response = chain.solve(end, p, angles);
     const double turn = angles[1] - angles[0], L = length / n;
     for (int i = 0; i + 1 < n; ++i) EXPECT_NEAR(angles[i + 1] - angles[i], turn, 1e-9);
-    // What the tread takes: the last segment's tension and half its pressure
+    // Force on the tread: the last segment's tension and half its pressure
     const double t = angles[n - 1], tension = p * 0.5 * L / std::tan(0.5 * turn);
     const Vector2 expected = -tension * Vector2(std::cos(t), std::sin(t)) +
                              0.5 * p * L * Vector2(std::sin(t), -std::cos(t));
