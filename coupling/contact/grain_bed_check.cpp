@@ -19,7 +19,8 @@ namespace furrow::coupling {
 namespace {
 
 constexpr long every = 200;  // steps between looks
-// of squared mean grain diameters: on a smaller area a handful of grains carries no pressure
+// Least contact area over the squared mean grain diameter: on a smaller one a handful of grains
+// carries no pressure
 constexpr double min_area = 9.0;
 
 }  // namespace

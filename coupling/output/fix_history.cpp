@@ -97,7 +97,7 @@ void FixHistory::warn_of_long_intervals() {
 void FixHistory::take_folder() {
   if (comm->me != 0) return;
   if (!resume_time_) make_results_folder(options());
-  std::error_code absent;  // the folder of a run that continues: open() says what is missing
+  std::error_code absent;  // the folder of a run that continues: open() reports a missing one
   for (FixHistory* other : fixes_of<FixHistory>(*modify))
     if (other->lock_ && std::filesystem::equivalent(other->in_folder("."), in_folder("."), absent))
       lock_ = other->lock_;

@@ -265,7 +265,7 @@ void FixBedWindow::take_out(std::int64_t slab, const std::vector<std::size_t>& f
     const bool at_seam_too = from_middle(x) < outer;
     if (slab_of(x) == slab || is_frozen(i) ||
         (at_seam_too && (overlaps(i, at_seam) || overlaps_new_surface(i)))) {
-      remove_grain(*lmp, i);  // another one comes to this index
+      remove_grain(*lmp, i);  // another one takes this index
       --inserted_minus_removed_;
     } else {
       ++i;

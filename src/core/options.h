@@ -58,7 +58,7 @@ struct Alias {
 
   std::string former;
   std::string key;
-  Translation translation = nullptr;  ///< of the former value; none: the value means the same
+  Translation translation = nullptr;  ///< from the old value; none: it means the same
 };
 
 /// For a flag whose former name meant the opposite: "yes" becomes "no"; other words stay.

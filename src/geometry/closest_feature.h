@@ -35,18 +35,16 @@ struct ContactCandidate {
   ClosestPoint point;
   int triangle;        ///< global triangle number
   Vector3i nodes;      ///< its global nodes
-  int tag;             ///< whatever the caller needs to find the triangle again
+  int tag;             ///< mark by which the caller finds the triangle again
   bool owned = false;  ///< by a closer triangle; set by the selection
 };
 
 /// Decides which candidates of one sphere are contacts:
 ///  1. an edge or corner is no contact if a triangle that contains it has a closer point; if
-///  several
-///     triangles report it at equal distance, it counts once;
+///     several triangles report it at equal distance, it counts once;
 ///  2. of two contacts on triangles that share a node and whose normals differ by less than the
-///  merge
-///     angle, only the deeper one remains: the facets represent one smooth surface. A sharper
-///     valley keeps both contacts.
+///     merge angle, only the deeper one remains: the facets represent one smooth surface. A
+///     sharper valley keeps both contacts.
 /// The decision uses the present shape only, so the surface may bend freely.
 class ContactSelection {
  public:

@@ -25,8 +25,8 @@ enum : std::size_t {
   z,         ///< position [m]
   velocity,  ///< four numbers, the last is unused [m/s]
   affine,    ///< C, three columns of four numbers [1/s]
-  /// what the grid did not take when the interval began (terrain_step.h), of the velocity [m/s] and
-  /// of the spin [1/s]: four numbers each, the last unused
+  /// residual motion, which the grid did not take when the interval began (terrain_step.h), as
+  /// velocity [m/s] and spin [1/s]: four numbers each, the last unused
   residual,
   volume,  ///< in the reference configuration [m^3]
   quadrature_x,

@@ -82,13 +82,12 @@ struct TerrainParameters {
   bool surface_mesh = false;               ///< carries triangles on its free surface, for grains
   std::size_t surface_mesh_every = 1;      ///< particles from node to node of these triangles
   bool multirate = false;  ///< one step for as many of these grains as the stable step holds
-  /// of active_ground.h; 0: all of the ground is computed
+  /// tolerance of active_ground.h; 0: all of the ground is computed
   double sleep_tolerance = 0.0;
   bool window = false;  ///< moves along x with what ContinuumTerrain::follow() names
-  /// that its length is cut into: with a surface mesh it moves on by one at a time; else 0, by
-  /// cells
+  /// parts of its length: with a surface mesh it moves on by one at a time; else 0, by cells
   std::size_t slabs = 0;
-  /// how the ranks share the ground; without it choose_layout()
+  /// blocks of the ranks; without them choose_layout()
   std::optional<BlockLayout> blocks = {};
 
   /// First and last layer of a patch; of the ground before all patches for 0.

@@ -13,9 +13,8 @@
 ///     sum_nodal_forces    f_i += contact forces; sums over the ranks
 ///     accelerate_nodes    v_i += dt (f_i/m_i + g), slide surface, boundary conditions on v_i
 ///     move_nodes          u_i += dt v_i
-///     update_particles    strain H = dt sum v_i G_i^T, material with H, f_i of the new stress;
-///     with
-///                         the means of cell_average.h
+///    update_particles    strain H = dt sum v_i G_i^T, material with H, f_i of the new stress;
+///                        with the means of cell_average.h
 ///   end_step, the last    grid_to_particles: x_p += sum N_i u_i, and v_p, C_p from v_i and r, w
 /// Velocities are those of half steps (leapfrog, as in LIGGGHTS); all is in double precision.
 ///

@@ -214,11 +214,10 @@ void press(Tyre& tyre, const Request& request) {
     report(tyre, load, settle_under(load, tyre, plane, options), &plane, request);
 }
 
-constexpr double least_share = 1e-3;  // of the largest load: below, the tyre hardly comes to rest
+constexpr double least_share = 1e-3;  // of the largest load: below, the tyre hardly settles
 
 /// Refuses a load that the pressure and the tyre's own stiffness cannot carry on the area of the
-/// tread seen from above.
-/// Refuses a load that is tiny compared with it, perhaps in kN.
+/// tread seen from above, and a load that is tiny compared with it, perhaps in kN.
 /// @param width, diameter of the tread [m]
 /// @param pressure [Pa]
 void check_loads(double width, double diameter, double pressure, const Request& request) {

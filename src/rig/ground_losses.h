@@ -43,7 +43,7 @@ struct GroundLosses {
   double press = 0.0;       ///< of this wheel on grains, by vertical forces
   double push = 0.0;        ///< of this wheel on grains, by horizontal forces and torques
   double friction = 0.0;    ///< of this wheel with its ground
-  /// of its contact with a continuum; with grains, what normal springs, dampers and rolling
+  /// damping of its contact with a continuum; with grains, what normal springs, dampers and rolling
   /// friction take
   double contact_damping = 0.0;
   /// energy that the springs of its contact with continuum or plane hold, or held when their

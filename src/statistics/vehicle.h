@@ -8,11 +8,12 @@
 
 namespace furrow {
 
-/// Over the stretch of time in which all wheels are steady.
+/// Resistance of a vehicle over the stretch of time in which all wheels are steady.
 struct VehicleResistance {
   Window window;                   ///< of the first wheel
   std::vector<Resistance> wheels;  ///< each over that stretch
-  /// of all wheels: force_z [N], resistance_coefficient, drawbar_pull [N]; sums, ratios of sums
+  /// values for all wheels: force_z [N], resistance_coefficient, drawbar_pull [N]; sums, ratios of
+  /// sums
   std::vector<SteadyValue> values;
   ResistanceParts parts;  ///< of all wheels
 };

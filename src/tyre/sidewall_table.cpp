@@ -65,7 +65,7 @@ void SidewallTable::build() {
       for (int k = 0; k < axes[2].nodes; ++k) {
         const SidewallEnd end =
             end_at(axes[0].node(i), axes[1].node(j), axes[2].node(k), chain_.parameters().length);
-        angles.resize(0);  // every node from the arc: the same branch whatever the order
+        angles.resize(0);  // every node from the arc: the same branch in any order
         potential.push_back(chain_.solve(end, pressure_, angles, false).potential);
       }
   spline_ = QuinticSpline3::through(axes, potential);

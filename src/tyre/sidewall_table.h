@@ -32,8 +32,7 @@ class SidewallTable : public Sidewall {
  public:
   /// Solves the chain at every node of the grid, and compares with it between the nodes.
   /// @throws InputError for bad parameters; StateError for a pressure < 0, a bad grid, a node
-  /// without stable
-  ///         equilibrium, or forces that differ from the chain's by more than 0.5 % (rms)
+  /// without stable equilibrium, or forces that differ from the chain's by more than 0.5 % (rms)
   SidewallTable(const SidewallParameters& parameters, double pressure,
                 const SidewallTableGrid& grid = {});
   /// With the coefficients() of an equal table, from a file. @throws as above
