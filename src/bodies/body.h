@@ -19,7 +19,7 @@ struct EnergyBudget {
   double dissipated_energy = 0.0;      ///< [J] inside the body
   double contact_work = 0.0;           ///< [J] done on the body by its surface forces
   double load_work = 0.0;              ///< [J] done on the body by loads and gravity
-  /// [J] done on the body by whatever prescribes its motion or torque
+  /// work [J] on the body by the drive that prescribes its motion or torque
   double drive_work = 0.0;
   /// [J] kinetic energy that the discretisation removes; < 0: it adds energy
   double numerical_loss = 0.0;
@@ -41,7 +41,8 @@ class Body {
 
   /// Largest step that is stable with the present state [s]; infinity for a rigid body.
   virtual double stable_time_step() const = 0;
-  /// One step under surface().f (held constant) and the body's own loads. @throws StateError
+  /// Advances by one step under surface().f (held constant) and the body's own loads. @throws
+  /// StateError
   virtual void advance(double dt) = 0;
   /// Called around the steps that make up an interval of the system: what a body reports of "the
   /// last step" is then the mean over the interval. Where it is touched, contacts read surface() in

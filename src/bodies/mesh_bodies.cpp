@@ -73,7 +73,8 @@ Vector3 axis_of_revolution(const MassProperties& of) {
 /// @returns the rotation from the axes of the file, with 'axis' along the unit vector `target`
 Matrix3 attitude_of(const Options& options, const Vector3& target) {
   const Vector3 axis = direction_from(options, "axis");
-  // From half angles. Eigen's FromTwoVectors would compile a singular value decomposition for this.
+  // Quaternion from half angles; Eigen's FromTwoVectors would compile a singular value
+  // decomposition.
   Quaternion rotation;
   rotation.w() = 1.0 + axis.dot(target);
   rotation.vec() = axis.cross(target);
@@ -105,7 +106,7 @@ void place(const Options& options, const Vector3& target, SolidMesh& mesh) {
       (attitude_of(options, target) * (x.colwise() - vector_from(options, "origin")));
 }
 
-/// With the axle along y through the origin.
+/// Mesh of a wheel with the axle along y through the origin.
 class MeshWheel {
  public:
   /// @param proposal  keywords of a balanced wheel
@@ -198,7 +199,7 @@ class MeshWheel {
   std::vector<std::string> doubts_;
 };
 
-/// [m^2] horizontal projection of the facets that face down
+/// Horizontal projection of the facets that face down [m^2].
 double area_from_below(const Surface& surface) {
   double area = 0.0;
   for (std::size_t t = 0; t < surface.triangle_count(); ++t)

@@ -13,7 +13,7 @@
 
 namespace furrow {
 
-/// Where the file of a wheel has its axle.
+/// Place and unit of a wheel in its mesh file.
 struct MeshPlacement {
   double scale = 1.0;                ///< [m] of a unit of the file
   Vector3 origin = Vector3::Zero();  ///< in the coordinates of the file
@@ -23,7 +23,7 @@ struct MeshPlacement {
 /// The unit that gives a usual size, the centre of mass and the axis of revolution, rounded to what
 /// a person would write.
 MeshPlacement propose_placement(const Surface& surface);
-/// As a line has it: "scale 0.001 origin 0 0 0 axis 0 0 1".
+/// Keywords of a line: "scale 0.001 origin 0 0 0 axis 0 0 1".
 std::string keywords(const MeshPlacement& placement);
 
 /// Unit vector along the three numbers of a key. @throws InputError for three zeros

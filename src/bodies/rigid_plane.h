@@ -33,12 +33,12 @@ class RigidPlane {
 
   const VectorX& area() const { return area_; }          ///< [m^2] of every node
   const VectorX& pressure() const { return pressure_; }  ///< [Pa] normal, of the last press_on
-  /// [J] dissipated by sliding friction since the start
+  /// Energy dissipated by sliding friction since the start [J].
   double friction_loss() const { return friction_loss_; }
-  /// [N] on the surface, of the last press_on
+  /// Force on the surface in the last press_on [N].
   Vector3 total_force() const { return total_; }
   const RigidPlaneParameters& parameters() const { return parameters_; }
-  /// Where nodes stick, their areas, and what the last press_on() found.
+  /// Saves where nodes stick, their areas, and the results of the last press_on().
   void checkpoint(Checkpoint& state);
 
  private:

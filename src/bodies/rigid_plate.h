@@ -25,7 +25,7 @@ class RigidPlate : public Body {
   /// @param surface about the point that starts at centre [m]
   RigidPlate(const PlateGeometry& geometry, Surface surface, const Vector3& centre);
 
-  /// From the next step on. @param velocity [m/s] @param spin about z [rad/s]
+  /// Sets the motion from the next step on. @param velocity [m/s] @param spin about z [rad/s]
   /// @throws StateError when one is not finite
   void prescribe(const Vector3& velocity, double spin = 0.0);
   /// @param velocity upwards [m/s]

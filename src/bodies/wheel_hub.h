@@ -79,7 +79,7 @@ class WheelHub : public Body {
 
   const Vector3& centre() const { return centre_; }      ///< [m] of the axle
   const Vector3& velocity() const { return velocity_; }  ///< [m/s] half a step ago
-  /// [m or rad] the spin is not wrapped at 2 pi
+  /// Position along a coordinate [m or rad]; the spin is not wrapped at 2 pi.
   double position(Coordinate coordinate) const;
   double rate(Coordinate coordinate) const;  ///< [m/s or rad/s] half a step ago
   /// unit vector, +y for an upright wheel that runs along x
@@ -87,7 +87,7 @@ class WheelHub : public Body {
   Matrix3 attitude() const;                                   ///< R
   const Vector3& angular_velocity() const { return omega_; }  ///< [rad/s] in space, half a step ago
   const Vector3& load() const { return load_; }               ///< [N]
-  /// [m/s] of a point [m] that moves with the wheel as a rigid body, half a step ago
+  /// Velocity [m/s] of a point [m] that moves with the wheel as a rigid body, half a step ago.
   Vector3 velocity_at(const Vector3& point) const {
     return velocity_ + omega_.cross(point - centre_);
   }
@@ -95,39 +95,39 @@ class WheelHub : public Body {
   /// the last step or interval. For a free spin it is the axle torque, for a free x or y the
   /// inertial force of the dragged mass, for other free coordinates zero.
   double constraint(Coordinate coordinate) const { return constraint_[coordinate]; }
-  /// [J] dissipated by the vertical damping since the start
+  /// Energy dissipated by the vertical damping since the start [J].
   double damping_loss() const { return dissipated_; }
   void begin_interval(bool touched) override;
   void end_interval() override;
 
-  /// [m] of the unloaded wheel without grousers; defines the rim speed
+  /// Radius of the unloaded wheel without grousers [m]; defines the rim speed.
   virtual double nominal_radius() const = 0;
-  /// [m] largest distance of the unloaded wheel from its axle, grousers included
+  /// Largest distance of the unloaded wheel from its axle, grousers included [m].
   virtual double tip_radius() const { return nominal_radius(); }
   /// number of equal sectors of the wheel, each with a grouser; 0 for a smooth one
   virtual int grousers() const { return 0; }
-  /// [m] of the part that rolls on the ground, unloaded: of a tyre its tread or carcass
+  /// Width [m] of the part that rolls on the ground, unloaded: of a tyre its tread or carcass.
   virtual double nominal_width() const = 0;
-  /// [m] z of the lowest point of the unloaded shape without grousers; defines the hub drop
+  /// Lowest z of the unloaded shape without grousers [m]; defines the hub drop.
   virtual double lowest_point() const = 0;
-  /// [m] by which the loaded surface lies above lowest_point(); 0 for a rigid wheel
+  /// Height of the loaded surface above lowest_point() [m]; 0 for a rigid wheel.
   virtual double deflection() const { return 0.0; }
   /// Sum over all contacts of the wheel now; of a half model, for the whole.
   virtual Wrench ground_wrench() const {
     return {surface().total_force(), surface().total_moment(centre_)};
   }
-  /// [kg] of all that moves with the wheel
+  /// Mass of everything that moves with the wheel [kg].
   virtual double total_mass() const { return inertia_.mass; }
 
  protected:
   /// @param name names the wheel in errors
   WheelHub(const HubParameters& parameters, const std::string& name);
 
-  /// One step of the hub under a force and its moment about the axle centre [N, N m].
+  /// Advances the hub by one step under a force and its moment about the axle centre [N, N m].
   /// @throws StateError for values that are not finite and for a wheel that fell over
   void advance_hub(double dt, const Vector3& force, const Vector3& moment);
   double hub_energy() const;  ///< kinetic [J]
-  /// [J] of the forces and moments passed to advance_hub
+  /// Work of the forces and moments passed to advance_hub [J].
   double given_work() const { return given_work_; }
   EnergyBudget hub_budget() const;  ///< without contact_work
   /// Called when the hub was placed elsewhere: all that moves with it follows as a rigid body,
@@ -160,7 +160,7 @@ class WheelHub : public Body {
   double axle_torque_ = 0.0;                  // [N m]
   double vertical_damping_ = 0.0;             // [N s/m]
   double dragged_mass_ = 0.0;                 // [kg] along x and y
-  // [J] since the start
+  // work since the start [J]
   double given_work_ = 0.0;
   double load_work_ = 0.0;
   double drive_work_ = 0.0;

@@ -23,9 +23,9 @@ namespace furrow {
 
 class Checkpoint {
  public:
-  /// For saving. @param owner names the part in errors: "fix wheel"
+  /// Begins a checkpoint for saving. @param owner names the part in errors: "fix wheel"
   explicit Checkpoint(std::string owner) : owner_(std::move(owner)) {}
-  /// For restoring. @param bytes result of bytes(); copied
+  /// Begins to restore a checkpoint. @param bytes result of bytes(); copied
   /// @throws Error for bytes that no Checkpoint wrote, that are cut short or were altered
   Checkpoint(std::string owner, const char* bytes, std::size_t size);
 
@@ -82,7 +82,7 @@ class Checkpoint {
 
   /// Everything saved, with a header that holds its length and a checksum.
   std::vector<char> bytes() const;
-  /// The same, to be read.
+  /// Copy of this checkpoint for reading.
   Checkpoint reread() const;
   /// Call it at the end of reading. @throws Error when something was not read
   void finish() const;

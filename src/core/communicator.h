@@ -46,7 +46,7 @@ class Communicator {
 
   /// The numbers of all ranks, in rank order, on every rank.
   std::vector<double> gather(const std::vector<double>& numbers) const;
-  /// The same on the first rank; nothing on the others.
+  /// Gathers the numbers on the first rank; nothing on the others.
   std::vector<double> gather_to_first(const std::vector<double>& numbers) const;
 
  private:

@@ -7,7 +7,7 @@
 
 namespace furrow {
 
-/// "did you mean 'beta'?" for the word that is at most two letters from the given one, else "".
+/// Hint "did you mean 'beta'?" for a word that is at most two letters from the given one, else "".
 std::string did_you_mean(const std::vector<std::string>& words, const std::string& given);
 
 }  // namespace furrow

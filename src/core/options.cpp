@@ -47,7 +47,7 @@ std::string doubt_of(const Key& key, const std::vector<double>& numbers) {
   return {};
 }
 
-/// Why a text is no number.
+/// Reason why a text is no number.
 std::string no_number(const std::string& text) {
   double value = 0.0;
   const char* begin = text.data() + (!text.empty() && text.front() == '+' ? 1 : 0);

@@ -61,7 +61,7 @@ struct Alias {
   Translation translation = nullptr;  ///< from the old value; none: it means the same
 };
 
-/// For a flag whose former name meant the opposite: "yes" becomes "no"; other words stay.
+/// Translates a flag whose former name meant the opposite: "yes" becomes "no"; other words stay.
 std::string inverted_flag(const std::string& value);
 
 /// One key with its values as text, as found in a script or a file.
@@ -153,7 +153,7 @@ class Options {
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// The effective values, defaults included, in the order of declaration: "key value ...".
   std::vector<Entry> effective() const;
-  /// "fix wheel/rigid, keyword 'mass'", after the key's origin if it has one; to build an
+  /// Place of a key, "fix wheel/rigid, keyword 'mass'", after its origin if it has one; to build an
   /// InputError about a combination of keys.
   std::string where(const std::string& key) const;
 

@@ -13,7 +13,7 @@ class TimeLeft {
   /// @param done share of the job, 0 ... 1, not less than before; @param elapsed [s] since its
   /// start
   void note(double done, double elapsed);
-  /// [s]; 0 before anything was noted
+  /// Estimate of the time left [s]; 0 before anything was noted.
   double estimate() const;
 
  private:

@@ -20,15 +20,15 @@ struct UsualRange {
   std::string hint;  ///< how other units become this one: "kPa times 1000"
 
   bool contains(double value) const { return range.contains(value) || (zero && value == 0.0); }
-  /// "give SI units: g/cm3 times 1000"
+  /// Remedy for an unusual value: "give SI units: g/cm3 times 1000".
   std::string remedy() const;
-  /// "is 0.3 kg/m3; usual is 40 to 3000 kg/m3; give SI units: g/cm3 times 1000"; empty for a usual
-  /// value
+  /// Warning: "is 0.3 kg/m3; usual is 40 to 3000 kg/m3; give SI units: g/cm3 times 1000"; empty for
+  /// a usual value.
   std::string doubt(double value) const;
 };
 
 const std::vector<UsualRange>& usual_ranges();
-/// Null for a key that the table does not have in this unit.
+/// Finds the range of a key; null if the table does not have it in this unit.
 const UsualRange* find_usual_range(const std::string& key, const std::string& unit);
 /// @throws Error for a key that the table does not have
 const UsualRange& usual_range(const std::string& key);

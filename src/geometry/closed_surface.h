@@ -8,13 +8,13 @@
 
 namespace furrow {
 
-/// Empty when every edge belongs to two triangles that run through it in opposite directions.
-/// Otherwise it names an edge that does not: "the edge of nodes 3 and 7 belongs to one triangle:
-/// the surface is open there".
+/// Fault of an open surface; empty when every edge belongs to two triangles that run through it in
+/// opposite directions. It names an edge that does not: "the edge of nodes 3 and 7 belongs to one
+/// triangle: the surface is open there".
 std::string closedness_problem(const Surface& surface);
 
-/// For bodies whose volume or inside has a meaning. @throws StateError with the problem, if there
-/// is one
+/// Checks a body whose volume or inside has a meaning. @throws StateError with the problem, if
+/// there is one
 void check_closed(const Surface& surface, const std::string& body);
 
 }  // namespace furrow

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Where a sphere touches a bending surface: closest points on triangles, and which of them are
-/// contacts.
+/// Contacts of a sphere with a bending surface: closest points on triangles, and the choice among
+/// them.
 
 #include <algorithm>
 #include <cmath>

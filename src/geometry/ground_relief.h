@@ -57,7 +57,7 @@ class GroundRelief {
   GroundRelief(ReliefParameters parameters, const std::string& where);
 
   bool flat() const { return flat_; }
-  /// [m] @throws InputError outside of a heightmap
+  /// Height at a place [m]. @throws InputError outside of a heightmap
   double height(double x, double y) const { return profile(x) + map_height(x, y); }
   double profile(double x) const;               ///< of all shapes but the heightmap [m]
   double map_height(double x, double y) const;  ///< [m] @throws InputError outside of it
@@ -88,7 +88,7 @@ class GroundRelief {
 
 /// The keys of a relief but for those of its heightmap's file, which are read by io.
 void declare_relief(Schema& schema);
-/// The same from a line. @param heightmap  of the file that the line names
+/// Relief from the keys of a line. @param heightmap  of the file that the line names
 GroundRelief relief_from(const Options& options, std::shared_ptr<const Heightmap> heightmap);
 
 }  // namespace furrow

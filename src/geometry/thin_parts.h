@@ -16,7 +16,7 @@
 
 namespace furrow {
 
-/// Where a point is with respect to a thin part.
+/// Place of a point with respect to a thin part.
 struct PlaceAtPart {
   double distance = 0.0;             ///< from the face that stands for the part [m]
   double height = 0.0;               ///< over the middle surface, or its tangent beyond an end [m]

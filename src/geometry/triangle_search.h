@@ -34,7 +34,7 @@ class TriangleSearch {
   std::vector<int> triangles_;
 };
 
-/// Which triangles meet at a node.
+/// Triangles that meet at each node.
 class NodeTriangles {
  public:
   explicit NodeTriangles(const Surface& surface);

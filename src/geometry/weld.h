@@ -9,7 +9,7 @@
 
 namespace furrow {
 
-/// For every node the lowest number of all nodes at the same place, periodic images included.
+/// Finds for every node the lowest number of all nodes at the same place, periodic images included.
 /// @param period [m] of each axis; 0 for an axis without periodicity
 /// @param tolerance [m] largest distance of nodes that are the same
 std::vector<int> weld_nodes(const Matrix3X& x, const Vector3& period, double tolerance);

@@ -84,7 +84,7 @@ struct SnowBondEnergy {
 
 struct SnowBondResponse {
   Vector3 force = Vector3::Zero();  ///< [N] on i; j has the opposite
-  /// [N m] on i in addition to that of the force; j has the opposite
+  /// moment on i in addition to that of the force [N m]; j has the opposite
   Vector3 moment = Vector3::Zero();
   bool broken = false;  ///< in this step
   bool made = false;    ///< in this step

@@ -26,7 +26,7 @@ class SnowBondStep {
   SnowBondResponse advance(SnowBondEnergy* energy);
 
  private:
-  /// Where this normal force is left.
+  /// Strength of the contact when this normal force is left.
   SnowStrength strength(double normal) const {
     return SnowBond::strength(law_, d_, growth_.after(trial_.normal - normal));
   }
@@ -153,7 +153,7 @@ inline void SnowBondStep::slip() {
   normal_ = normal_at(shear_left_);
 }
 
-/// To the crush surface, along the force.
+/// Returns the normal force to the crush surface, along the force.
 inline void SnowBondStep::crush() {
   const auto excess = [&](double normal) {
     return Excess{normal - strong_.Fy, 1.0 + strong_.dFy * softness_};

@@ -11,11 +11,11 @@ namespace furrow {
 /// It need not exist.
 std::filesystem::path cache_folder();
 
-/// Why a file or folder of the cache must not be used: a link, another user's, or one that all
-/// users may write. Empty for one that may, or is not there. Root's files may be used.
+/// Reason why a file or folder of the cache must not be used: a link, another user's, or one that
+/// all users may write. Empty for one that may, or is not there. Root's files may be used.
 std::string distrust(const std::filesystem::path& path);
 
-/// 16 hexadecimal digits for a text: FNV-1a (Fowler, Noll, Vo), 64 bits. A name, not a safeguard.
+/// Name of 16 hexadecimal digits for a text: FNV-1a (Fowler, Noll, Vo), 64 bits. No safeguard.
 std::string content_hash(const std::string& text);
 
 }  // namespace furrow

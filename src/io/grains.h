@@ -27,10 +27,10 @@ struct Grains {
   std::size_t size() const { return id.size(); }
   void resize(std::size_t grains);  ///< all arrays but virial, zeroed
 
-  /// How far every grain has moved since the reference was taken, 3 x grains [m]: matched by id,
+  /// Displacement of every grain since the reference was taken, 3 x grains [m]: matched by id,
   /// shortest way round a periodic box. A grain that the reference lacks has moved by NaN.
   Matrix3X displacement_from(const Grains& reference) const;
-  /// From a place to its image among these grains, that nearest to their middle [m]: of a body that
+  /// Shift [m] from a place to its image nearest to the middle of these grains, for a body that
   /// goes round and round in a periodic box. Zero where there are no grains.
   Vector3 shift_to_image(const Vector3& place) const;
   /// @throws StateError when the arrays differ in length, an id is there twice, or a number is not

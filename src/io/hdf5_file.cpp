@@ -84,7 +84,7 @@ struct Shape {
   std::vector<hsize_t> extent;
 };
 
-/// In a creation property list: the numbers lie in chunks with checksums, so that a file that was
+/// Sets a creation property list to store numbers in chunks with checksums, so that a file that was
 /// damaged later is refused when it is read.
 void keep_in_checked_chunks(hid_t properties, const std::vector<hsize_t>& chunk) {
   H5Pset_chunk(properties, int(chunk.size()), chunk.data());

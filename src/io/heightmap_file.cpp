@@ -82,8 +82,8 @@ std::string lower_case(std::string_view word) {
   return text;
 }
 
-/// Before memory is taken for them: a height has a digit and a blank at least, the last one a
-/// digit.
+/// Checks the length of a text before memory is taken for its heights: one has a digit and a blank
+/// at least, the last one a digit.
 void check_length(const TextLines& lines, const std::string& text, double count) {
   const double most = std::floor(0.5 * (static_cast<double>(text.size()) + 1.0));
   if (count <= most) return;
@@ -93,7 +93,8 @@ void check_length(const TextLines& lines, const std::string& text, double count)
       "the file is cut short, or its header is wrong");
 }
 
-/// From the north down; the header gives the corner or the centre of the cell in the south-west.
+/// Reads rows from the north down; the header gives the corner or the centre of the cell in the
+/// south-west.
 Heightmap read_grid(TextLines& lines, const std::string& text) {
   std::map<std::string, double> header;
   while (std::isalpha(static_cast<unsigned char>(lines.words().front().front())) != 0 &&

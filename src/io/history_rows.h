@@ -10,7 +10,7 @@ namespace furrow {
 
 class Hdf5File;
 
-/// Where a channel's numbers are: "/history/<name>".
+/// Name of the dataset of a channel: "/history/<name>".
 std::string dataset_of(const Channel& channel);
 /// @throws Error where there are none, columns differ in length, or time does not run forwards
 History read_rows(const Hdf5File& file);

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How many bytes the UTF-8 character at the start of a text has; 0 when there is none (The Unicode
+/// Number of bytes of the UTF-8 character at the start of a text; 0 when there is none (The Unicode
 /// Standard, table 3-7).
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) {

@@ -90,7 +90,8 @@ Number number_at(const std::string& bytes, std::size_t place) {
   return number;
 }
 
-/// By its length; the first word is no proof: some programs begin binary files with "solid".
+/// Recognises binary STL by its length; the first word is no proof: some programs begin binary
+/// files with "solid".
 bool is_binary_stl(const std::string& bytes) {
   return bytes.size() >= stl_head &&
          bytes.size() == stl_head + stl_facet * std::size_t(number_at<std::uint32_t>(bytes, 80));
@@ -120,7 +121,7 @@ MeshFacets read_binary_stl(const std::string& path, const std::string& bytes) {
   return read;
 }
 
-/// "7", "7/1/3" or "-1", counted back from the last point, as the number of a point.
+/// Number of a point from "7", "7/1/3" or "-1", which is counted back from the last point.
 int obj_point(const MeshLines& lines, std::string_view word, std::size_t points) {
   const std::string_view digits = word.substr(0, word.find('/'));
   long number = 0;

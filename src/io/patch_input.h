@@ -23,7 +23,7 @@ struct PatchesInput {
 
 /// @param soil  what stands behind a place
 void declare_patches(Schema& schema, const std::string& soil);
-/// "along:0.5:soft.yaml;along:1.5:firm.yaml". @throws InputError
+/// Reads patches such as "along:0.5:soft.yaml;along:1.5:firm.yaml". @throws InputError
 PatchesInput read_patches(const Options& options);
 
 }  // namespace furrow

@@ -24,10 +24,10 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
 }
 
-/// 4.5e-05 as a share of 1: "0.0045 %".
+/// Text of a share of 1: 4.5e-05 is "0.0045 %".
 std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
 
-/// 1.3e6 Pa: "1.3 MPa", with four digits.
+/// Text of a pressure: 1.3e6 Pa is "1.3 MPa", with four digits.
 std::string pascals(double value) {
   const double size = std::abs(value);
   if (size >= 1e9) return fmt::format("{:.4g} GPa", value * 1e-9);

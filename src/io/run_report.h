@@ -11,7 +11,7 @@
 
 namespace furrow {
 
-/// How a run came about. Written when it starts.
+/// Origin of a run: its script, programs and settings. Written when it starts.
 struct RunInfo {
   std::string title;  ///< the scene: "rigid wheel on sand"
   std::string version = furrow::version();
@@ -42,7 +42,7 @@ struct Audit {
   double moment_imbalance = 0.0;  ///< [N m] the same of moments
   double moment_scale = 0.0;      ///< [N m]
 
-  /// The terms, their residual and their scale.
+  /// Sets the terms, their residual and their scale.
   void set_energies(std::vector<EnergyTerm> terms, double residual);
 };
 

@@ -13,11 +13,11 @@
 namespace furrow {
 
 struct SoilCard {
-  /// By the names k_c, k_phi, n, c, phi [degrees], K, stiffness and damping; SI units.
+  /// Values by the names k_c, k_phi, n, c, phi [degrees], K, stiffness and damping; SI units.
   std::map<std::string, double> values;
   GroundContact contact;
   std::optional<double> gravity;  ///< [m/s^2] of the tests, where alone the values hold
-  // where the plates were tested; without limits where the card has none
+  // Limits of the plate tests; infinite where the card has none.
   double deepest = std::numeric_limits<double>::infinity();           ///< sinkage [m]
   double largest_pressure = std::numeric_limits<double>::infinity();  ///< [Pa]
 };

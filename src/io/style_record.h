@@ -31,8 +31,8 @@ std::vector<std::pair<std::string, std::vector<StyleRecord::Value>>> typed_value
 /// A number where the text reads as one, else the text.
 StyleRecord::Value typed_value(const std::string& text);
 
-/// [{"id": ..., "group": ..., "style": ..., "kind": ..., "options": {key: [values]}}, ...], a line
-/// for each style.
+/// Text of JSON, a line for each style: [{"id": ..., "group": ..., "style": ..., "kind": ...,
+/// "options": {key: [values]}}, ...].
 std::string styles_json(const std::vector<StyleRecord>& styles);
 
 }  // namespace furrow

@@ -64,7 +64,7 @@ std::string answer_table(const Resistance& r) {
   return text;
 }
 
-/// "hub drop 101.1 ± 0.2 mm"; depths in mm, errors of two digits below 1.5 alone.
+/// Text of a value: "hub drop 101.1 ± 0.2 mm"; depths in mm, errors of two digits below 1.5 alone.
 std::string value_text(const SteadyValue& value) {
   const bool depth = value.unit == "m";
   const double scale = depth ? 1e3 : 1.0, error = scale * value.standard_error;

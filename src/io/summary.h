@@ -17,11 +17,11 @@ namespace furrow {
 struct Summary {
   RunInfo info;
   Resistance resistance;  ///< of the first pass where there are several
-  /// each pass of several in one rut; empty for a single one
+  /// results of each pass of several in one rut; empty for a single one
   std::vector<Resistance> passes;
   /// meaning of the values that are means of a channel, by name
   std::map<std::string, std::string> definitions;
-  /// why there is no resistance ("the history ends before the cruise"); empty if there is
+  /// reason why there is no resistance ("the history ends before the cruise"); empty if there is
   std::string trouble;
   RunClosing closing;
   bool closed = false;
@@ -32,8 +32,9 @@ struct Summary {
 /// @throws Error when the file is missing or cannot be read
 Summary summarise(const std::string& folder, const ResistanceOptions& options = {});
 
-/// At most 91 characters: the value that the run was made for and the hub drop, with their errors
-/// over time, and whether they are steady. The summary's line "Verdict: ..." has at most 100.
+/// Verdict of at most 91 characters: the value that the run was made for and the hub drop, with
+/// their errors over time, and whether they are steady. The summary's line "Verdict: ..." has at
+/// most 100.
 std::string verdict_of(const Summary& summary);
 
 /// Two lines: what is not in these errors, and the command that adds it.

@@ -94,7 +94,7 @@ void check_thicknesses(const std::vector<TerrainLayer>& layers, bool all_have_on
                      "change 'depth' or a thickness; the lowest layer needs none");
 }
 
-/// "crust.yaml:0.03,snow.yaml": from the top, each but the last with its thickness.
+/// Reads layers "crust.yaml:0.03,snow.yaml" from the top, each but the last with its thickness.
 /// @param key  that has them
 std::vector<TerrainLayer> read_layers(const Options& options, const std::string& key,
                                       const std::string& text,
@@ -126,7 +126,7 @@ std::vector<TerrainLayer> read_layers(const Options& options, const std::string&
 }
 
 /// Appends the layers of the patches. @throws InputError for a patch beyond the ground, and for
-/// what knows one ground only
+/// options that need uniform ground
 void read_patches_of(const Options& options, const std::string& folder, TerrainParameters& ground) {
   const PatchesInput patches = read_patches(options);
   if (patches.list.empty()) return;

@@ -12,7 +12,7 @@ struct Unit {
   double factor;     ///< of SI units in this one
 };
 
-/// "kPa", "kN/m²", "percent"; null for what is none.
+/// Finds a unit by its name, such as "kPa", "kN/m²", "percent"; null for other texts.
 const Unit* find_unit(const std::string& text);
 
 /// All units of a kind, for messages.

@@ -13,7 +13,7 @@ namespace furrow {
 
 namespace {
 
-/// Where a document begins, and whether it holds anything.
+/// Finds the place where a document begins, and whether it holds anything.
 class DocumentStart : public YAML::EventHandler {
  public:
   using Mark = YAML::Mark;

@@ -5,8 +5,8 @@
 
 namespace furrow {
 
-/// "a.yaml, line 3" for the line 2 of a YAML::Mark, which counts from 0; the path alone for that of
-/// an unknown place, -1.
+/// Place "a.yaml, line 3" for the line 2 of a YAML::Mark, which counts from 0; the path alone for
+/// that of an unknown place, -1.
 std::string place(const std::string& path, int line);
 
 /// Refuses a text of several documents. Looked at document by document, because YAML::LoadAll

@@ -20,11 +20,11 @@ struct YamlTree {
   std::vector<YamlTree> items;
   std::vector<std::pair<std::string, YamlTree>> keys;
 
-  /// null when it is not there, or this is no map
+  /// Finds an entry; null when it is not there, or this is no map.
   const YamlTree* find(const std::string& key) const;
   YamlTree* find(const std::string& key);
-  /// The same, but it must be there and be a map (a list). @throws InputError saying what `meaning`
-  /// is
+  /// Finds an entry that must be there and be a map (a list). @throws InputError saying what
+  /// `meaning` is
   const YamlTree& map(const std::string& key, const std::string& meaning) const;
   const YamlTree& list(const std::string& key, const std::string& meaning) const;
 };

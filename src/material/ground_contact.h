@@ -24,7 +24,7 @@ struct BodyContact {
   std::string source;
 };
 
-/// By the name of the body's material; empty where nothing is known.
+/// Contact by the name of the body's material; empty where nothing is known.
 using GroundContact = std::map<std::string, BodyContact>;
 
 /// The materials of bodies that a ground can name.

@@ -75,7 +75,7 @@ FURROW_INLINE void find_stretch(const Symmetric& x, const Lanes& size, Symmetric
   inverse_u = commuting_product((z * Lanes(-1.0)).plus_identity(1.0), root);
 }
 
-/// The same by the series in X.
+/// Sets ln U and U^-1 by the series in X.
 FURROW_INLINE void find_small_stretch(const Symmetric& x, Symmetric& log_u, Symmetric& inverse_u) {
   const Symmetric x2 = commuting_product(x, x);
   const Symmetric log_rest = x * Lanes(1.0 / 6) - x2 * Lanes(1.0 / 8),

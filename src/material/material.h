@@ -88,7 +88,8 @@ class Material {
   /// step damps the waves that follow (terrain/continuum, remap_interval).
   virtual bool stress_has_jumps() const { return false; }
 
-  /// One step of every point of a block. Not all-or-nothing: after a throw the states of the block
+  /// Takes one step of every point of a block. Not all-or-nothing: after a throw the states of the
+  /// block
   /// are unspecified.
   /// @throws PointError when a result is not finite, Delta F is not invertible with positive
   /// determinant, the hardening data end under the rule "stop", or the law itself refuses
@@ -96,7 +97,7 @@ class Material {
 
   // ---- one point: `state` has state_fields().size() values in the order of state_fields() -------
   VectorX initial_state() const;
-  /// One step of one point. The result is that of update_block() to rounding.
+  /// Takes one step of one point. The result is that of update_block() to rounding.
   /// @param time_step  [s], as PointBlock::time_step
   /// @throws PointError
   UpdateReport update_point(const Matrix3& gradient, VectorX& state, Branch* branch = nullptr,

@@ -149,7 +149,7 @@ void doubt_densities(const MaterialOptions& sections, std::vector<std::string>& 
                     hardening->second.options.numbers("eps_vol_pl").back(), last, solid_density));
 }
 
-/// kPa or mPa for Pa.
+/// Warns of strengths in kPa or mPa in the place of Pa.
 void doubt_strengths(const MaterialOptions& sections, std::vector<std::string>& sentences) {
   const auto found = sections.find("hardening");
   if (found == sections.end()) return;

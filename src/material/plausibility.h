@@ -20,7 +20,7 @@ void check_plausible(const Material& material);
 /// each.
 std::vector<std::string> doubts(const Material& material);
 
-/// The same about the values of the sections "elasticity" and "hardening" of a material file.
+/// Warnings about the values of the sections "elasticity" and "hardening" of a material file.
 std::vector<std::string> doubts(const MaterialOptions& sections);
 
 }  // namespace furrow

@@ -56,7 +56,7 @@ struct UpdateReport {
   UpdateReport& operator+=(const UpdateReport& other);
 };
 
-/// Why a law refused a step.
+/// Reason why a law refused a step.
 enum class Failure {
   none,
   folded,      ///< Delta F is not finite, or its determinant not positive

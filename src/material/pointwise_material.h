@@ -50,7 +50,7 @@ class PointwiseMaterial : public Material {
   PointwiseMaterial(std::string name, double density,
                     const std::vector<StateVariable>& internal_variables, double pressure = 0.0);
 
-  /// One step of one point. A stress or variable that is not finite is refused by the caller.
+  /// Takes one step of one point. The caller refuses a stress or variable that is not finite.
   /// @throws StateError with the cause when the law itself must refuse the step
   virtual void step(PointStep& point) const = 0;
 

@@ -14,8 +14,8 @@ constexpr int max_pointwise_variables = 48;  ///< internal variables of one law,
 /// One point in a step. Tensors: xx, yy, zz, xy, yz, xz.
 struct PointwiseNumbers {
   double strain[6];  ///< ln U of the step
-  /// from here on: at the start of the step, to be replaced by what holds at its end, before the
-  /// rotation
+  /// State from here on: at the start of the step, to be replaced by that at its end, before the
+  /// rotation.
   double stress[6];  ///< [Pa]
   double internal[max_pointwise_variables];
   double stored;  ///< energies of the step per current volume [J/m^3]
@@ -29,7 +29,7 @@ struct PointwiseNumbers {
 
 struct PointwiseParameters {
   const void* context;  ///< for `step`
-  /// One step of one point of a block. May throw: kernels hold nothing that would be lost.
+  /// Takes one step of one point of a block. May throw: kernels hold nothing that would be lost.
   void (*step)(const void* context, std::size_t point, PointwiseNumbers& numbers);
   int internal_variables;  ///< in numbers
   const int* tensors;      ///< the first number of each internal tensor

@@ -168,7 +168,7 @@ void ActiveGround::add_motion() {
 
 // ---- decisions ------------------------------------------------------------------------------
 
-/// In place of motions, loads and losses of this rank since the last decision.
+/// Replaces motions, loads and losses of this rank since the last decision by those of all ranks.
 void ActiveGround::sum_over_ranks() {
   std::vector<double> sums;
   for (const Motion& one : motion_) {

@@ -64,7 +64,7 @@ class ActiveGround {
   /// Keeps the ground in and around a box awake, until the next decision. To be called on all
   /// ranks. [m]
   void keep_awake(const Vector3& lower, const Vector3& upper);
-  /// From the next step on [m/s^2]. To be called on all ranks.
+  /// Sets gravity from the next step on [m/s^2]. To be called on all ranks.
   void set_gravity(const Vector3& gravity) {
     gravity_changed_ |= gravity != gravity_;
     gravity_ = gravity;
@@ -73,22 +73,22 @@ class ActiveGround {
   // ---- parts of a step
   /// The forces of this rank's contacts in a step [N].
   void count_load(const Vector3& force, double dt) { load_impulse_ += dt * force; }
-  /// After the nodes have mass and velocity: those of the border lose their velocity.
+  /// Stops the nodes of the border, once nodes have mass and velocity.
   void stop_border();
   /// Counts the forces on the border, which the nodes do not follow.
   void hold_border(double dt);
-  /// At the end of an interval, before the displacements of the nodes are cleared: how the tiles
-  /// move.
+  /// Adds the motion of the tiles at the end of an interval, before the displacements of the nodes
+  /// are cleared.
   void add_motion();
 
   // ---- between two intervals; collective
   /// Decides which tiles awake or fall asleep. @return whether any does: particles must be sorted
   bool decide();
-  /// After particles were sorted.
+  /// Finds particles and nodes of the tiles again after particles were sorted.
   void rebuild();
 
   void checkpoint(Checkpoint& state);
-  /// After particles and nodes are restored.
+  /// Continues a run after particles and nodes are restored.
   void resume();
 
  private:

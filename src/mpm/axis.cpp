@@ -77,7 +77,7 @@ std::vector<double> cells_between(const AxisLayout& layout, double lower, double
   return ends;
 }
 
-/// With a knot at each edge.
+/// Knots of an axis with a knot at each edge.
 std::vector<double> knots_with_edges(const AxisLayout& layout) {
   std::vector<double> knots = {layout.lower};
   std::vector<double> ends = layout.edges;

@@ -15,7 +15,7 @@
 
 namespace furrow {
 
-/// How the cells of an axis are laid out.
+/// Layout of the cells of an axis.
 struct AxisLayout {
   double lower = 0.0;  ///< [m]
   double upper = 1.0;  ///< [m]
@@ -25,7 +25,7 @@ struct AxisLayout {
   double fine_upper = 1.0;  ///< its end [m]
   /// ratio of the lengths of neighbouring cells outside the fine stretch, >= 1
   double growth = 1.0;
-  /// where a body ends across the axis: a knot lies there, between short cells [m]
+  /// places where a body ends across the axis: a knot lies there, between short cells [m]
   std::vector<double> edges = {};
   /// length of the shortest cells at an edge [m]; they grow by a factor of at most 1.4
   double edge_cell = 0.0;
@@ -36,7 +36,7 @@ struct AxisLayout {
 struct AxisView {
   int cells;
   double lower;  ///< [m]
-  /// where particles may be [m]: the axis, or this rank's part of it
+  /// Range of the particles [m]: the axis, or this rank's part of it.
   double particles_lower;
   double particles_upper;
   /// Table to find the cell of a position: bins of equal length, no longer than the shortest cell.
@@ -61,7 +61,7 @@ class Axis {
   /// @throws InputError naming `where` for lengths or growth that make no axis
   Axis(const AxisLayout& layout, const std::string& where);
 
-  /// How many cells a layout has, without making them.
+  /// Number of cells of a layout, without making them.
   static double cell_count(const AxisLayout& layout);
 
   int cells() const { return static_cast<int>(knot_.size()) - 1; }
@@ -72,7 +72,7 @@ class Axis {
   double knot(int cell) const { return knot_[static_cast<std::size_t>(cell)]; }
   double length(int cell) const { return knot(cell + 1) - knot(cell); }  ///< [m]
   double shortest() const { return shortest_; }                          ///< length of a cell [m]
-  /// The same before any shift: with the same bits wherever the axis has gone [m].
+  /// Shortest cell before any shift [m]: with the same bits wherever the axis has gone.
   double shortest_at_start() const { return shortest_at_start_; }
   double node(int i) const { return node_[static_cast<std::size_t>(i)]; }  ///< [m]
   /// integral of the node's B-spline [m]

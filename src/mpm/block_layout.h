@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// How the ranks of a run share the ground: as rows and columns of blocks, each over the full
-/// height.
+/// Layout by which the ranks of a run share the ground: rows and columns of blocks, each over the
+/// full height.
 
 #include <string>
 

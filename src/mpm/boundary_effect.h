@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// How much the sides and the base of ground change what a body on it does: fits to the runs of the
-/// study inputs/validation/ground_size, which a test compares with its stored rows.
+/// Effect of the sides and the base of ground on the results of a body on it: fits to the runs of
+/// the study inputs/validation/ground_size, which a test compares with its stored rows.
 
 #include "material/material.h"
 

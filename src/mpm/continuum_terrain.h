@@ -60,11 +60,11 @@ class ContinuumTerrain : public Body {
   /// The triangles of a free surface mesh, if there is one; a contact presses on the particles.
   Surface& surface() override { return free_surface_.surface(); }
   EnergyBudget energy_budget() const override;
-  /// Where the work of contacts went since the start.
+  /// Work of contacts since the start, by its use.
   TerrainWork work() const { return energy_.work(boundary_.work(), ranks()); }
   /// Saves the number of particles and nodes; their values go to keep_values_in().
   void checkpoint(Checkpoint& state) override;
-  /// Before checkpoint(): where each rank keeps its particles and nodes; not owned.
+  /// Sets where each rank keeps its particles and nodes, before checkpoint(); not owned.
   void keep_values_in(RankNumbers& numbers) { rank_numbers_ = &numbers; }
   /// Size of particles and nodes in a checkpoint, of all ranks [bytes].
   double checkpoint_size() const;
@@ -92,8 +92,8 @@ class ContinuumTerrain : public Body {
 
   /// Up to date with the grid. Stresses that are changed here act from the next remap on.
   std::vector<ParticleGroup>& groups();
-  /// The same with positions and velocities that may be those of the start of the remap interval;
-  /// the rest is of now.
+  /// Groups whose positions and velocities may be those of the start of the remap interval; the
+  /// rest is of now.
   std::vector<ParticleGroup>& unsynchronised_groups() { return discretisation_.groups; }
   /// Bound of the distance by which the positions of unsynchronised_groups() lag [m].
   double staleness() const { return remap_.staleness(); }
@@ -102,7 +102,7 @@ class ContinuumTerrain : public Body {
                           std::vector<ParticleMotion>& motions);
   /// Changes whenever particles change their order.
   unsigned long generation() const { return distribution_.generation(); }
-  /// At the start of the remap interval, or seen at loaded points since [m/s].
+  /// Largest speed at the start of the remap interval, or seen at loaded points since [m/s].
   double largest_speed() const { return remap_.largest_speed(); }
   /// Applies a force [N] to the ground at a point [m] during the next step. The weights of a
   /// particle nearby spread it over the nodes.
@@ -114,7 +114,7 @@ class ContinuumTerrain : public Body {
 
   /// Keeps the ground around a surface awake; to be called before each step.
   void keep_awake_near(const Surface& surface);
-  /// Null: all of the ground is computed.
+  /// Active ground; null where all of the ground is computed.
   const ActiveGround* active() const { return active_ ? &*active_ : nullptr; }
 
   // ---- thin parts; not collective

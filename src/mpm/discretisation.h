@@ -37,7 +37,7 @@ struct Discretisation {
   void for_awake_nodes(Visit&& visit) const {
     for_blocks(awake_nodes ? &awake_nodes->all : nullptr, visit);
   }
-  /// The same for those that are not held.
+  /// Calls visit(local, owned) for the nodes of these that are not held.
   template <class Visit>
   void for_moving_nodes(Visit&& visit) const {
     for_blocks(awake_nodes ? &awake_nodes->moving : nullptr, visit);

@@ -59,7 +59,7 @@ class DividedGround {
 
   /// All ranks keep all divided nodes.
   void checkpoint(Checkpoint& state);
-  /// After particles and nodes have been restored.
+  /// Links nodes after particles and nodes have been restored.
   void resume() { link(); }
 
  private:

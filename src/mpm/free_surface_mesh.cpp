@@ -7,7 +7,7 @@ namespace furrow {
 
 namespace {
 
-/// 0, every, 2 every ..., count - 1.
+/// Places of nodes among `count` particles: 0, every, 2 every ..., count - 1.
 std::vector<std::size_t> places_of_nodes(std::size_t count, std::size_t every) {
   std::vector<std::size_t> places;
   for (std::size_t n = 0; n + 1 < count; n += every) places.push_back(n);
@@ -20,7 +20,7 @@ double outwards(std::size_t n, std::size_t last) { return n == 0 ? -1.0 : n == l
 
 }  // namespace
 
-/// From the first row to the last, along level stretches and up or down between them.
+/// Nodes from the first row to the last, along level stretches and up or down between them.
 std::vector<FreeSurfaceMesh::SectionNode> FreeSurfaceMesh::nodes_across(const TerrainFill& fill,
                                                                         std::size_t rows,
                                                                         std::size_t every) {

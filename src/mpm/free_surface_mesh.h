@@ -74,7 +74,7 @@ class FreeSurfaceMesh {
     return static_cast<Eigen::Index>((patch * along_.size() + column) * across_.size() + row);
   }
   void add_triangles(std::size_t patch);
-  /// From the particle to the node [m].
+  /// Vector from the particle to the node [m].
   Vector3 offset(const std::vector<ParticleGroup>& groups, const NodeAttachment& attachment) const;
 
   std::size_t slabs_ = 0, columns_of_slab_ = 0;  // columns of particles

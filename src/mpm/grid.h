@@ -109,11 +109,11 @@ class Grid {
 
   /// Stored ones, of all velocity fields.
   std::size_t node_count() const { return motions_.size(); }
-  /// [bytes]
+  /// Memory of a node [bytes].
   static constexpr std::size_t bytes_of_node =
       sizeof(NodeSum) + sizeof(NodeMotion) + sizeof(NodeDisplacement);
 
-  /// How many numbers save() appends for the nodes of some columns: motion and displacement.
+  /// Count of numbers that save() appends for the nodes of some columns: motion and displacement.
   std::size_t saved_length(const NodeBlock& columns) const;
   void save(RankNumbers& numbers) const;
   /// Takes from what a rank saved of its columns, from the given number on, the nodes that are

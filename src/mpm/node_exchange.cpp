@@ -18,19 +18,19 @@ class Layers {
         across_(partition.local_nodes(1 - axis, partition.own_block(1 - axis))) {}
 
   NodeRange local() const { return partition_.local_nodes(axis_, partition_.own_block(axis_)); }
-  /// Those that another block has too; none of the own block.
+  /// Nodes that another block has too; none of the own block.
   NodeRange shared(int block) const {
     if (block == partition_.own_block(axis_)) return {};
     const NodeRange mine = local(), theirs = partition_.local_nodes(axis_, block);
     return {std::max(mine.from, theirs.from), std::min(mine.to, theirs.to)};
   }
-  /// How many numbers a layer has in a field.
+  /// Count of numbers of a layer in a field.
   std::size_t length() const { return column_ * static_cast<std::size_t>(across_.size()); }
-  /// How many numbers of all fields are shared with another block.
+  /// Count of numbers of all fields that are shared with another block.
   std::size_t shared_length(int block) const {
     return length() * static_cast<std::size_t>(grid_.fields() * shared(block).size());
   }
-  /// Where a layer begins among these.
+  /// Place of a layer among the numbers shared with a block.
   std::size_t place(int block, int layer, int field) const {
     const NodeRange range = shared(block);
     return length() * static_cast<std::size_t>(field * range.size() + layer - range.from);

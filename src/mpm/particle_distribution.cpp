@@ -111,8 +111,8 @@ void ParticleDistribution::migrate() {
     for (const int axis : {0, 1}) send_along(axis, group);
 }
 
-/// To the blocks of this row (axis 0) or column (axis 1) that have the particles' cells along the
-/// axis.
+/// Sends particles to the blocks of this row (axis 0) or column (axis 1) that have their cells
+/// along the axis.
 void ParticleDistribution::send_along(int axis, ParticleGroup& group) {
   const Partition& partition = discretisation_.partition;
   if (partition.blocks(axis) == 1) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Where particles are kept: in the order of their cells in memory, and on the rank that owns the
-/// cell; and what each rank keeps of the ground in a checkpoint.
+/// Order and owners of particles: in memory by their cells, and on the rank that owns the cell; and
+/// the share of the ground that each rank keeps in a checkpoint.
 
 #include <array>
 #include <cstdint>
@@ -49,7 +49,7 @@ class ParticleDistribution {
 
     std::size_t ranks() const { return columns.size() / 4; }
     NodeBlock columns_of(std::size_t rank) const;
-    /// Where the nodes of a rank begin: so many numbers are its particles.
+    /// Place of a rank's first node: so many numbers are its particles.
     std::uint64_t start_of_nodes(std::size_t rank) const;
   };
   void save_particles(RankNumbers& numbers) const;

@@ -26,7 +26,7 @@ class Partition {
  public:
   /// Along x and y; block b of an axis has the cells bounds[b] to bounds[b + 1] - 1.
   using Bounds = std::array<std::vector<int>, 2>;
-  /// For x and y: a number for each layer of cells across the axis.
+  /// Counts for x and y: a number for each layer of cells across the axis.
   using Counts = std::array<std::vector<double>, 2>;
 
   /// Blocks of nearly equal numbers of cells.
@@ -43,7 +43,7 @@ class Partition {
 
   const Communicator& ranks() const { return ranks_; }
   int blocks(int axis) const { return blocks_[static_cast<std::size_t>(axis)]; }
-  /// Which of the blocks along an axis is this rank's.
+  /// Number of this rank's block along an axis.
   int own_block(int axis) const;
   /// The rank that has a block. Neighbours along y have consecutive numbers.
   int rank_of(int x_block, int y_block) const { return x_block * blocks_[1] + y_block; }
@@ -51,7 +51,7 @@ class Partition {
   int rank_along(int axis, int block) const {
     return axis == 0 ? rank_of(block, own_block(1)) : rank_of(own_block(0), block);
   }
-  /// Which of the blocks along an axis has a layer of cells.
+  /// Number of the block along an axis that has a layer of cells.
   int block_of(int axis, int cell) const;
   /// The rank that owns a column of cells.
   int owner(int x_cell, int y_cell) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// When particles and grid are remapped: the length of a remap interval, and which of the two holds
-/// the present motion (terrain_step.h explains the scheme).
+/// Schedule of the remaps of particles and grid: the length of a remap interval, and which of the
+/// two holds the present motion (terrain_step.h explains the scheme).
 
 #include "core/checkpoint.h"
 #include "mpm/discretisation.h"

@@ -15,7 +15,7 @@ struct SlidePlane {
   Vector3 normal;  ///< of length 1
 };
 
-/// Upright, as high as the ground.
+/// Upright cylinder, as high as the ground.
 struct SlideCylinder {
   double x, y;    ///< of the axis [m]
   double radius;  ///< [m]
@@ -32,9 +32,9 @@ struct SlideSurface {
   std::variant<SlidePlane, SlideCylinder, SlideBox> shape;
   double friction = 0.0;  ///< coefficient of Coulomb's law
 
-  /// 0 inside, 1 outside. @param x  of undisturbed ground [m]
+  /// Side of a place: 0 inside, 1 outside. @param x  of undisturbed ground [m]
   std::size_t side(const Vector3& x) const;
-  /// From the inner to the outer side, at the point of the surface next to x; of length 1.
+  /// Normal from the inner to the outer side, at the point of the surface next to x; of length 1.
   Vector3 normal(const Vector3& x) const;
 };
 

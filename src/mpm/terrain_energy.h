@@ -21,8 +21,8 @@ double sum_energy(const std::vector<ParticleGroup>& groups, std::size_t field);
 double internal_energy(const std::vector<ParticleGroup>& groups);
 Vector3 momentum_of(const std::vector<ParticleGroup>& groups);  ///< this rank's share [N s]
 
-/// Where the work of contacts on a terrain went since the start [J] (theory: resistance, eqs. 2 to
-/// 4): contact = compaction + bulldozing + kinetic + numerical_loss + radiated.
+/// Work of contacts on a terrain since the start, by its use [J] (theory: resistance, eqs. 2 to 4):
+/// contact = compaction + bulldozing + kinetic + numerical_loss + radiated.
 struct TerrainWork {
   double contact = 0.0;         ///< of contacts on the terrain
   double compaction = 0.0;      ///< by pressing down
@@ -58,13 +58,13 @@ class TerrainEnergy {
   void add_removed_kinetic(double energy) { removed_kinetic_ += energy; }
   void add_removed(double internal, double dissipated);
 
-  /// Collective.
+  /// Energy budget of all ranks. Collective.
   /// @param momentum       of this rank's share of the ground [N s]
   /// @param boundary_work  of the absorbing faces, this rank's share [J]
   EnergyBudget energy_budget(const std::vector<ParticleGroup>& groups, const Vector3& momentum,
                              double boundary_work, const Communicator& ranks) const;
 
-  /// The same work by what it did. Collective, and cheap: no particle is looked at.
+  /// Work of contacts, by its use. Collective, and cheap: no particle is looked at.
   TerrainWork work(double boundary_work, const Communicator& ranks) const;
 
   /// Saves or restores the sums over all ranks. Afterwards they are rank 0's share: the run that

@@ -39,7 +39,7 @@ std::vector<ParticleLevel> make_levels(const TerrainParameters& parameters, cons
   return levels;
 }
 
-/// The same levels in the layers of each patch.
+/// Levels of particles in the layers of each patch.
 std::vector<std::vector<ParticleLevel>> make_patch_levels(
     const TerrainParameters& parameters, const std::vector<ParticleLevel>& levels) {
   std::vector<std::vector<ParticleLevel>> of_patches;
@@ -253,8 +253,8 @@ std::size_t TerrainFill::first_level(std::size_t row) const {
   return trough_.contains(row) ? trough_.levels : 0;
 }
 
-/// As add_cells() counts them: the levels of a place follow one another, those that a trough leaves
-/// out too.
+/// Id of a particle as add_cells() counts: the levels of a place follow one another, those that a
+/// trough leaves out too.
 double TerrainFill::id(const Grid& grid, std::size_t column, std::size_t row,
                        std::size_t level) const {
   return static_cast<double>((column * rows(grid) + row) * levels_.size() + level);

@@ -23,7 +23,7 @@ class TerrainReading {
     if (!energy_) energy_ = terrain_.energy_budget();
     return *energy_;
   }
-  /// Zero where all of the ground is computed.
+  /// Force and energy that sleeping ground neglects; zero where all of the ground is computed.
   ActiveGround::Neglect neglect() const {
     return terrain_.active() ? terrain_.active()->neglect() : ActiveGround::Neglect{};
   }

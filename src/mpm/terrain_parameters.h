@@ -61,7 +61,7 @@ struct TerrainParameters {
   std::vector<TerrainLayer> layers;  ///< of the ground without patches, then of each patch
   int patch_axis = 0;                ///< 0: patches along x, 1: along y
   std::vector<TerrainPatch> patches = {};
-  /// in the order of Face: both ends and both sides smooth, a rough base, a free top
+  /// kinds in the order of Face: both ends and both sides smooth, a rough base, a free top
   FaceArray<BoundaryKind> boundary = {BoundaryKind::smooth, BoundaryKind::smooth,
                                       BoundaryKind::smooth, BoundaryKind::smooth,
                                       BoundaryKind::rough,  BoundaryKind::free};
@@ -74,7 +74,7 @@ struct TerrainParameters {
   double surcharge = 0.0;
   std::optional<Trough> trough = {};
   double cfl = 0.4;  ///< step over (shortest cell)/(wave speed + speed of the ground)
-  /// most steps between two remaps of particles and grid (terrain_step.h)
+  /// largest number of steps between two remaps of particles and grid (terrain_step.h)
   int remap_interval = 16;
   TransferScheme scheme = {};
   std::optional<SlideSurface> slide = {};  ///< along which the ground slides on itself

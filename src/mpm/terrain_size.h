@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// How large a terrain will be, told from its parameters alone.
+/// Size of a terrain, from its parameters alone.
 
 #include <string>
 

@@ -29,7 +29,7 @@ struct TerrainSnapshot {
   std::size_t size() const { return id.size(); }
 };
 
-/// Collective; the first rank gets all, the others nothing.
+/// Takes a snapshot on the first rank; the others get nothing. Collective.
 TerrainSnapshot take_snapshot(ContinuumTerrain& terrain);
 /// Rut that the moving window left behind, of all ranks. Collective.
 std::vector<RutPoint> collect_rut(const ContinuumTerrain& terrain);

@@ -80,7 +80,7 @@ void TerrainStep::begin_remap_interval(double dt) {
   particles_to_grid();
 }
 
-/// Those of the stress are on the nodes already.
+/// Adds the forces of contacts to those of the stress, which are on the nodes already.
 void TerrainStep::sum_nodal_forces() {
   loads_.scatter_to_grid();
   complete_sums();
@@ -136,8 +136,8 @@ void TerrainStep::end_step(double dt) {
   if (!remap_.interval_running()) grid_to_particles();
 }
 
-/// Where particles will be after a time [s]; a particle that would be beyond a face is stopped by
-/// it before: its weights are taken where it is.
+/// Sets the positions where particles will be after a time [s]; one that would be beyond a face is
+/// stopped by it before: its weights are taken where it is.
 void TerrainStep::set_quadrature_positions(double time) {
   for (ParticleGroup& group : discretisation_.groups) {
     const double* v = group.particles.data(column::velocity);

@@ -13,8 +13,8 @@
 ///     sum_nodal_forces    f_i += contact forces; sums over the ranks
 ///     accelerate_nodes    v_i += dt (f_i/m_i + g), slide surface, boundary conditions on v_i
 ///     move_nodes          u_i += dt v_i
-///    update_particles    strain H = dt sum v_i G_i^T, material with H, f_i of the new stress;
-///                        with the means of cell_average.h
+///     update_particles    strain H = dt sum v_i G_i^T, material with H, f_i of the new stress;
+///                         with the means of cell_average.h
 ///   end_step, the last    grid_to_particles: x_p += sum N_i u_i, and v_p, C_p from v_i and r, w
 /// Velocities are those of half steps (leapfrog, as in LIGGGHTS); all is in double precision.
 ///
@@ -58,19 +58,20 @@ class TerrainStep {
               TerrainEnergy& energy, const Vector3& gravity, const TransferScheme& scheme,
               const SlideContact* slide, ActiveGround* active, DividedGround* divided);
 
-  /// From t_n to t_n + dt [s]. Afterwards particles are up to date only if
+  /// Advances from t_n to t_n + dt [s]. Afterwards particles are up to date only if
   /// remap.interval_running() is false. @throws StateError when a particle leaves the grid or a
   /// material refuses its strain
   void advance(double dt);
 
-  /// [m/s^2] from the next step on. Not collective.
+  /// Sets gravity [m/s^2] from the next step on. Not collective.
   void set_gravity(const Vector3& gravity) { gravity_ = gravity; }
 
   /// Positions and motion of the particles from the grid, if they lag behind it. Not collective.
   void grid_to_particles();
-  /// Before the first step: lets absorbing faces take the tractions of the initial stress.
+  /// Lets absorbing faces take the tractions of the initial stress, before the first step.
   void capture_initial_tractions();
-  /// After a restart in an interval: the forces of the stress, which are not saved. Not collective.
+  /// Restores the forces of the stress, which are not saved, after a restart in an interval. Not
+  /// collective.
   void restore_stress_forces();
 
  private:

@@ -123,7 +123,7 @@ struct TransferKernels : KernelTable {
   static const TransferKernels& avx512();
 };
 
-/// Those of this run (simd/dispatch.h).
+/// Kernels for the processor of this run (simd/dispatch.h).
 const TransferKernels& transfer_kernels();
 
 }  // namespace furrow

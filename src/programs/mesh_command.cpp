@@ -64,7 +64,7 @@ std::string fault_of(const SolidMesh& mesh) {
   }
 }
 
-/// For grains too.
+/// True for a sound mesh without sharp corners, which grains can touch too.
 bool is_good(const SolidMesh& mesh) {
   return fault_of(mesh).empty() && mesh.surface.minimum_angle() >= sharpest_corner;
 }

@@ -30,7 +30,7 @@ class Chassis {
   /// The rigs must outlive it. @throws InputError
   Chassis(const Options& options, std::vector<WheelRig*> rigs);
 
-  /// For the step [time, time + dt], after those of the rigs.
+  /// Sets loads for the step [time, time + dt], after those of the rigs.
   void apply(double time, double dt);
   /// The rigs have sprung masses of their own again.
   void release();

@@ -32,7 +32,7 @@ class Course {
   std::vector<std::pair<double, double>> points_;
 };
 
-/// By the key of the target.
+/// Courses by the key of their target.
 using Courses = std::map<std::string, Course>;
 
 }  // namespace furrow

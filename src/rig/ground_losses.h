@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Where the work of a wheel on its ground went (theory: resistance, eqs. 4 to 6).
+/// Uses of the work of a wheel on its ground (theory: resistance, eqs. 4 to 6).
 
 #include <array>
 
 namespace furrow {
 
-/// Where a wheel's work on grains went, of all grains, since the start [J]; zero unless fix
-/// grain/work counts it.
+/// Work of a wheel on all grains since the start, by its use [J]; zero unless fix grain/work counts
+/// it.
 ///
 /// press + push of GroundLosses = slide + roll + square + walls + lifted + change of kinetic, and
 /// slide + roll + square = below + ahead + aside.

@@ -20,7 +20,7 @@ class PassSchedule {
       : passes_(passes), first_start_(first_start), rolling_(rolling), back_(back) {}
 
   int passes() const { return passes_; }
-  /// 0 for the first.
+  /// Number of the pass; 0 for the first.
   int index(double time) const {
     if (passes_ == 1) return 0;
     const double number = std::floor((time - first_start_) / (rolling_ + back_));

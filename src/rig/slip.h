@@ -19,7 +19,7 @@ enum class SlipDefinition {
 /// larger_speed, rim_speed, vehicle_speed
 const std::vector<std::string>& slip_definition_words();
 SlipDefinition slip_definition(const std::string& word);  ///< @throws Error for another word
-/// for tables: "(v_rim - v)/max(|v_rim|, |v|)"
+/// Text for tables: "(v_rim - v)/max(|v_rim|, |v|)".
 std::string slip_formula(SlipDefinition definition);
 
 /// Slip of a wheel from its speeds [m/s]. @throws StateError where the definition divides by zero

@@ -31,8 +31,8 @@ class SprungBody {
   /// @param inertia mass [kg], roll and pitch inertia [kg m^2]; an angle with the inertia 0 is held
   explicit SprungBody(const Vector3& inertia) : inertia_(inertia) {}
 
-  /// One step. Sets the results of the struts. @param moment m_x, m_y about the centre of mass
-  /// [N m]
+  /// Advances by one step. Sets the results of the struts. @param moment m_x, m_y about the centre
+  /// of mass [N m]
   /// @throws StateError for a step that is too long for the springs
   void advance(std::vector<Strut>& struts, const Vector2& moment, double dt);
 

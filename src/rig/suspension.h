@@ -16,7 +16,7 @@ class Suspension {
   Suspension(double stiffness, double damping, double mass)
       : stiffness_(stiffness), damping_(damping), mass_(mass) {}
 
-  /// One step. @param height h [m]; @param velocity h' [m/s]; @param weight W [N]
+  /// Advances by one step. @param height h [m]; @param velocity h' [m/s]; @param weight W [N]
   /// @return F [N]
   double advance(double height, double velocity, double weight, double dt) {
     const double spring = stiffness_ * (height - height_);
@@ -27,7 +27,7 @@ class Suspension {
     return force_;
   }
 
-  /// For a mass that is part of a body: the step that this body has computed. @param height s [m];
+  /// Takes the step of a body that this mass is part of. @param height s [m];
   /// @param velocity s' [m/s]; @param force F [N]
   void follow(double height, double velocity, double force) {
     height_ = height;

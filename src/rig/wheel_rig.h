@@ -76,16 +76,16 @@ class WheelRig {
 
   /// Channels of measure(), in its order; the first is the time.
   static std::vector<Channel> channels();
-  /// The same, with the slip as this rig defines it.
+  /// Channels of measure(), with the slip as this rig defines it.
   std::vector<Channel> recorded_channels() const;
-  /// One row: state of the wheel and the present forces on its surface. Call it when the forces of
-  /// the step are known.
+  /// Row of the channels: state of the wheel and the present forces on its surface. Call it when
+  /// the forces of the step are known.
   std::vector<double> measure(double time, const GroundLosses& losses = {}) const;
 
   /// True if the rig sets a coordinate, "the load" or "the axle torque" of its wheel in every step.
   bool sets(const std::string& coordinate) const;
   bool has_suspension() const { return suspension_.has_value(); }
-  /// Null without one.
+  /// Suspension of the rig; null without one.
   const Suspension* suspension() const { return suspension_ ? &*suspension_ : nullptr; }
   const WheelHub& wheel() const { return wheel_; }
 
@@ -95,7 +95,7 @@ class WheelRig {
   bool joined() const { return joined_; }
   /// True once the load has begun to grow. @param time [s] the middle of a step
   bool lowered(double time) const { return time >= load_ramp_.start; }
-  /// [N] weight of the sprung mass in the axes of the ground
+  /// Weight of the sprung mass in the axes of the ground [N].
   const Vector3& sprung_weight() const { return sprung_weight_; }
   Strut strut() const;                 ///< its arm is the place of the axle
   void press(const Strut& strut);      ///< presses the wheel with the results
@@ -108,11 +108,12 @@ class WheelRig {
   Matrix3 tilt(double time) const;
   bool on_slope() const { return slope_ != 0.0 || side_slope_ != 0.0; }
   Mode mode() const { return mode_; }
-  /// [N] full, now; 0 when the sinkage is prescribed
+  /// Full load, now [N]; 0 when the sinkage is prescribed.
   double load() const { return load_; }
-  /// [m/s] in cruise, now; 0 unless slip or spin is prescribed
+  /// Rim speed in cruise, now [m/s]; 0 unless slip or spin is prescribed.
   double target_rim_speed() const { return spin_rate_ * wheel_.nominal_radius(); }
-  /// [m] along x over a time [s]; nothing where the travel is free, or goes back
+  /// Travel along x over a time [m]; nothing where the travel is free, or goes back. @param from,
+  /// to [s]
   std::optional<double> travel(double from, double to) const;
   double cruise_start() const { return speed_ramp_.end(); }  ///< [s]
 

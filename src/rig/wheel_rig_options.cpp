@@ -25,7 +25,7 @@ constexpr double largest_torque = 100.0;
 constexpr double largest_drawbar_load = 100.0;
 constexpr double largest_speed = 1000.0;     // [m/s] of axle and rim
 constexpr double largest_slip_radius = 2.0;  // of the nominal radius
-// [m/s] while the wheel is brought back for another pass
+// Speeds [m/s] while the wheel is brought back for another pass
 constexpr double largest_return_speed = 100.0, largest_lowering_speed = 10.0;
 // Duration of the lowering over settle_time; its largest acceleration over that of the mass under
 // the load; largest second derivative of a smooth step over its range

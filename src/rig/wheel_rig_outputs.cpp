@@ -11,7 +11,7 @@ namespace furrow {
 
 namespace {
 
-// [m/s] below it, rim and axle both rest and the recorded slip is 0
+// Speed [m/s] below which rim and axle both rest and the recorded slip is 0
 constexpr double standstill = 1e-12;
 
 }  // namespace
@@ -30,9 +30,9 @@ struct WheelRig::Reading {
   Vector3 left() const { return {-std::sin(yaw()), std::cos(yaw()), 0.0}; }
   double rim_speed() const { return wheel.rate(Coordinate::spin) * wheel.nominal_radius(); }
   double hub_drop() const { return rig.ground_level_ - wheel.lowest_point(); }  // [m]
-  /// [m/s] of the axle
+  /// Speed of the axle along its heading [m/s]
   double forward_speed() const { return wheel.velocity().dot(heading()); }
-  /// [m/s] that slip compares with the rim speed; positive forward
+  /// Speed that slip compares with the rim speed [m/s]; positive forward
   double slip_speed() const {
     const double forward = forward_speed();
     return rig.slip_by_total_speed_ ? std::copysign(wheel.velocity().head<2>().norm(), forward)

@@ -59,7 +59,7 @@ struct RelaxationSupport {
   Motion motion = Motion::held;
   double height = 0.0;  ///< [m] z at the start
   double target = 0.0;  ///< [m] z at the end of the loading, where the motion is prescribed
-  /// [kg] fictitious; one like that of all nodes converges fastest
+  /// fictitious mass [kg]; one like that of all nodes converges fastest
   double mass = 1.0;
   double damping = 0.0;  ///< [1/s] of a free support during the loading
 };
@@ -91,7 +91,7 @@ class DynamicRelaxation {
   DynamicRelaxation(RelaxingStructure& structure, const RelaxationSupport& support,
                     const RelaxationSettings& settings);
 
-  /// Until the structure rests or max_steps are done; the nodes are left without velocity.
+  /// Runs until the structure rests or max_steps are done; the nodes are left without velocity.
   /// @throws StateError as the structure's compute_forces()
   Relaxation run();
 

@@ -84,7 +84,7 @@ void split(const Matrix24& K, Shell4Kind& kind) {
         }
 }
 
-/// All but where its elements are.
+/// Kind of an element, without the place of its elements.
 Shell4Kind make_kind(const Shell4Shape& shape, const Matrix24& K, Shell4Turning turning) {
   Shell4Kind kind = {};
   const Matrix24 image = mirror_image(K);

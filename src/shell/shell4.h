@@ -60,14 +60,14 @@ class Shell4 {
   void add_forces(ShellNodes& nodes, double pressure);
 
   double energy() const { return energy_; }  ///< [J] elastic, at the last add_forces
-  /// [m^3] a third of the integral of x . n dA, at the last add_forces: the volume inside a closed
-  /// shell
+  /// Volume inside a closed shell [m^3]: a third of the integral of x . n dA, at the last
+  /// add_forces.
   double volume() const { return volume_; }
   const std::vector<Quad>& quads() const { return quads_; }
-  /// [kg] a quarter of each element at its nodes
+  /// Mass of the nodes [kg]: a quarter of each element.
   const VectorX& mass() const { return mass_; }
   const VectorX& rotary_inertia() const { return inertia_; }  ///< [kg m^2] raised, see above
-  /// [s] 2/omega of the stiffest element, stress-free
+  /// Stable step [s]: 2/omega of the stiffest element, stress-free.
   double stable_time_step() const { return stable_step_; }
   std::size_t kind_count() const;  ///< distinct stiffness matrices
 

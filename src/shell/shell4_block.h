@@ -14,7 +14,7 @@ constexpr std::size_t shell4_padding =
 
 /// Elements of one stress-free shape share its stiffness.
 struct Shell4Kind {
-  /// in the element's axes; unless the element is mirrored
+  /// stiffness in the element's axes; unless the element is mirrored
   double stiffness[24][24];
   /// stiffness for half the sums and half the differences of nodes that are each other's mirror
   /// image (Shell4Mirror), if the element is its own mirror image in the plane of its axes 1 and 3

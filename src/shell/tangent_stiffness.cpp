@@ -45,7 +45,7 @@ class Differences {
   Differences(RelaxingStructure& structure, const FreeComponents& free)
       : structure_(structure), free_(free), rest_(structure.nodes()) {}
 
-  /// [N, N m] minus the change of the forces for `by`
+  /// Resistance [N, N m]: minus the change of the forces for `by`.
   VectorX resistance(const VectorX& by) {
     const VectorX ahead = forces(by);
     const VectorX behind = forces(-by);

@@ -38,7 +38,7 @@ class FreeComponents {
   VectorX mass_;
 };
 
-/// For each node those whose forces change when it moves, itself included.
+/// Nodes whose forces change when a node moves, itself included, for each node.
 using NodeNeighbours = std::vector<std::set<int>>;
 
 /// Adds nodes that share an element. @tparam Element indices of its nodes
@@ -60,10 +60,10 @@ struct TangentStiffness {
   double asymmetry = 0.0;
 };
 
-/// By central differences. Nodes without a common neighbour move together (A. R. Curtis, M. J. D.
-/// Powell, J. K. Reid, J. Inst. Maths Applics 13, 117), so the number of force evaluations does not
-/// depend on the mesh. A motion of all nodes at once checks the neighbours. The nodes return to
-/// their places.
+/// Tangent stiffness by central differences. Nodes without a common neighbour move together (A. R.
+/// Curtis, M. J. D. Powell, J. K. Reid, J. Inst. Maths Applics 13, 117), so the number of force
+/// evaluations does not depend on the mesh. A motion of all nodes at once checks the neighbours.
+/// The nodes return to their places.
 /// @throws StateError when forces depend on nodes that are not neighbours, and as compute_forces()
 TangentStiffness tangent_stiffness(RelaxingStructure& structure, const FreeComponents& free,
                                    const NodeNeighbours& neighbours);

@@ -8,7 +8,7 @@
 
 namespace furrow {
 
-/// "baseline", "avx2", "avx512"
+/// Name of a set: "baseline", "avx2", "avx512".
 const char* to_string(InstructionSet set);
 
 /// The instruction sets that this build has and this processor runs, slowest first.

@@ -7,8 +7,8 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// To round-off for x > 0; of no meaning elsewhere. Newton's z <- z (4 - x z^3)/3 grows
-/// monotonically to the root from any start below it; near 1 a series is the start.
+/// Inverse cube root to round-off for x > 0; of no meaning elsewhere. Newton's z <- z (4 - x z^3)/3
+/// grows monotonically to the root from any start below it; near 1 a series is the start.
 FURROW_INLINE Lanes inverse_cube_root(const Lanes& x) {
   const Lanes e = x - Lanes(1.0);
   const Lanes series = Lanes(1.0) - e * (Lanes(1.0 / 3.0) - e * Lanes(2.0 / 9.0));

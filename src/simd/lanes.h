@@ -114,7 +114,7 @@ class Mask {
 class Lanes {
  public:
   Lanes() = default;
-  /// The same number in all lanes. (A difference, because a sum would lose the sign of -0.)
+  /// Sets all lanes to one number. (A difference, because a sum would lose the sign of -0.)
   FURROW_INLINE Lanes(double number) : numbers_(number - Register{}) {}
   FURROW_INLINE explicit Lanes(const Register& numbers) : numbers_(numbers) {}
   /// function(lane) in each.
@@ -125,7 +125,7 @@ class Lanes {
   FURROW_INLINE static Lanes load(const double* first) {
     return Lanes(Register(*reinterpret_cast<const StoredRegister*>(first)));
   }
-  /// As many numbers as there are; 0 in the other lanes.
+  /// Loads as many numbers as there are; 0 in the other lanes.
   FURROW_INLINE static Lanes load_some(const double* first, int count) {
 #if defined(__AVX512F__)
     return Lanes(Register(_mm512_maskz_loadu_pd(static_cast<__mmask8>((1u << count) - 1), first)));

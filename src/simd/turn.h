@@ -7,7 +7,7 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// (x, y, z) = sin(angle/2) axis, w = cos(angle/2).
+/// Quaternion of a turn: (x, y, z) = sin(angle/2) axis, w = cos(angle/2).
 struct Turn {
   Lanes x, y, z, w;
 };

@@ -20,7 +20,8 @@ namespace {
 // Shapes count as the same when their nodes agree to this share of their size
 constexpr double same_shape = 1e-9;
 
-/// For each node of a brick the first that is the same, so that a wedge moves as one.
+/// Repeated nodes: for each node of a brick the first that is the same, so that a wedge moves as
+/// one.
 using Repeats = std::array<std::size_t, 8>;
 
 Repeats repeats_of(const Brick8::Hexahedron& nodes) {
@@ -64,7 +65,8 @@ struct Merged {
       }
     }
   }
-  /// [N/m] how hard a node is held by the element, others fixed: the sum over the directions
+  /// Stiffness of the element against the motion of a node, others fixed [N/m]: the sum over the
+  /// directions.
   double stiffness(std::size_t node) const {
     const auto at = 3 * static_cast<Eigen::Index>(node);
     return (deviatoric + volumetric).diagonal().segment<3>(at).sum();
@@ -86,7 +88,7 @@ double highest_rate(Matrix24 K, const double (&inverse_mass)[8]) {
   return symmetric_eigenvalues(K).maxCoeff();
 }
 
-/// All but where its elements are. @param mass [kg] that each distinct node brings into the element
+/// Kind of a brick, without its elements. @param mass [kg] that each distinct node brings into one
 Brick8Kind make_kind(const Brick8Shape& shape, const Merged& merged, const Rubber& rubber,
                      const Repeats& first, const std::array<double, 8>& mass) {
   Brick8Kind kind = {};

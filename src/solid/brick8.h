@@ -44,7 +44,8 @@ class Brick8 {
   double energy() const { return energy_; }  ///< [J] elastic, at the last add_forces
   const std::vector<Hexahedron>& bricks() const { return bricks_; }
   const VectorX& mass() const { return mass_; }  ///< [kg] lumped, of all nodes
-  /// [s] 2/omega of the fastest element, no longer than that of the assembled mesh: exact for the
+  /// Stable step [s]: 2/omega of the fastest element, no longer than that of the assembled mesh:
+  /// exact for the
   /// stress-free state, and then an estimate at the last add_forces (brick8_kernel.h, rate_now()).
   double stable_time_step() const;
   /// Smallest volume over stress-free volume at a Gauss point, at the last add_forces.

@@ -9,7 +9,7 @@
 
 namespace furrow {
 
-/// How the axle moves in the second half of the cruise, v its speed, u that of the rim:
+/// Motion of the axle in the second half of the cruise, v its speed, u that of the rim:
 ///   prescribed     the rig gives it its speed
 ///   travels        none of the following
 ///   runs_away      |v| or |u| grows significantly (99 %), by more than a tenth, and does not level

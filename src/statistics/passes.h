@@ -8,7 +8,7 @@
 
 namespace furrow {
 
-/// 1 for a history without the channel `pass`.
+/// Number of passes; 1 for a history without the channel `pass`.
 int count_passes(const History& history);
 /// The rows of a pass, from 1, up to its way back.
 History rows_of_pass(const History& history, int number);

@@ -58,7 +58,7 @@ void mark_imposed(std::vector<SteadyValue>& values, bool driven, bool axle_free)
   }
 }
 
-/// One standard error, the larger one, for a quantity and its negative.
+/// Gives a quantity and its negative one standard error, the larger one.
 void share_error_of_negatives(std::vector<SteadyValue>& values, const std::string& first,
                               const std::string& second) {
   const auto named = [&](const std::string& name) -> SteadyValue& {

@@ -22,7 +22,7 @@ constexpr double depth_scale = 0.1;         ///< of the radius
 struct ResistanceOptions {
   WindowRequest window;
   SteadyCriteria criteria;
-  /// [m] travel below which the window is too short: at least a contact length
+  /// travel [m] below which the window is too short: at least a contact length
   double shortest_distance = 0.0;
 };
 
@@ -40,7 +40,7 @@ struct Resistance {
   ResistanceParts parts;
   bool driven = false;  ///< an axle torque drives or brakes the wheel: it is not towed
   bool steady = false;  ///< the window is good and every value is steady
-  /// why it is not steady: "hub drop, slip: it drifts by ..."; empty for a steady run
+  /// reasons why it is not steady: "hub drop, slip: it drifts by ..."; empty for a steady run
   std::vector<std::string> reasons;
 
   bool has(const std::string& name) const;

@@ -98,7 +98,7 @@ bool has_places(const std::vector<History>& histories) {
   return true;
 }
 
-/// [J] of a sum of channels over the window
+/// Change of a sum of channels over the window [J].
 double change(const History& history, const Window& window, const Channels& channels) {
   double sum = 0.0;
   for (const std::string& name : channels) {
@@ -108,7 +108,7 @@ double change(const History& history, const Window& window, const Channels& chan
   return sum;
 }
 
-/// [J] that a continuum took, of all bodies that press on it
+/// Energy that a continuum took from all bodies that press on it [J].
 double taken_by_continuum(const History& history, const Window& window) {
   double sum = 0.0;
   for (const Part& part : parts_of_continuum()) sum += change(history, window, part.channels);

@@ -4,7 +4,8 @@
 
 namespace furrow {
 
-/// One after the other, and again in each pass; steady values are those of the cruise.
+/// Stages of a run, one after the other, and again in each pass; steady values are those of the
+/// cruise.
 enum class RigStage { settle = 0, accelerate = 1, cruise = 2, back = 3 };
 
 /// Name of the channel that holds the stage of every row, as a number.

@@ -26,14 +26,14 @@ struct Window {
   double begin = 0.0, end = 0.0;  ///< [s] of the first and the last row
   double distance = 0.0;          ///< [m] travelled along x in it
   bool automatic = false;         ///< the begin was determined, not given
-  /// in words: "cruise from 2.1 s, transient of 0.31 s left out (MSER-5)"
+  /// choice in words: "cruise from 2.1 s, transient of 0.31 s left out (MSER-5)"
   std::string how;
   std::string warning;  ///< empty, or why the begin is in doubt
 
   std::size_t rows() const { return last - first; }
 };
 
-/// Where the cruise begins; 0 for a history without stages. @throws Error when it ends before
+/// First row of the cruise; 0 for a history without stages. @throws Error when it ends before
 std::size_t first_row_of_cruise(const History& history);
 
 /// MSER-5 [White1997]: the truncation that minimises theory: errors, eq. 1, with means of five

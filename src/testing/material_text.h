@@ -11,8 +11,8 @@
 
 namespace furrow {
 
-/// "key value value key value ...": numbers follow the key they belong to, a word that follows a
-/// key is its value.
+/// Entries of a text "key value value key value ...": numbers follow the key they belong to, a word
+/// that follows a key is its value.
 inline std::vector<Entry> entries_of_text(const std::string& text) {
   std::istringstream words(text);
   std::vector<Entry> entries;
@@ -30,7 +30,7 @@ inline std::vector<Entry> entries_of_text(const std::string& text) {
   return entries;
 }
 
-/// "law key value value key value ...". @throws InputError
+/// Material of a text "law key value value key value ...". @throws InputError
 inline std::unique_ptr<Material> material_of_text(
     const std::string& text, const MaterialModels& models = material_models()) {
   const std::size_t end = text.find(' ');

@@ -73,7 +73,7 @@ class Builder {
   int wrapped(int i) const { return i % sections_; }
   int carcass_node(int i, int j) const { return wrapped(i) * count() + j; }
 
-  /// [m] of a station, at a height above the carcass.
+  /// Place of a station, at a height above the carcass [m].
   Vector3 place(int i, int j, double height) const {
     const double s = std::abs(at(j));
     const Vector2 in_section = curve_.point(s) + height * curve_.normal(s);

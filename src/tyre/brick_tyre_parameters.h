@@ -54,7 +54,7 @@ struct TreadCapParameters {
   /// [m] size of the narrowest void, across or along the tyre; a wider object bridges it. Infinite
   /// without voids. @param radius of the tread [m]
   double narrowest_void(double radius) const;
-  /// [m] across the narrowest rib between grooves, or along a bar; infinite without voids
+  /// Width of the narrowest rib between grooves, or along a bar [m]; infinite without voids.
   double narrowest_rib(double radius) const;
 };
 

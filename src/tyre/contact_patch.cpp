@@ -36,7 +36,7 @@ class Footprint {
   bool touches(int i, int j) const { return plane_.pressure()[node(i, j)] > 0.0; }
   Vector2 at(int i, int j) const { return x_.col(node(i, j)).head<2>(); }
 
-  /// [m] from a touching node to the outline.
+  /// Distance from a touching node to the outline [m].
   /// @param along, across +1, -1 or 0: the way to the next node
   double end(int i, int j, int along, int across) const {
     const auto exists = [&](int k) { return k >= 0 && k < grid_.lines(); };
@@ -116,7 +116,7 @@ Side beside(const Footprint& footprint, const Line& line, int across) {
 // cosine of 45 degrees: walls of voids and flanks of the tread stand steeper on the plane
 constexpr double lying = 0.70710678118654752;
 
-/// [m^2] of every node: a third of each triangle around it that lies on the plane.
+/// Area of every node on the plane [m^2]: a third of each triangle around it that lies there.
 VectorX lying_areas(const Surface& surface) {
   VectorX areas = VectorX::Zero(surface.x.cols());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {

@@ -48,7 +48,7 @@ class NodalTyre : public Tyre {
     double damping_rate = 0.0;  ///< [1/s] c of node_step.h
   };
   NodalTyre(const HubParameters& hub, const Making& making);
-  /// To be called at the end of a constructor, when masses and supports are set.
+  /// Completes a constructor, when masses and supports are set.
   /// @throws InputError for a rim too light for its tyre
   void start();
 
@@ -69,13 +69,13 @@ class NodalTyre : public Tyre {
   virtual Wrench hand_over(Matrix3X& on_nodes) = 0;
 
   virtual double tread_area() const = 0;  ///< [m^2] of the whole tyre
-  /// [m] of a line of the unloaded tread's nodes, about the axle centre
+  /// Point of a line of the unloaded tread's nodes, about the axle centre [m].
   virtual Vector3 unloaded_tread_point(int line) const = 0;
-  /// For each node the nodes on whose positions its internal force depends.
+  /// Nodes on whose positions the internal force of each node depends.
   virtual NodeNeighbours neighbours() const = 0;
-  /// Which of nodes() is a node of tread_grid().
+  /// Number among nodes() of a node of tread_grid().
   virtual Eigen::Index tread_node(int k) const = 0;
-  /// [s] stable during the whole relaxation
+  /// Time step that is stable during the whole relaxation [s].
   virtual double relaxation_step() const { return stable_time_step(); }
 
   /// Direction of the circumference at a point about the axle centre, as made.
@@ -120,7 +120,7 @@ class NodalTyre : public Tyre {
   Wrench contact_on_rim_;  // handed over by the surface
   Matrix3X contact_;       // [N] on the nodes
 
-  // [J] of the whole tyre
+  // Energies of the whole tyre [J]
   double zero_ = 0.0;    // potential in the state as made
   double stored_ = 0.0;  // potential beyond it
   double contact_work_ = 0.0;

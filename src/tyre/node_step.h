@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// How the nodes of a tyre move in a step: under forces, and damped relative to their rim.
+/// Motion of the nodes of a tyre in a step: under forces, and damped relative to their rim.
 
 #include <array>
 #include <vector>

@@ -36,13 +36,14 @@ class QuinticSpline3 {
   /// that are not finite
   static QuinticSpline3 through(const std::array<GridAxis, 3>& axes,
                                 const std::vector<double>& values);
-  /// From coefficients() of another. @throws StateError for another number of them
+  /// Spline from the coefficients() of another. @throws StateError for another number of them
   static QuinticSpline3 of(const std::array<GridAxis, 3>& axes, std::vector<double> coefficients);
 
   const std::array<GridAxis, 3>& axes() const { return axes_; }
   const std::vector<double>& coefficients() const { return coefficients_; }
 
-  /// At a point inside the grid; outside, the polynomial of the nearest cell is continued. The
+  /// Evaluates the spline at a point inside the grid; outside, the polynomial of the nearest cell
+  /// is continued. The
   /// Hessian is left as it is unless asked for.
   void evaluate(const Vector3& x, Value& value, bool with_hessian) const;
 

@@ -60,7 +60,7 @@ class Sidewall {
                         bool with_stiffness) = 0;
 
   virtual double pressure() const = 0;  ///< [Pa]
-  /// From the next evaluation on; a table is made for it. @throws StateError
+  /// Sets the pressure from the next evaluation on; a table is made for it. @throws StateError
   virtual void set_pressure(double pressure) = 0;
   /// Shape by the chain, also if forces come from a table. @throws StateError
   virtual SidewallShape shape(const SidewallEnd& end) = 0;

@@ -40,7 +40,7 @@ class SidewallChainEnergy {
   /// outwards.
   double area(const VectorX& angles) const;
   double chord_area(double a, double r) const;  ///< g [m^2]
-  /// [m] from (0, 0) on; N + 1 columns
+  /// Nodes from (0, 0) on [m]; N + 1 columns.
   Eigen::Matrix2Xd nodes(const VectorX& angles) const;
 
  private:

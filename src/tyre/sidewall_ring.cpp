@@ -113,8 +113,8 @@ void SidewallRing::unit_pressure(const Vector3 (&x)[4], Vector3 (&force)[4]) {
   for (int k = 0; k < 4; ++k) force[k] = AB + xi[k] * AC + eta[k] * CB;
 }
 
-/// On quadrilaterals: end i, end i + 1, bead i + 1, bead i, and with links also node i, node i + 1,
-/// end i + 1, end i. In this order their normal is outwards at -y.
+/// Adds pressure on quadrilaterals: end i, end i + 1, bead i + 1, bead i, and with links also node
+/// i, node i + 1, end i + 1, end i. In this order their normal is outwards at -y.
 void SidewallRing::add_pressure(const ShellNodes& nodes, const RimPose& rim) {
   const double p = -side_ * sidewall_->pressure();
   volume_ = 0.0;

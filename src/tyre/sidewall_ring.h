@@ -12,7 +12,7 @@
 
 namespace furrow {
 
-/// Where the rim is: x = centre + attitude X.
+/// Place of the rim: x = centre + attitude X.
 struct RimPose {
   Vector3 centre = Vector3::Zero();
   Matrix3 attitude = Matrix3::Identity();
@@ -41,9 +41,9 @@ class SidewallRing {
   void add_forces(ShellNodes& nodes, const RimPose& rim);
 
   void set_pressure(double pressure) { sidewall_->set_pressure(pressure); }
-  /// [J] sum of w W, at the last add_forces
+  /// Potential, the sum of w W, at the last add_forces [J].
   double potential() const { return potential_; }
-  /// [m^3] the quadrilaterals' third of the integral of x . n dA
+  /// Volume of the quadrilaterals: a third of the integral of x . n dA [m^3].
   double volume() const { return volume_; }
   double largest_chord() const { return largest_chord_; }  ///< of the length
   const std::vector<int>& edge() const { return edge_; }
@@ -57,11 +57,11 @@ class SidewallRing {
   /// @param x [m] columns from `first` on are set, station by station
   void arcs(int points, const ShellNodes& nodes, const RimPose& rim, Matrix3X& x,
             Eigen::Index first) const;
-  /// [m] bead point in the rim's frame
+  /// Bead point in the rim's frame [m].
   Vector3 bead(std::size_t station) const { return bead_.col(static_cast<Eigen::Index>(station)); }
 
  private:
-  /// Where a strip is, in space.
+  /// Place of a strip in space.
   struct Station {
     Vector3 A;
     Vector3 e_r;

@@ -17,7 +17,7 @@
 
 namespace furrow {
 
-/// Where a table is valid, and how fine it is.
+/// Range in which a table is valid, and its resolution.
 struct SidewallTableGrid {
   double chord_min = 0.2, chord_max = 0.999;  ///< shares of the length
   /// chi [rad]: of the chord, from +a to +r

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// How the nodes of a tread are numbered.
+/// Numbering of the nodes of a tread.
 
 namespace furrow {
 

@@ -52,7 +52,8 @@ class Tyre : public WheelHub {
   /// Nodes of the outside of the tread. They are the first of surface(), in the grid's order.
   virtual const TreadGrid& tread_grid() const = 0;
   double lowest_tread_height() const;  ///< [m] z of the lowest node of the tread
-  /// [m] of the lowest node of the tread, from the unloaded tread about the present axle
+  /// Deflection of the lowest node of the tread, from the unloaded tread about the present axle
+  /// [m].
   double deflection() const override { return lowest_tread_height() - lowest_point(); }
   double crown_radius() const;              ///< [m] mean distance of the middle line from the axle
   virtual double section_width() = 0;       ///< [m] largest, from sidewall to sidewall

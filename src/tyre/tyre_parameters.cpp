@@ -23,7 +23,7 @@ void need_positive(double value, const std::string& where, const std::string& na
   check_number(value, Range::positive(), fmt::format("{}, {}", where, name), unit);
 }
 
-/// All that does not concern the tread or a sidewall alone.
+/// Checks everything that does not concern the tread or a sidewall alone.
 void check_section(const TyreParameters& tyre, const std::string& where) {
   const Vector2 chord = tyre.sidewall_chord();
   const double distance = chord.norm();

@@ -15,7 +15,7 @@
 
 namespace furrow {
 
-/// [Pa] above that of any tyre (aircraft: 1.5 MPa)
+/// Pressure [Pa] above that of any tyre (aircraft: 1.5 MPa)
 constexpr double largest_inflation = 2e6;
 
 /// A chain of N equal inextensible segments and N - 1 hinges between them, counted from bead to
@@ -27,13 +27,13 @@ struct SidewallParameters {
   std::vector<double> bending;  ///< EI [N m] of each hinge, whose stiffness is EI/L; N - 1 values
   /// kappa_0 [1/m] of each hinge, stress-free turn kappa_0 L; N - 1 values
   std::vector<double> curvature;
-  /// [rad] of the first segment where the rim's spring is free of moment
+  /// angle [rad] of the first segment where the rim's spring is free of moment
   double rim_angle = 0.0;
-  /// [rad] of the last segment where the tread's spring is, relative to the tread
+  /// angle [rad] of the last segment where the tread's spring is, relative to the tread
   double tread_angle = 0.0;
-  /// [N m/rad per m] of the spring between rim and first segment; 0: a pin
+  /// stiffness [N m/rad per m] of the spring between rim and first segment; 0: a pin
   double rim_stiffness = 0.0;
-  /// [N m/rad per m] of the spring between last segment and tread; 0: a pin
+  /// stiffness [N m/rad per m] of the spring between last segment and tread; 0: a pin
   double tread_stiffness = 0.0;
   /// Width of the strip that the pressure acts on, over its width at the tread: bead_width + taper
   /// r, r the radial distance from the bead. A strip between two meridians has R_bead/R_tread and

@@ -33,7 +33,7 @@ struct Nearest {
   }
 };
 
-/// Where a particle touched, and when it switches to another facet.
+/// Place where a particle touched, and the rule by which it switches to another facet.
 struct LastTouch {
   Vector3 point;         // of the surface now [m]
   double switch_length;  // [m]

@@ -38,7 +38,8 @@ class NarrowPhase {
            particles.half_spacing(particle).maxCoeff();
   }
 
-  /// Where a particle is nearest to the surface; its gap if it did not touch in the last step.
+  /// Finds the point of the surface nearest to a particle; its gap if it did not touch in the last
+  /// step.
   /// @param position  of the candidate's particle now [m]
   ContactPoint find(const ContactSearch& search, const ContactSearch::Candidate& candidate,
                     const Particles& particles, const Vector3& position,
@@ -54,7 +55,7 @@ class NarrowPhase {
                      ContactPoint& contact);
 
  private:
-  /// [m] with e = 0
+  /// Reach of a particle with e = 0 [m].
   static double reach(const Particles& particles, std::size_t particle, const Vector3& normal) {
     return particles.volume_ratio(particle) *
            normal.cwiseProduct(particles.half_spacing(particle)).norm();

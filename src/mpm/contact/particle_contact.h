@@ -9,7 +9,7 @@
 
 namespace furrow {
 
-/// Where a particle touches a surface.
+/// Point where a particle touches a surface.
 struct ContactPoint {
   std::size_t triangle;  ///< of the surface
   Vector3 barycentric;   ///< of the closest point, in the triangle

@@ -31,7 +31,7 @@ bool is_stable(double a, double b, double n) {
 
 }  // namespace
 
-/// With which the law is stable on all layers.
+/// Largest stiffness with which the law is stable on all layers.
 double PenaltyLaw::largest_stiffness(const TerrainParameters& terrain,
                                      const std::string& where) const {
   const auto& per_cell = terrain.particles_per_cell;

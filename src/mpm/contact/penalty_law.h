@@ -42,7 +42,7 @@ class PenaltyLaw {
   double largest_stiffness(const TerrainParameters& terrain, const std::string& where) const;
 
   Friction friction_;
-  /// over (wave modulus) x (cube root of the particle's volume)
+  /// Stiffness over (wave modulus) x (cube root of the particle's volume).
   std::optional<double> stiffness_;
   double damping_;  // of critical
 };

@@ -132,7 +132,7 @@ void TerrainContact::add_forces(const Law& law, double dt) {
   }
 }
 
-/// Where an active particle touches or is nearest, with its gap now.
+/// Finds the point where an active particle touches or is nearest, with its gap now.
 /// @param velocity  of the ground relative to the surface there [m/s]
 ContactPoint TerrainContact::find_contact(std::size_t n, ContactHistory& history,
                                           Vector3& velocity) {
@@ -171,7 +171,7 @@ void TerrainContact::add_force(const ParticleIndex& particle, const ContactPoint
 void TerrainContact::sum_over_ranks() {
   const Communicator& ranks = terrain_.ranks();
   if (ranks.size() == 1) return;
-  // one message for all
+  // sums of the ranks in one message
   double* sums[] = {&step_.contacts, &step_.area, &step_.losses.friction, &step_.losses.damping};
   std::vector<double> numbers(nodal_forces_.data(), nodal_forces_.data() + nodal_forces_.size());
   for (const double* sum : sums) numbers.push_back(*sum);

@@ -49,7 +49,7 @@ int find_weights_by_table(const AxisView& axis, int a, double x, std::size_t p, 
   return c;
 }
 
-/// How many positions are where no particle of this rank may be; not a number counts too.
+/// Number of positions where no particle of this rank may be; not a number counts too.
 inline std::size_t count_outside(const GridView& grid, const double* const* position,
                                  std::size_t count) {
   int outside = 0;
@@ -71,8 +71,8 @@ void find_batch_weights(const GridView& grid, const double* const* position, std
   for (int a = 0; a < 3; ++a) {
     const AxisView& axis = grid.axis[a];
     const double* x = position[a];
-    // As if all cells were regular: the splines are those of unit cells, D = h^2/4. No table, so
-    // that the compiler vectorises.
+    // Weights as if all cells were regular: the splines are those of unit cells, D = h^2/4. No
+    // table, so that the compiler vectorises.
     const double h = axis.regular_length;
     const double per_length = 1.0 / h;
     const double inverse_spread = 4.0 * per_length * per_length;
