@@ -29,7 +29,7 @@ struct ScriptVariables {
 ScriptVariables find_variables(const std::string& script,
                                std::map<std::string, std::string> values);
 
-/// The same as one object of JSON, for other programs.
+/// Variables and files of a script as one object of JSON, for other programs.
 std::string variables_json(const ScriptVariables& variables);
 
 }  // namespace furrow::coupling

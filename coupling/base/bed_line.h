@@ -16,7 +16,7 @@ using BedLine = std::vector<std::pair<std::string, std::string>>;
 
 /// @param values of all parameters, equal for equal beds
 void set_bed_line(LAMMPS_NS::LAMMPS& lammps, const BedLine& line, const std::string& values);
-/// Empty without a line `bed`.
+/// Names and values of the line `bed`; empty without one.
 BedLine bed_line(LAMMPS_NS::LAMMPS& lammps);
 /// A run is continued on the same bed. "none" without one.
 std::string bed_values(LAMMPS_NS::LAMMPS& lammps);

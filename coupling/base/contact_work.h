@@ -26,7 +26,7 @@ struct ContactWork {
   ContactWork& operator+=(const ContactWork& other);
 };
 
-/// One contact in one step.
+/// Contact of a grain with a body in one step.
 struct GrainContact {
   int grain;              ///< local index
   Vector3 force, torque;  ///< on the grain [N], [N m]

@@ -18,7 +18,7 @@ class ContinuedLines {
   /// @param controllers  ids of the fixes that control motions
   void checkpoint(Checkpoint& state, const std::vector<std::string>& controllers);
 
-  /// Once, before the first run: warns of differences that may be meant. Nothing happens in a run
+  /// Warns of differences that may be meant; once, before the first run. Nothing happens in a run
   /// that does not continue another.
   /// @throws StateError when the script lacks a fix whose state the checkpoint has
   void check(const std::vector<std::string>& controllers);

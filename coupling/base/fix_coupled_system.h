@@ -41,7 +41,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   /// The coupled system of the scene, or null without one.
   static FixCoupledSystem* find(LAMMPS_NS::LAMMPS& lammps);
 
-  // Not owned: each must outlive the system or be removed. @param name for errors
+  // Parts are not owned: each must outlive the system or be removed. @param name for errors
   void add(Body& body, const std::string& name);
   void remove(const Body& body);
   void add(Contact& contact, const std::string& name) { system_.add(contact, name); }
@@ -51,10 +51,10 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
 
   // Results for a body that was added.
   ContactLedger& ledger(const Body& body) { return load(body).ledger; }
-  /// Where moments of this step are taken about: the middle of the body's nodes.
+  /// Point about which moments of this step are taken: the middle of the body's nodes.
   const Vector3& moment_reference(const Body& body) { return load(body).reference; }
   const MomentumAudit& audit(const Body& body) { return load(body).audit; }
-  /// For the wall: contacts with grains in this step, of this rank.
+  /// Contacts with grains in this step, of this rank, for the wall to add.
   std::vector<GrainContact>& contacts(const Body& body) { return load(body).contacts; }
   /// Work of contacts with grains since the start, of all ranks; up to the step before that of the
   /// forces, like the works of the body itself.

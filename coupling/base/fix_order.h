@@ -22,7 +22,7 @@ class FollowsSystem {
 /// @throws StateError when a fix that follows the system stands before it
 void check_fix_order(const LAMMPS_NS::Modify& modify, const LAMMPS_NS::Fix& system);
 
-/// For a fix that must see all forces on grains.
+/// Checks a fix that must see all forces on grains.
 /// @param reason  why: "forces that are added later would move the frozen slab"
 /// @throws StateError when a fix that acts in post_force() stands after it
 void check_last_of_forces(const LAMMPS_NS::Modify& modify, const LAMMPS_NS::Fix& fix,

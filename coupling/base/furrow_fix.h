@@ -32,13 +32,13 @@ namespace furrow::coupling {
 
 class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, public KeepsState {
  public:
-  /// None, unless the derived class has its own.
+  /// Outputs of the fix: none, unless the derived class has some.
   static const Outputs<FurrowFix>& outputs();
 
   const Options& options() const final { return options_; }
-  /// Those of use(), and furrow/system for a fix that contributes to it.
+  /// True for the fixes of use(), and for furrow/system if this fix contributes to it.
   bool uses(const LAMMPS_NS::Fix& other) const override;
-  /// For errors and warnings: "fix wheel/rigid 'wheel'".
+  /// Name for errors and warnings: "fix wheel/rigid 'wheel'".
   std::string name() const { return name_of(*this); }
   bool must_be_restored() const override { return restart_global && state_needs_options(); }
   /// Keywords with their values, equal for equal numbers, but for those that may change when a run
@@ -50,7 +50,8 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, publ
   /// Contributions join the coupled system. Not in the constructor: LIGGGHTS cannot make one fix
   /// while it makes another.
   void post_create() override;
-  /// They leave it in reverse order, unless another fix uses this one: then the line is refused.
+  /// Takes the contributions out in reverse order. If another fix uses this one, the line is
+  /// refused.
   void pre_delete(bool unfixing) override;
   void write_restart(FILE* file) override;
   void restart(char* buffer) override;
@@ -69,7 +70,7 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, publ
     used_.push_back(&fix);
     return fix;
   }
-  /// Not owned. In the order of these calls the system holds them.
+  /// Adds a part, which is not owned, to the system; it holds parts in the order of these calls.
   template <class Part>
   void contribute(Part& part) {
     parts_.emplace_back(&part);
@@ -82,7 +83,7 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, publ
     };
     announce_vector(outputs.size());
   }
-  /// The same for outputs that read something else: make_source() gives it for each value.
+  /// Provides outputs of another source, which make_source() gives for each value.
   template <class Source, class MakeSource>
   void provide(const Outputs<Source>& outputs, MakeSource make_source) {
     compute_ = [&outputs, make_source](std::size_t n) {

@@ -11,7 +11,7 @@ namespace furrow::coupling {
 /// grains only.
 /// @throws StateError naming a grain whose position or velocity is not finite
 void check_grains_finite(const LAMMPS_NS::LAMMPS& lammps);
-/// The same between steps, where velocities tell all: a position goes wrong only through its
+/// Checks grains between steps by their velocities alone: a position goes wrong only through its
 /// velocity.
 void check_velocities_finite(const LAMMPS_NS::LAMMPS& lammps);
 

@@ -41,7 +41,7 @@ class GrainLoads {
 
   /// Forgets the contacts of the last step. The forces on the nodes are cleared elsewhere.
   void begin_step();
-  /// One sum for all bodies. Collective.
+  /// Sums the loads of all bodies over the ranks, in one message. Collective.
   void sum_over_ranks();
   /// Compares the forces on nodes with those on grains, and adds the works of the step before.
   /// @throws StateError when they do not cancel

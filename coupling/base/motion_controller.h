@@ -8,7 +8,7 @@ namespace furrow::coupling {
 class MotionController {
  public:
   virtual ~MotionController() = default;
-  /// For the step [time, time + dt] [s]. @throws StateError
+  /// Sets motions and loads for the step [time, time + dt] [s]. @throws StateError
   virtual void apply(double time, double dt) = 0;
 };
 

@@ -12,7 +12,7 @@
 
 namespace furrow::coupling {
 
-/// For the constructor of a FixStyle.
+/// Requires that a new FixStyle is the only one with its task; for its constructor.
 /// @param where    the line or keyword that is one too many
 /// @param action   what it does: "presses 'wheel' on 'soil'"
 /// @param rule     "one contact for each pair"

@@ -23,7 +23,7 @@ class SceneWatch {
   virtual std::string likely_cause() const = 0;
 };
 
-/// Defined in coupling/checks.
+/// Makes the watch of a scene; defined in coupling/checks.
 std::unique_ptr<SceneWatch> watch_scene(LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace furrow::coupling

@@ -20,7 +20,7 @@ class UsesFix {
 const LAMMPS_NS::Fix* find_user(const LAMMPS_NS::Modify& modify, const std::string& style,
                                 const LAMMPS_NS::Fix& used);
 
-/// For pre_delete(true), that is for unfix and for a second fix of the same id.
+/// Checks a removal in pre_delete(true), that is for unfix and for a second fix of the same id.
 /// @throws StateError when another fix uses this one
 void forbid_removal_while_used(const LAMMPS_NS::Modify& modify, const LAMMPS_NS::Fix& fix);
 

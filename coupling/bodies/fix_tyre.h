@@ -30,7 +30,7 @@ class FixTyre : public FixWheelHub {
 void declare_file_and_pressure(Schema& schema);
 void declare_damping(Schema& schema);
 
-/// Where the tyre file is.
+/// Path of the tyre file.
 std::string tyre_path(LAMMPS_NS::LAMMPS& lammps, const Options& options);
 /// The pressure of the line, or else that of the file [Pa]. @throws InputError for one that no tyre
 /// has

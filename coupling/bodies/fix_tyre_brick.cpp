@@ -13,7 +13,7 @@ namespace furrow::coupling {
 
 namespace {
 
-/// Read, made and inflated.
+/// Reads the tyre file, makes the tyre and inflates it.
 std::unique_ptr<WheelHub> make_brick_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   BrickTyreParameters parameters = read_brick_tyre_file(tyre_path(lammps, options));
   parameters.pressure = read_pressure(options, parameters.pressure);

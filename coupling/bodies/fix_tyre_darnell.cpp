@@ -21,7 +21,7 @@ int whole_number(const Options& options, const char* key, double value) {
   return static_cast<int>(value);
 }
 
-/// Read, made and inflated.
+/// Reads the tyre file, makes the tyre and inflates it.
 std::unique_ptr<WheelHub> make_darnell_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   TyreParameters parameters = read_tyre_file(tyre_path(lammps, options));
   parameters.pressure = read_pressure(options, parameters.pressure);

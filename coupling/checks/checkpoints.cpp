@@ -33,8 +33,8 @@ double bytes_of_grains(const LAMMPS_NS::LAMMPS& lammps) {
       .sum(sizeof(double) * static_cast<double>(lammps.atom->avec->size_restart()));
 }
 
-/// [bytes] that have to be free before the first of these checkpoints: all of them, and one that is
-/// written before it replaces another.
+/// Room [bytes] that has to be free before the first of these checkpoints: all of them, and one
+/// that is written before it replaces another.
 double bytes_needed(const std::vector<std::string>& names, double size) {
   double there = 0.0, kept = 0.0;
   for (const std::string& name : names) {

@@ -288,7 +288,7 @@ GroundKind kind_of(const FixTerrain& terrain) {
   return ground_kind(*terrain.terrain().parameters().layers.front().material);
 }
 
-/// "12 % less hub drop and 0.02 less net traction coefficient"
+/// Text of the expected effects: "12 % less hub drop and 0.02 less net traction coefficient".
 std::string expected(const BoundaryEffects& effects, double x, PressedBy tool) {
   const double response = effects.response.at(x), traction = effects.traction.at(x);
   const auto side = [](double change) { return change > 0.0 ? "more" : "less"; };
@@ -302,7 +302,7 @@ std::string expected(const BoundaryEffects& effects, double x, PressedBy tool) {
   return fmt::format("{}", fmt::join(parts, " and "));
 }
 
-/// Where the expectation comes from, and what the remedy leaves of it.
+/// Source of the expectation, and what the remedy leaves of it.
 std::string source(GroundKind kind) {
   return fmt::format("estimate of the study ground_size on {}; its limits are 2 % and 0.01",
                      name_of(kind));
@@ -375,7 +375,7 @@ Found judge_grousers(const FixBody& body, const Options& ground, double height, 
       cells_of_a_lug));
 }
 
-/// [m] along x from now to the end of the run; nothing for a body whose speed is an answer.
+/// Travel along x from now to the end of the run [m]; nothing for a body whose speed is an answer.
 std::optional<double> planned_travel(const Scene& scene, const FixBody& body) {
   for (const auto* rig : fixes_of<const FixWheelRig>(*scene.lammps.modify))
     if (&rig->wheel_fix() == &body) return rig->rig().travel(scene.time(), scene.end());
@@ -421,7 +421,7 @@ Found cells_of_the_field_show_the_grousers(const Scene&, FixContactScm& contact)
   return judge_grousers(contact.body_fix(), contact.terrain_fix().options(), cell, cell);
 }
 
-/// After a run in which the wheel has rolled.
+/// Checked after a run in which the wheel has rolled.
 Found cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact) {
   const FixTerrain& terrain = contact.terrain_fix();
   const TerrainParameters& parameters = terrain.terrain().parameters();

@@ -109,7 +109,7 @@ std::vector<GivenGravity> gravities(const Scene& scene) {
   return given;
 }
 
-/// [degrees] 0 for none
+/// Angle of gravity from straight down [degrees]; 0 without gravity.
 double angle_from_down(const Vector3& gravity) {
   return gravity.norm() > 0.0 ? degrees(std::acos(-gravity.z() / gravity.norm())) : 0.0;
 }

@@ -244,7 +244,7 @@ Found box_is_as_it_was(const Scene& scene) {
                   text(scene.box_of_bodies), text(now)));
 }
 
-/// Before the first step of a scene.
+/// Checked before the first step of a scene.
 Found grains_are_above_terrain(const Scene& scene, FixTerrain& terrain) {
   if (scene.time() > 0.0) return {};
   const LAMMPS_NS::Atom& atom = *scene.lammps.atom;

@@ -164,11 +164,11 @@ Found cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact);
 /// The soil contact model has no pressure on upright faces. With camber a side of a wheel is not
 /// upright.
 Found wheel_on_a_field_has_no_camber(const Scene& scene, FixContactScm& contact);
-/// During a run: does soil at the sides of a wheel push it along its axle?
+/// Checks during a run that soil at the sides of a wheel does not push it along its axle.
 Found sides_on_a_field_carry_little(const Scene& scene, FixContactScm& contact);
-/// During a run: does the theory of the contact hold for its grousers?
+/// Checks during a run that the theory of the contact holds for its grousers.
 Found sand_pulls_less_than_the_load(const Scene& scene, FixContactRft& contact);
-/// During a run: is the ground used where its card was tested?
+/// Checks during a run that the ground is used where its card was tested.
 Found card_reaches_the_sinkage(const Scene& scene, FixContactScm& contact);
 Found card_reaches_the_pressure(const Scene& scene, FixContactScm& contact);
 Found body_is_over_terrain(const Scene& scene, FixContactContinuum& contact);
@@ -178,7 +178,7 @@ Found turning_plate_has_whole_terrain(const Scene& scene, FixContactContinuum& c
 // ---- checkpoints of the lines 'restart' (checkpoints.cpp)
 /// Two runs with one name would replace each other's files.
 Found checkpoints_have_one_run(const Scene& scene);
-/// On the disk, before the hours until the first one.
+/// Compares the room on the disk with the checkpoints, before the hours until the first one.
 Found checkpoints_have_room(const Scene& scene);
 /// LIGGGHTS reads the length of a record as an int: 2 GiB.
 Found bed_fits_a_record(const Scene& scene, const FixBedWindow& window);

@@ -105,7 +105,7 @@ ContactParameters FixContactContinuum::parameters() {
                       ContactParameters::unknown().slip_length)));
 }
 
-/// With the friction that holds, wherever it comes from.
+/// Settings with the friction in effect, from the line or from the ground.
 std::vector<std::pair<std::string, std::string>> FixContactContinuum::settings() const {
   auto list = FixContact::settings();
   put_effective(list, parameters_.friction, parameters_.slip_length);

@@ -138,7 +138,7 @@ ScmContact::Settings FixContactScm::settings_of_contact() {
   return settings;
 }
 
-/// With the friction that holds, wherever it comes from.
+/// Settings with the friction in effect, from the line or from the ground.
 std::vector<std::pair<std::string, std::string>> FixContactScm::settings() const {
   auto list = FixContact::settings();
   put_effective(list, settings_.friction,

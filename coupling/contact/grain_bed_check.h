@@ -34,9 +34,9 @@ class GrainBedCheck {
   /// Collective.
   /// @param terrain  that carries the bed, and may continue it beside the grains; may be null
   void start(const Body& body, const Body* terrain);
-  /// This rank's contact in this step.
+  /// Records a contact of this rank in this step.
   void contact(double overlap, double radius, const Vector3& point, const Vector3& force);
-  /// After the contacts of a step; looks at them every so many steps. Collective.
+  /// Ends the contacts of a step; checks them every so many steps. Collective.
   void finish_step(const Surface& surface);
 
  private:

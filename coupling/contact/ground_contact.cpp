@@ -15,7 +15,7 @@ namespace {
 // Snow has 0.05 m [Wong2008], rubber on three soils 0.006 to 0.009 m [KRC]
 constexpr double least_slip_length = 2e-4, largest_slip_length = 0.15;
 
-/// "friction 0.3 (0.2 to 0.5)", or the value of the line.
+/// Text of a value: "friction 0.3 (0.2 to 0.5)", or the value of the line.
 std::string value_text(const Options& options, const char* key, const char* unit, double known,
                        const std::array<double, 2>& range) {
   if (options.given(key))

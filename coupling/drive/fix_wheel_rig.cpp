@@ -135,7 +135,7 @@ std::vector<std::pair<std::string, std::string>> FixWheelRig::settings() const {
 
 int FixWheelRig::setmask() { return on_slope() ? LAMMPS_NS::FixConst::POST_FORCE : 0; }
 
-/// Before a run, once.
+/// Warns once, before a run, of a spring that gives by more than the radius.
 void FixWheelRig::warn_of_soft_spring() {
   const Suspension* const suspension = rig_.suspension();
   if (!suspension || warned_of_spring_) return;
@@ -159,7 +159,7 @@ void FixWheelRig::warn_of_soft_spring() {
                      options().where("suspension_damping"), suspension->damping(), ratio));
 }
 
-/// Before a run, once: a torque that turns nothing.
+/// Warns once, before a run, of a torque that turns nothing.
 void FixWheelRig::warn_of_small_torque() {
   const double full = rig_.load() * wheel_fix_.hub().nominal_radius();
   if (warned_of_torque_ || !options().given("torque")) return;

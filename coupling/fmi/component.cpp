@@ -184,7 +184,7 @@ Component* make(fmi2String name, fmi2String guid, fmi2String resources,
   }
 }
 
-/// That of the copy which was loaded first: LIGGGHTS calls the functions of that one.
+/// Maker of the copy that was loaded first: LIGGGHTS calls the functions of that one.
 Maker first_maker() {
   constexpr char variable[] = "FURROW_FMU_IN_PROCESS_1";  // another number for other functions
   const std::string found = shared_text(variable);

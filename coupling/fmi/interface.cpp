@@ -206,7 +206,8 @@ FMI_EXPORTED fmi2Status fmi2GetStringStatus(fmi2Component, const fmi2StatusKind,
   return fmi2Discard;
 }
 
-/// For furrow-post fmu: modelDescription.xml of the contents in a file. @param version of FMI: 2, 3
+/// Gives modelDescription.xml of the contents in a file to furrow-post fmu. @param version of FMI:
+/// 2, 3
 /// @return its number of bytes; with a sufficient size the text is written. -1 for a wrong file
 FMI_EXPORTED long furrow_describe_fmu(const char* contents, const char* name, int version,
                                       char* text, std::size_t size) {

@@ -32,7 +32,7 @@ constexpr double same_place = 0.1;    // of a radius, between the script and the
 constexpr double same_step = 1e-6;    // error of a multiple of the time step
 constexpr char checkpoint[] = "state";
 constexpr double most_steps = 1e9;
-// As those of a rig: load over weight, torque over load x radius, and rim speed [m/s]
+// Limits as those of a rig: load over weight, torque over load x radius, and rim speed [m/s]
 constexpr double largest_load = 1e5, largest_torque = 100.0, largest_rim_speed = 1000.0;
 
 /// A folder that is removed at the end.

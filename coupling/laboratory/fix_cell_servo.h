@@ -23,7 +23,7 @@ class FixCellServo : public FurrowFix {
   void end_of_step() override;
 
  private:
-  /// For the rules of the scene (coupling/checks).
+  /// True, so that the rules of the scene (coupling/checks) apply.
   bool needs_system() const override { return true; }
   struct Axis {
     enum class Control { hold, rate, stress } control = Control::hold;

@@ -22,7 +22,7 @@ class FixLayerShear : public FurrowFix {
   void final_integrate() override;
 
  private:
-  /// For the rules of the scene (coupling/checks).
+  /// True, so that the rules of the scene (coupling/checks) apply.
   bool needs_system() const override { return true; }
   void checkpoint(Checkpoint& state) override;
   double middle_of_layer() const;  // z [m]

@@ -24,7 +24,7 @@ void add_command(LAMMPS_NS::LAMMPS& lammps, const std::string& name, CommandCrea
 bool has_fix_style(const LAMMPS_NS::LAMMPS& lammps, const std::string& style);
 bool has_command(const LAMMPS_NS::LAMMPS& lammps, const std::string& name);
 
-/// How many scripts are open, one within the other (Input::nfile, private). Rank 0 only.
+/// Number of open scripts, one within the other (Input::nfile, private). Rank 0 only.
 int open_scripts(const LAMMPS_NS::LAMMPS& lammps);
 
 /// The line being executed (Input::line, private), or null.

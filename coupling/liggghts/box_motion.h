@@ -17,8 +17,9 @@ class BoxMotion {
   BoxMotion(const BoxMotion&) = delete;
   BoxMotion& operator=(const BoxMotion&) = delete;
 
-  /// For Fix::init(), before every run: grains and ghosts that cross a face gain the velocity of
-  /// the opposite face. @param rates stretching of the edges now, compression positive [1/s]
+  /// Announces the motion in Fix::init(), before every run: grains and ghosts that cross a face
+  /// gain the velocity of the opposite face. @param rates stretching of the edges now, compression
+  /// positive [1/s]
   void announce(const std::array<double, 3>& rates);
   /// Edges after dt [s] of stretching at these rates about the middle of the box.
   void advance(const std::array<double, 3>& rates, double dt);

@@ -30,7 +30,7 @@ const std::string& set_being_written();
 /// read_restart has read. @param set its name
 std::unique_ptr<RankFiles> rank_files(const LAMMPS_NS::LAMMPS& lammps, const std::string& set,
                                       const std::string& fix);
-/// Collective. @throws Error on all ranks when the file of one is not written
+/// Closes the file of each rank. Collective. @throws Error on all ranks when one is not written
 void close_rank_files(const LAMMPS_NS::LAMMPS& lammps, RankFiles& files);
 /// Size on the disk of a checkpoint that may be there: restart file and particles.
 std::uintmax_t bytes_of_checkpoint(const std::string& path);
@@ -48,7 +48,7 @@ std::string find_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path);
 /// @throws Error on all ranks, naming the file and what is wrong with it, unless it is a whole
 /// checkpoint. Collective
 void check_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path);
-/// For a restart file without a seal: only that there is one. Collective. @throws Error
+/// Checks that a restart file without a seal exists, and no more. Collective. @throws Error
 void check_restart_file(LAMMPS_NS::LAMMPS& lammps, const std::string& path);
 
 }  // namespace furrow::coupling

@@ -11,10 +11,10 @@ namespace furrow::coupling {
 class Driver {
  public:
   virtual ~Driver() = default;
-  /// Before each step of a run, when the step before is complete with its output. LIGGGHTS has
-  /// counted the step already.
+  /// Called before each step of a run, when the step before is complete with its output. LIGGGHTS
+  /// has counted the step already.
   virtual void before_step(LAMMPS_NS::LAMMPS& lammps) = 0;
-  /// Before each command of a script. @return whether the command is left out
+  /// Called before each command of a script. @return whether the command is left out
   virtual bool before_command(LAMMPS_NS::LAMMPS& lammps) = 0;
   /// A warning of Furrow, on the first rank.
   virtual void warned(const std::string& text) = 0;

@@ -22,13 +22,13 @@ namespace furrow::coupling {
 
 namespace {
 
-// for ranks that come to the same error a little later
+// Time for ranks that meet the same error a little later.
 constexpr std::chrono::seconds wait_for_others(5);
 
 bool throws = false;
 
-/// One error, one message: what is wrong, where in the script, and where in the source it was
-/// noticed. (The library's own version may add a line from a string that no longer exists.)
+/// Whole message of an error: the fault, its place in the script, and the place in the source where
+/// it was noticed. (The library's message may add a line from a string that no longer exists.)
 std::string whole_text(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {
   const std::string position = script_position(lammps), hint = hint_for(text);
   std::string whole = text;
@@ -38,7 +38,7 @@ std::string whole_text(LAMMPS_NS::LAMMPS& lammps, const std::string& text, Sourc
   return whole;
 }
 
-/// On rank 0, which also saves its results. @return the whole text
+/// Reports an error on rank 0, which also saves its results. @return the whole text
 std::string report_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {
   const std::string whole = whole_text(lammps, text, place);
   for (FILE* stream : {lammps.screen, lammps.logfile}) {

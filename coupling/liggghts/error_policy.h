@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// How a run ends with an error: one message that names the line of the script, results saved, all
+/// End of a run with an error: one message that names the line of the script, results saved, all
 /// ranks stopped, a non-zero status. Error::all, one and fix_error of LIGGGHTS come here
 /// (overrides.cpp).
 
@@ -16,11 +16,11 @@ struct RunError {
   std::string text;
 };
 
-/// From now on an error throws RunError where it would end the process. An error of one rank of
-/// several still aborts all of them.
+/// Makes errors throw RunError from now on, where they would end the process. An error of one rank
+/// of several still aborts all of them.
 void throw_errors();
 
-/// Where in LIGGGHTS an error was noticed; line 0: in Furrow.
+/// Place in LIGGGHTS where an error was noticed; line 0: in Furrow.
 struct SourcePlace {
   const char* file;
   int line;

@@ -37,7 +37,7 @@ PackedGrain pack_grain(LAMMPS_NS::LAMMPS& lammps, int grain);
 void add_grain(LAMMPS_NS::LAMMPS& lammps, std::vector<double>& packed);
 /// Takes a grain away; the last one gets its local index.
 void remove_grain(LAMMPS_NS::LAMMPS& lammps, int grain);
-/// After grains were added and removed, in pre_exchange: numbers and tables. Collective.
+/// Updates numbers and tables after grains were added and removed, in pre_exchange. Collective.
 void finish_exchange(LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace furrow::coupling

@@ -21,7 +21,7 @@ inline std::string style_of(const LAMMPS_NS::Fix& fix) {
   return described ? described->options().subject().substr(std::string("fix ").size()) : fix.style;
 }
 
-/// For errors and warnings: "fix wheel/rigid 'wheel'".
+/// Name for errors and warnings: "fix wheel/rigid 'wheel'".
 inline std::string name_of(const LAMMPS_NS::Fix& fix) {
   return "fix " + style_of(fix) + " '" + fix.id + "'";
 }

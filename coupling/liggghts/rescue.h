@@ -29,15 +29,15 @@ class ResultsInUse {
 /// error that stopped it, also when something cannot be saved.
 void flush_results(const LAMMPS_NS::LAMMPS& lammps);
 
-/// The same from another thread, when the main thread releases the results in time.
+/// Flushes results from another thread, when the main thread releases them in time.
 /// @return whether it did
 bool flush_unused_results(const LAMMPS_NS::LAMMPS& lammps, std::chrono::milliseconds time_limit);
 
-/// Once, before MPI_Init(): threads that MPI starts leave the signal alone.
+/// Prepares a rescue, once, before MPI_Init(): threads that MPI starts leave the signal alone.
 void prepare_rescue();
 /// Rank 0 waits for the signal; the others learn where to send it. Collective.
 void start_rescue(const LAMMPS_NS::LAMMPS& lammps);
-/// On a rank that fails and is not rank 0: has rank 0 save, and gives it time.
+/// Has rank 0 save, and gives it time; called on another rank that fails.
 void ask_for_rescue();
 
 }  // namespace furrow::coupling

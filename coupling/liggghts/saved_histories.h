@@ -15,9 +15,9 @@ namespace furrow::coupling {
 
 class SavedHistories {
  public:
-  /// Between the making of neighbour lists and the first forces.
+  /// Saves the histories between the making of neighbour lists and the first forces.
   void save(LAMMPS_NS::LAMMPS& lammps);
-  /// After the set-up; contacts that were not there at save() stay as they are.
+  /// Restores them after the set-up; contacts that were not there at save() stay as they are.
   void put_back(LAMMPS_NS::LAMMPS& lammps);
 
  private:

@@ -34,8 +34,8 @@ volatile std::sig_atomic_t makes_bed = 0, has_run = 0;
 
 using Clock = std::chrono::steady_clock;
 
-// [ms] For a step that makes neighbour lists. mpirun that passes a signal on to all its ranks kills
-// them a second later.
+// Time [ms] to wait for a step that makes neighbour lists. mpirun that passes a signal on to all
+// its ranks kills them a second later.
 constexpr int patience = 5000, patience_under_mpirun = 500;
 constexpr int patience_between_commands = 800;
 
@@ -43,7 +43,7 @@ int agreed = 0;
 bool stop_with_checkpoint = false, lists_for_checkpoint = false;
 std::optional<Clock::time_point> waits_since;
 
-/// [ms]
+/// Time since the wait began [ms].
 int time_waited() {
   if (!waits_since) waits_since = Clock::now();
   const auto waited =

@@ -14,9 +14,9 @@ void handle_signals();
 /// Sets this process to report at once that a signal has come, or not.
 void confirm_signals(bool confirm);
 
-/// At the one place of a step where it is decided whether neighbour lists are made: if any rank has
-/// had a signal, all ranks follow it in this step, or wait for one that makes lists, so that a
-/// continued run makes them at the same steps as one without a break. Collective.
+/// Follows signals at the one place of a step where it is decided whether neighbour lists are made:
+/// if any rank has had a signal, all ranks follow it in this step, or wait for one that makes
+/// lists, so that a continued run makes them at the same steps as one without a break. Collective.
 /// @param lists are made in this step, whatever signals say
 /// @return whether a checkpoint is written in this step, which takes new lists
 bool follow_signals(const LAMMPS_NS::LAMMPS& lammps, bool lists);

@@ -41,7 +41,7 @@ struct Style {
   std::string page;  ///< in coupling/, "bodies/fix_wheel_rigid.md"; empty for internal styles
   Schema (*schema)();
   OutputTable (*outputs)();
-  // one of them, the others are null
+  // one of these creators; the others are null
   FixCreator create_fix = nullptr;
   CommandCreator run_command = nullptr;
   void (*add_model)() = nullptr;

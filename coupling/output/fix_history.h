@@ -59,7 +59,7 @@ class FixHistory : public FurrowFix, public FollowsSystem, public FlushesOnError
   /// Opens file_ for rows of these channels. Rank 0 only.
   void open_rows(const std::string& name, const std::vector<Channel>& channels,
                  const std::string& title, std::optional<double> resume_time);
-  /// None where the line asks for no frames. Rank 0 only.
+  /// Opens a series of frames; none where the line asks for none. Rank 0 only.
   std::optional<VtkSeries> open_frames(const std::string& series,
                                        std::optional<double> resume_time) const;
 

@@ -32,7 +32,7 @@ std::string clock_text(double seconds) {
                   : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
-/// "3.1 M" of 3.1e6.
+/// Text of a count: "3.1 M" for 3.1e6.
 std::string count_text(double count) {
   for (const auto& [unit, name] : {std::pair(1e9, "G"), {1e6, "M"}, {1e3, "k"}})
     if (count >= unit) return fmt::format("{:.1f} {}", count / unit, name);

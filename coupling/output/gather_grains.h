@@ -9,7 +9,7 @@
 
 namespace furrow::coupling {
 
-/// All grains on rank 0, empty elsewhere. Collective.
+/// Gathers all grains on rank 0; empty elsewhere. Collective.
 /// @param virial of this rank's grains, where it is known
 Grains gather_grains(LAMMPS_NS::LAMMPS& lammps, double bed_level,
                      const std::optional<Matrix3X>& virial = {});

@@ -13,8 +13,8 @@ namespace furrow::coupling {
 /// The bed, if there is one, then every fix that has options, in the order of the script.
 std::vector<StyleRecord> style_records(LAMMPS_NS::LAMMPS& lammps);
 
-/// The same as lines of a script, "fix rig all wheel/rig wheel wheel speed 0.1 ...", then the text
-/// of the main script. Rank 0 only.
+/// Styles in effect as lines of a script, "fix rig all wheel/rig wheel wheel speed 0.1 ...", then
+/// the text of the main script. Rank 0 only.
 std::string effective_input(LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace furrow::coupling

@@ -89,7 +89,8 @@ bool python_is_interrupted() {
   return PyErr_CheckSignals() != 0;
 }
 
-/// In the current folder, where files are found that the lines name. @return its name
+/// Writes a script into the current folder, where files are found that the lines name. @return its
+/// name
 std::string write_script(const py::iterable& lines, MPI_Comm ranks) {
   std::string text;
   for (const py::handle& line : lines) text += std::string(py::str(line)) + "\n";

@@ -94,7 +94,8 @@ class RigPart : public Part<FixWheelRig> {
   std::map<std::string, double> measure() const;
 };
 
-/// As warnings of Python, where its caller stands. @throws error_already_set if they are errors
+/// Shows warnings as those of Python, where its caller stands. @throws error_already_set if they
+/// are errors
 void show_warnings(Session& session);
 
 /// Grains of this rank. All arrays are views.

@@ -13,7 +13,7 @@ class FixExpectedStates : public LAMMPS_NS::Fix {
   FixExpectedStates(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema() { return Schema("fix furrow/expected_states"); }
   static OutputTable outputs() { return {}; }
-  /// If the checkpoint that was just read has such states.
+  /// Adds the fix if the checkpoint that was just read has such states.
   static void add_if_needed(LAMMPS_NS::LAMMPS& lammps);
 
   int setmask() override { return 0; }

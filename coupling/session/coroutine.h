@@ -19,7 +19,7 @@ class Coroutine {
 
   /// Runs the function until it pauses or ends. Passes its exception on, with which it has ended.
   void resume();
-  /// To be called by the function.
+  /// Pauses the function, which calls this itself.
   void pause();
   bool ended() const { return ended_; }
 

@@ -6,7 +6,7 @@
 
 namespace furrow::coupling {
 
-/// Unless the process has started it. @return whether it did now. @throws Error after MPI has ended
+/// Starts MPI unless the process has. @return whether it did now. @throws Error after MPI has ended
 bool start_mpi();
 
 /// A text for all copies of this library in the process, in its environment. A child inherits the

@@ -22,7 +22,7 @@ constexpr char mark[] = "#: ";
 constexpr char parameters[] = "parameters";
 constexpr char highest[] = "highest";  // given by Furrow
 
-/// "> 0", ">= 1", "[0, 0.5)", "any".
+/// Range of a text such as "> 0", ">= 1", "[0, 0.5)", "any".
 std::optional<Range> to_range(const std::string& text) {
   static const std::regex bound(R"((>=?) *(\S+))"), interval(R"(([\[(])(\S+), *(\S+)([\])]))");
   std::smatch match;
@@ -78,7 +78,7 @@ bool BedScript::has(const std::string& section) const {
   return ("\n" + text_).find(fmt::format("\n{}{}\n", mark, section)) != std::string::npos;
 }
 
-/// Those with commands.
+/// Names of the sections with commands.
 std::vector<std::string> BedScript::sections() const {
   std::vector<std::string> found = {"box", "contact", "settle"};
   if (leaves_levelling()) found.emplace_back("levelled");
@@ -89,7 +89,7 @@ bool BedScript::reads_highest() const {
   return text_.find(fmt::format("${{bed_{}}}", highest)) != std::string::npos;
 }
 
-/// Between "#: <section>" and the next "#: ".
+/// Lines between "#: <section>" and the next "#: ".
 std::vector<std::string> BedScript::lines(const std::string& section) const {
   if (!has(section))
     throw InputError("command bed",

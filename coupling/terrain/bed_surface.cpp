@@ -77,7 +77,7 @@ double BedSurface::height(double x, double y) const {
          relief_.height(std::clamp(x, -half_.x(), half_.x()), std::clamp(y, -half_.y(), half_.y()));
 }
 
-/// On a grid of quarter grains that has the ends of the bed.
+/// Measures heights on a grid of quarter grains that has the ends of the bed.
 void BedSurface::measure(const std::string& where) {
   const auto count = [&](double half) {
     return static_cast<int>(std::ceil(8.0 * half / diameter_));
@@ -169,7 +169,7 @@ std::string BedSurface::doubt_of_settled(double rms) const {
       rms, rms / diameter_);
 }
 
-/// By LIGGGHTS's own command, which numbers the other grains again.
+/// Removes grains by LIGGGHTS's command, which numbers the other grains again.
 void remove_surplus(LAMMPS_NS::LAMMPS& lammps, const BedSurface& surface) {
   const LAMMPS_NS::Atom& atom = *lammps.atom;
   std::vector<int> above;

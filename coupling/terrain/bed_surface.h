@@ -30,7 +30,7 @@ class BedSurface {
 
   /// Features of the relief that grains of this size do not show, a sentence each.
   std::vector<std::string> doubts() const;
-  /// In a box that is periodic, the relief must go on behind its end. @throws InputError
+  /// Checks that the relief goes on behind its end in a box that is periodic. @throws InputError
   void check_period(const LAMMPS_NS::LAMMPS& lammps) const;
   /// A settled bed has slumped where its grains lie off the surface by more than a diameter.
   /// @param rms deviation of the grains' tops [m] @returns a sentence; empty for a bed that has not

@@ -41,7 +41,7 @@ namespace fs = std::filesystem;
 
 constexpr char no_checkpoint[] = "none";
 
-/// "command processors": 0 leaves the number of ranks along an axis to LIGGGHTS.
+/// Line "processors": 0 leaves the number of ranks along an axis to LIGGGHTS.
 std::string processors_line(const int (&grid)[3]) {
   std::string line = "processors";
   for (const int ranks : grid) line += ranks ? fmt::format(" {}", ranks) : " *";
@@ -108,7 +108,7 @@ std::string quoted(const char* command, const fs::path& path) {
   return fmt::format("{} \"{}\"", command, path.string());
 }
 
-/// In the place of what has its name; a link is removed and not followed.
+/// Makes a folder in the place of what has its name; a link is removed and not followed.
 void make_new_folder(const fs::path& folder) {
   std::error_code failed;
   fs::remove_all(folder, failed);
@@ -245,8 +245,8 @@ void CommandBed::set_contact(const Options& options) {
   }
 }
 
-/// Each becomes a variable with bed_ before its name; of a former name too, which a bed script may
-/// still read.
+/// Sets a variable with bed_ before its name for each parameter; also for a former name, which a
+/// bed script may still read.
 void CommandBed::set_parameters(const Request& request) {
   BedLine line = {{"script", request.script.path().string()}};
   for (const Parameter& p : request.parameters) {
@@ -279,7 +279,7 @@ void CommandBed::make(const Request& request, const KeptBed& bed) {
     fmt::print(screen, "Making the bed {} (kept in {})\n", request.script.path().string(),
                bed.folder.parent_path().string());
   const int grid[3] = {comm->user_procgrid[0], comm->user_procgrid[1], comm->user_procgrid[2]};
-  // before the minutes that a bed takes
+  // the check comes before the minutes that a bed takes
   on_first_rank(world, [&] { check_folder(bed.folder.parent_path()); });
   check_later_lines(*lmp);
   {
@@ -302,7 +302,7 @@ void CommandBed::make(const Request& request, const KeptBed& bed) {
   input->one(processors_line(grid).c_str());
 }
 
-/// Written under another name: another run may be making the same bed.
+/// Writes the bed under another name first: another run may be making the same bed.
 void CommandBed::keep(const Request& request, const KeptBed& bed) {
   const BedFacts facts = measure_bed(*lmp, request.surface);
   check_bed(facts, request.surface);

@@ -21,8 +21,8 @@ class RememberedBed {
   /// and carry their contact histories.
   /// @throws StateError for an atom style whose grains are packed in another way
   void remember(LAMMPS_NS::LAMMPS& lammps);
-  /// Before every run that puts grains in: the fixes that ride with the grains, and their order,
-  /// may be others than when the bed was remembered.
+  /// Notes the fixes that ride with the grains, before every run that puts grains in: they, and
+  /// their order, may be others than when the bed was remembered.
   /// @throws StateError for one that the bed's grains have no numbers of
   void follow_riders(const LAMMPS_NS::LAMMPS& lammps);
   void checkpoint(Checkpoint& state);
@@ -44,11 +44,11 @@ class RememberedBed {
  private:
   void gather(LAMMPS_NS::LAMMPS& lammps);
   void refer_partners_by_index();
-  /// Where a grain's own numbers begin in packed_; of the one behind the last: where all end.
+  /// Place of a grain's first number in packed_; for the one behind the last, the end of all.
   std::size_t begin(std::size_t grain) const {
     return grain == 0 ? 0 : bounds_[grain * (riders_.size() + 1) - 1];
   }
-  /// Where the numbers of a rider begin; of the one behind the last: where the grain ends.
+  /// Place of a rider's first number; for the one behind the last, the end of the grain.
   std::size_t begin(std::size_t grain, std::size_t rider) const {
     return bounds_[grain * (riders_.size() + 1) + rider];
   }
