@@ -18,7 +18,7 @@ using BedLine = std::vector<std::pair<std::string, std::string>>;
 void set_bed_line(LAMMPS_NS::LAMMPS& lammps, const BedLine& line, const std::string& values);
 /// Names and values of the line `bed`; empty without one.
 BedLine bed_line(LAMMPS_NS::LAMMPS& lammps);
-/// A run is continued on the same bed. "none" without one.
+/// Values of the bed, on which alone a run is continued; "none" without one.
 std::string bed_values(LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace furrow::coupling

@@ -91,7 +91,8 @@ void ContinuedLines::warn_of_properties() const {
                                 property, found->second, values));
 }
 
-/// Only controllers that keep no state, such as rigs: the others refuse other keywords themselves.
+/// Keywords of controllers that keep no state, such as rigs: the others refuse other keywords
+/// themselves.
 std::string ContinuedLines::lines_of(const std::vector<std::string>& controllers) const {
   std::string lines;
   for (const std::string& id : controllers) {

@@ -16,7 +16,7 @@ class FixBody : public FurrowFix {
   Body& body() const { return *body_; }
   /// The body as its fix line made it, before a checkpoint moved it on; nothing without one.
   const std::optional<Checkpoint>& state_as_made() const { return state_as_made_; }
-  /// Places of the surface's nodes then [m].
+  /// Places of the surface's nodes when the script made the body [m].
   const Matrix3X& nodes_as_made() const { return nodes_as_made_; }
 
   void restart(char* buffer) override;

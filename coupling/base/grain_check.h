@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Are all grains where a grain can be, and what moves them?
+/// Checks that grains have finite places, and finds the fixes that move them.
 
 #include "fix.h"
 #include "lammps.h"

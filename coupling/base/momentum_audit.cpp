@@ -35,7 +35,7 @@ void MomentumAudit::add(const ContactLedger& ledger, const Surface& surface,
   const double moment_now = (surface.total_moment(reference) + ledger.grain_moment).norm();
   const double force_defect = force_now / ledger.force_scale;
   const double moment_defect = moment_now / ledger.moment_scale;
-  // Written so that NaN fails too.
+  // Comparison written so that NaN fails too.
   if (!(force_defect < momentum_tolerance) || !(moment_defect < momentum_tolerance))
     throw StateError(fmt::format(
         "body '{}': forces on its nodes and on the grains do not cancel at step {}: relative "

@@ -21,7 +21,7 @@ class FixPlateRigid : public FixBody, public MotionController {
   const Vector3& direction() const { return direction_; }  ///< of the motion, of unit length
 
  protected:
-  // For plates of other shapes.
+  // Constructor and helpers of plates with other shapes.
   using Direction = std::function<Vector3(const Options&)>;
   /// @param direction of the motion, of unit length
   FixPlateRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema,

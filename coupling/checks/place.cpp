@@ -414,7 +414,7 @@ Found body_stays_off_the_base(const Scene&, FixContactContinuum& contact) {
       contact.body_fix().id, near_base, contact.terrain_fix().id));
 }
 
-/// Surfaces are replicated, so all ranks agree.
+/// All ranks agree, because surfaces are replicated.
 Found body_stays_off_the_surface_mesh(const Scene&, const FixWallGranBody& wall) {
   const std::vector<const Body*> bodies = wall.bodies();
   const auto is_terrain = [](const Body* body) {

@@ -35,7 +35,7 @@ class FixContact : public FurrowFix, public CountsLosses {
   }
 
   Body& body() const { return body_fix_.body(); }
-  /// Outputs of a half model are those of the whole body: a sum over the computed half times this.
+  /// Factor from a sum over the computed half to outputs, which are those of the whole body.
   double symmetry_factor() const { return body().half_model() ? 2.0 : 1.0; }
   /// A force on the whole body, from that on the part that is computed.
   Vector3 of_whole(const Vector3& force) const {

@@ -68,7 +68,7 @@ class BodyMesh : public LAMMPS_NS::TriMesh {
   Vector3 reach_upper_;
 };
 
-/// A FixMeshSurface, so not a FurrowFix.
+/// The class is a FixMeshSurface, so not a FurrowFix.
 class FixMeshBody : public LAMMPS_NS::FixMeshSurface,
                     public HasOptions,
                     public UsesFix,

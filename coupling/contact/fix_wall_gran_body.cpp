@@ -129,7 +129,7 @@ void FixWallGranBody::refuse_deep_start() const {
                     id, deepest, max_overlap_at_start));
 }
 
-/// Grains too far from the surface to touch it; it would never let them out.
+/// Refuses grains inside a body, too far from its surface to touch it: it would never let them out.
 void FixWallGranBody::refuse_grains_inside() const {
   constexpr double inside = 0.5;  // winding number
   for (int m = 0; m < n_FixMesh_; ++m) {

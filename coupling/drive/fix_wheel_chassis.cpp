@@ -22,7 +22,7 @@ FixWheelChassis::FixWheelChassis(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg
   keep_state();
 }
 
-/// The ids of the keyword, with commas between them.
+/// Finds the rigs by the ids of the keyword, with commas between them.
 std::vector<FixWheelRig*> FixWheelChassis::find_rigs() const {
   std::vector<FixWheelRig*> rigs;
   std::istringstream ids(options().text("rigs"));

@@ -241,7 +241,7 @@ void FixWheelRig::change_targets(const std::vector<Entry>& targets) {
   last_change_ = system.time();
 }
 
-/// The line with other values of targets. @throws InputError, and nothing has changed
+/// Repeats the line with other values of targets. @throws InputError, and nothing has changed
 void FixWheelRig::retarget(const std::map<std::string, std::string>& targets) {
   std::vector<Entry> entries;
   for (const Entry& entry : line_.effective())
@@ -273,7 +273,7 @@ void FixWheelRig::warn_of_short_ramps() {
     }
 }
 
-/// The wheel of the keyword, if no other rig has it.
+/// Finds the wheel of the keyword, if no other rig has it.
 FixWheelHub& FixWheelRig::find_free_wheel() {
   auto& wheel = use<FixWheelHub>("wheel", {"wheel"});
   for (FixWheelRig* other : fixes_of<FixWheelRig>(*modify))

@@ -113,7 +113,7 @@ std::string text(const std::string& name, unsigned i, const std::string& meaning
                      escaped(value));
 }
 
-/// The outputs, which are also unknown at the start.
+/// Lists the outputs, which are also unknown at the start.
 std::string structure(int version) {
   std::string outputs, unknowns;
   for (unsigned i = first_output; i < real_count; ++i) {

@@ -106,7 +106,7 @@ class NormalModel<furrow::coupling::snow_bond_id> : public NormalModelBase {
   Response yield(const furrow::SnowBondParameters& parameters, const furrow::SnowContact& contact,
                  const Trial& trial, double* values, double share) const;
   Response stand(SurfacesIntersectData touching) const;
-  /// Else the forces are those before the first step of a run.
+  /// True in a step; false when the forces are those before the first step of a run.
   static bool moves(const SurfacesIntersectData& touching) {
     return touching.computeflag && touching.shearupdate;
   }

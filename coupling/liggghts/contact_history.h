@@ -10,7 +10,8 @@
 
 namespace furrow::coupling {
 
-/// The fix that keeps them; null before the pair style was set up, and for one without history.
+/// Finds the fix that keeps histories; null before the pair style was set up, and for one without
+/// history.
 LAMMPS_NS::FixContactHistory* find_contact_history(LAMMPS_NS::LAMMPS& lammps);
 
 /// Brings what the grains carry of their contacts up to date, as LIGGGHTS itself does only when
@@ -26,7 +27,7 @@ class PackedContacts {
 
   std::size_t count() const;
   int partner(std::size_t contact) const;
-  /// The values of a contact.
+  /// Values of a contact of this grain.
   const double* values(std::size_t contact) const { return entry(contact) + 1; }
   std::size_t size() const { return 1 + count() * (1 + values_); }  ///< in numbers
 

@@ -17,7 +17,8 @@ class SavedHistories {
  public:
   /// Saves the histories between the making of neighbour lists and the first forces.
   void save(LAMMPS_NS::LAMMPS& lammps);
-  /// Restores them after the set-up; contacts that were not there at save() stay as they are.
+  /// Restores the histories after the set-up; contacts that were not there at save() stay as they
+  /// are.
   void put_back(LAMMPS_NS::LAMMPS& lammps);
 
  private:

@@ -93,7 +93,7 @@ void FixHistory::warn_of_long_intervals() {
 
 // Rank 0 alone writes, so it may fail alone.
 
-/// A terrain/history beside a wheel/history has the same folder, and its lock.
+/// Takes the folder and its lock; a terrain/history shares those of its wheel/history.
 void FixHistory::take_folder() {
   if (comm->me != 0) return;
   if (!resume_time_) make_results_folder(options());

@@ -25,7 +25,7 @@ class FixHistory : public FurrowFix, public FollowsSystem, public FlushesOnError
   /// Files are made when the first run starts: by then every style of the scene is known.
   void setup(int vflag) override;
   void end_of_step() override;
-  /// Also reached when the user interrupts the run: what there is, is written and evaluated.
+  /// Ends a run, also when the user interrupts it: all rows so far are written and evaluated.
   void post_run() override;
   /// An error ends the run: the rows since the last flush are still useful.
   void flush_results() override;

@@ -261,7 +261,7 @@ void CommandBed::set_parameters(const Request& request) {
   set_bed_line(*lmp, line, request.values);
 }
 
-/// A damaged one is made again.
+/// True for a bed that is kept whole; a damaged one is made again.
 bool CommandBed::is_kept(const KeptBed& bed) {
   int kept = 0;
   if (comm->me == 0 && fs::exists(bed.folder)) {

@@ -80,7 +80,8 @@ FixTerrainScm::FixTerrainScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
                field().rows(), field().cell(), field().parameters().level);
 }
 
-/// Both fields would carry a body. Two of them side by side share an edge.
+/// Refuses overlapping fields, which would both carry a body. Two of them side by side share an
+/// edge.
 void FixTerrainScm::refuse_overlap() {
   constexpr double shared = 1e-6;  // of a cell
   const auto overlaps = [this](FixTerrainScm& other) {

@@ -60,7 +60,7 @@ CoupledSystem::StepLimit CoupledSystem::step_limit() const {
   return limit;
 }
 
-/// The forces of others become one impulse in the first sub-step.
+/// Begins an interval: the forces of others become one impulse in the first sub-step.
 void CoupledSystem::begin_interval(int sub_steps) {
   for (Member& m : members_) {
     Matrix3X& f = m.body->surface().f;

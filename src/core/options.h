@@ -94,7 +94,7 @@ class Schema {
   Schema& flag(const std::string& name, const std::string& meaning);
   /// the key declared last may be left out
   Schema& optional();
-  /// the same, and then has this value
+  /// makes the key optional, with this value
   Schema& by_default(const std::string& value);
   Schema& by_default(double value);
   Schema& by_default(const std::vector<double>& values);

@@ -70,7 +70,7 @@ class GroundRelief {
   /// Checksum of the heightmap's nodes, equal for equal maps; empty without a map.
   std::string map_checksum() const;
   std::string note() const;  ///< of the heightmap; empty without
-  /// A run that continues must have the same heightmap. Keywords are compared by the fix.
+  /// Requires the same heightmap in a run that continues. Keywords are compared by the fix.
   void match(Checkpoint& state) const;
 
  private:

@@ -28,7 +28,8 @@ struct WheelCircumference {
 /// wheel.segments equal ones.
 WheelCircumference plain_circumference(const WheelGeometry& wheel);
 
-/// Bars and the gaps between them, each in equal segments.
+/// Circumference of bars and the gaps between them, each in equal segments. @param size [m] longest
+/// segment
 /// @param size [m] longest segment
 WheelCircumference grouser_circumference(const WheelGeometry& wheel, double size);
 

@@ -16,7 +16,7 @@ struct SnowStrength {
 
 struct SnowBondTrial;
 
-/// The law. Functions set the energy if its pointer is not null.
+/// Law of a contact of sintered snow. Functions set the energy if its pointer is not null.
 class SnowBond {
  public:
   static constexpr double bond_radius = 0.2;    ///< of a sintered bond, of d
@@ -50,7 +50,7 @@ class SnowBond {
   static SnowBondResponse advance_yielding(const SnowBondParameters& law,
                                            const SnowContact& contact, const SnowBondTrial& trial,
                                            SnowBondState& state, SnowBondEnergy* energy);
-  /// Forces of a state as it is, without dampers.
+  /// Forces of a contact whose state stays as it is, without dampers.
   static SnowBondResponse hold(const SnowBondParameters& law, const SnowContact& contact,
                                const SnowBondState& state, SnowBondEnergy* energy = nullptr);
   /// Makes a whole bond without stress or, if the contact cannot sinter, a touch without stress.

@@ -7,7 +7,7 @@
 
 namespace furrow {
 
-/// One component of both vectors.
+/// The same component of two vectors.
 using Two [[gnu::vector_size(16)]] = double;
 
 struct TwoVectors {
@@ -16,7 +16,7 @@ struct TwoVectors {
   static TwoVectors of(const Vector3& first, const Vector3& second) {
     return {Two{first[0], second[0]}, Two{first[1], second[1]}, Two{first[2], second[2]}};
   }
-  /// Six numbers, as store() writes them.
+  /// Loads two vectors from six numbers, as store() writes them.
   static TwoVectors load(const double* values) {
     return {Two{values[0], values[1]}, Two{values[2], values[3]}, Two{values[4], values[5]}};
   }

@@ -9,7 +9,7 @@ namespace furrow {
 
 class Hdf5File;
 
-/// Replaces what is there. @throws Error
+/// Writes the closing of a run, in the place of an earlier one. @throws Error
 void write_closing(Hdf5File& file, const RunClosing& closing);
 /// @throws Error when the run did not come to its end
 RunClosing read_closing(const Hdf5File& file);

@@ -228,7 +228,7 @@ Points read_xyz(TextLines& lines) {
   return points;
 }
 
-/// Points by the node that is nearest to them.
+/// Sorts points by the node that is nearest to them.
 class Bins {
  public:
   Bins(const Points& points, const Heightmap& map)
@@ -241,7 +241,7 @@ class Bins {
       in_[at(static_cast<int>(i), static_cast<int>(j))].push_back(n);
     }
   }
-  /// Calls visit(point) for all within so many nodes.
+  /// Calls visit(point) for all points within so many nodes.
   template <class Visit>
   void around(int column, int row, int reach, Visit visit) const {
     for (int j = std::max(0, row - reach); j <= std::min(rows_ - 1, row + reach); ++j)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The text of a file that somebody wrote by hand.
+/// Text of input files, which people write by hand.
 
 #include <cstdint>
 #include <string>

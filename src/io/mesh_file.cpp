@@ -33,7 +33,7 @@ class MeshLines : public TextLines {
  public:
   using TextLines::TextLines;
 
-  /// The three numbers after the first word.
+  /// Point of the three numbers after the first word of a line.
   Vector3 point() const {
     if (words().size() < 4) refuse("has fewer than three coordinates", "three numbers");
     Vector3 point;

@@ -48,7 +48,7 @@ std::vector<double> kept(const fs::path& path, const std::string& identity) {
   return {};
 }
 
-/// Written beside under a name of this process alone, then renamed: whoever looks finds a whole
+/// Writes a table under a name of this process alone, then renames it: other processes find a whole
 /// file or none.
 void keep(const fs::path& path, const std::string& identity,
           const std::vector<double>& coefficients) {

@@ -47,7 +47,7 @@ std::string summary_json(const Summary& summary);
 std::string vehicle_text(const std::vector<std::string>& folders,
                          const ResistanceOptions& options = {});
 
-/// Writes both into the folder, each in one step. @throws Error
+/// Writes summary.txt and summary.json into the folder, each in one step. @throws Error
 void write_summary(const std::string& folder, const Summary& summary);
 
 }  // namespace furrow

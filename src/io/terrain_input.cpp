@@ -246,7 +246,7 @@ AxisLayout layout(const Options& options, double lower, double upper, double mid
   return axis;
 }
 
-/// The surface lies between two cells, and so does the top.
+/// Layout of the z axis: the surface lies between two cells, and so does the top.
 AxisLayout vertical_layout(const Options& options) {
   const double surface = options.number("surface"), depth = options.number("depth"),
                cell = options.number("cell");

@@ -88,7 +88,7 @@ class Boundary {
   void shift_x(int cells);
   /// Every rank takes the far field of the ranks that own the nodes. Collective.
   void synchronise(const Communicator& ranks, const NodeBlock& owned);
-  /// Impulses and work become those of all ranks. Collective.
+  /// Replaces impulses and work by those of all ranks. Collective.
   void sum_over_ranks(const Communicator& ranks);
   /// @param keep_sums on one rank only: impulses and work of all ranks are then counted once
   void checkpoint(Checkpoint& state, bool keep_sums);

@@ -44,7 +44,7 @@ void check_both_sides(const Discretisation& discretisation, const std::string& w
                      "look at the surface's place, and at 'centre' and 'surface' of the ground");
 }
 
-/// Those parts of a terrain do not know sleeping ground. @throws InputError for a terrain with them
+/// Refuses a terrain with parts that do not know sleeping ground. @throws InputError
 void check_active(const TerrainParameters& parameters, const std::string& where) {
   const auto refuse = [&](const std::string& what, const std::string& remedy) {
     throw InputError(where + ", keyword 'sleep_tolerance'", "is given with " + what,
@@ -70,7 +70,8 @@ std::optional<ActiveGround> make_active(const TerrainParameters& parameters,
                       energy);
 }
 
-/// Those parts of a terrain have velocity fields themselves, or one. @throws InputError
+/// Refuses thin parts with other parts that have velocity fields, or know one only. @throws
+/// InputError
 std::optional<DividedGround> make_divided(const TerrainParameters& parameters,
                                           Discretisation& discretisation,
                                           const std::string& where) {
@@ -270,7 +271,7 @@ void ContinuumTerrain::checkpoint_boundary(Checkpoint& state) {
   boundary_.checkpoint(state, ranks().rank() == 0);
 }
 
-/// Key by key, so that an error names the one that differs.
+/// Compares a layer key by key, so that an error names the one that differs.
 void ContinuumTerrain::match_layer(const TerrainLayer& layer, Checkpoint& state) {
   state.match("thickness of a layer", layer.thickness);
   state.match("number of its keys", layer.description.size());

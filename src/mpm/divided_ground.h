@@ -54,7 +54,7 @@ class DividedGround {
   void begin_interval();
   /// Adds the sums of copies that are none to those of the node. Not collective.
   void join_sums();
-  /// Gives such copies the motion of the node. Not collective.
+  /// Gives copies of a divided node its motion. Not collective.
   void copy_motion();
 
   /// All ranks keep all divided nodes.

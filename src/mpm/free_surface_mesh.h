@@ -38,7 +38,7 @@ class FreeSurfaceMesh {
   Surface& surface() { return surface_; }
   const Surface& surface() const { return surface_; }
 
-  /// The ground has dropped so many slabs since the start; attach() again.
+  /// Places the mesh when the ground has dropped so many slabs since the start; attach() again.
   void place(const TerrainFill& fill, const Grid& grid, std::size_t dropped_slabs);
   /// Finds the particles of the nodes among this rank's; needed after particles changed their
   /// order.

@@ -104,7 +104,7 @@ class Grid {
 
   /// The axis moves along x by whole cells; the numbers of the nodes stay where they are in memory.
   void shift_x(int cells) { axes_[0].shift(cells); }
-  /// Valid until the grid is shifted or stores other columns.
+  /// View for kernels, valid until the grid is shifted or stores other columns.
   GridView view(int field = 0);
 
   /// Stored ones, of all velocity fields.

@@ -19,7 +19,7 @@ class ParticleDistribution {
   /// Both must outlive the distribution; the boundary's far field moves with the planes of nodes.
   ParticleDistribution(Discretisation& discretisation, Boundary& boundary);
 
-  /// Particles may have travelled so much further since the last sorting [m].
+  /// Adds a distance [m] that particles may have travelled since the last sorting.
   void add_drift(double distance) { drift_ += distance; }
   /// True if particles may have travelled half a cell since the last sorting. This rank has the
   /// nodes for one cell.

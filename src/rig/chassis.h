@@ -32,7 +32,7 @@ class Chassis {
 
   /// Sets loads for the step [time, time + dt], after those of the rigs.
   void apply(double time, double dt);
-  /// The rigs have sprung masses of their own again.
+  /// Gives the rigs separate sprung masses again.
   void release();
 
   static const Outputs<const Chassis>& outputs();

@@ -40,7 +40,7 @@ struct Ramp {
     return (integrate(&Ramp::value, from, to) + (to - finish)) / (to - from);
   }
 
-  /// Mean of the rate over [from, to], in the same way [1/s]; 0 for a step.
+  /// Mean of the rate over [from, to] [1/s], computed as mean(); 0 for a step.
   double mean_rate(double from, double to) const {
     return integrate(&Ramp::rate, from, to) / (to - from);
   }

@@ -23,9 +23,9 @@ class FreeComponents {
   Eigen::Index index(Eigen::Index node, int k) const {
     return index_[static_cast<std::size_t>(6 * node + k)];
   }
-  /// [kg] and [kg m^2] of each
+  /// Mass [kg] or inertia [kg m^2] of each component.
   const VectorX& mass() const { return mass_; }
-  /// [N] and [N m] on each
+  /// Force [N] or moment [N m] on each component.
   VectorX forces(const ShellNodes& nodes) const;
   /// Moves places by a value [m] and turns by a vector of rotation [rad].
   void move(const VectorX& by, ShellNodes& nodes) const;

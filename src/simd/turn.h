@@ -11,7 +11,7 @@ inline namespace FURROW_ISA {
 struct Turn {
   Lanes x, y, z, w;
 };
-/// First b, then a.
+/// Turn by b, then by a.
 FURROW_INLINE Turn operator*(const Turn& a, const Turn& b) {
   return {
       a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,

@@ -220,7 +220,7 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
         "the window is too short: the wheel travels {:.3g} m in it, {:.3g} m are needed",
         window.distance, options.shortest_distance));
   const std::string other = result.driven ? "resistance_coefficient" : "net_traction_coefficient";
-  // Values that are not steady for the same reason share it.
+  // Titles of values by the reason why they are not steady: those with the same reason share it.
   std::vector<std::pair<std::string, std::string>> titles_of_reason;
   for (const SteadyValue& value : result.values) {
     if (value.steady || value.imposed || value.name == other || repeats_another(value) ||

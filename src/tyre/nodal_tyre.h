@@ -61,7 +61,7 @@ class NodalTyre : public Tyre {
   virtual Internal add_internal_forces() = 0;
   /// Called when the pressure has changed.
   virtual void follow_pressure() {}
-  /// Positions and velocities of the surface from those of nodes and rim.
+  /// Sets positions and velocities of the surface from those of nodes and rim.
   virtual void place_surface() = 0;
   /// Distributes surface().f over nodes and rim.
   /// @param on_nodes [N] out: one column for each node

@@ -25,7 +25,7 @@ namespace {
 // largest rms error of the force over the rms of the force
 constexpr double largest_error = 5e-3;
 
-/// The end at u, chi, phi.
+/// End of a sidewall at u, chi, phi.
 SidewallEnd end_at(double u, double chi, double phi, double length) {
   const double chord = length * (1.0 - u * u);
   return {chord * std::cos(chi), chord * std::sin(chi), phi};

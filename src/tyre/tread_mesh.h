@@ -17,7 +17,7 @@ struct TreadMesh {
   std::vector<Shell4::Quad> quads;
 };
 
-/// Even in both directions; the crown is a parabola across.
+/// Tread mesh, even in both directions; the crown is a parabola across.
 /// @param across elements across the whole tread; even for a half model
 /// @param half only y >= 0
 TreadMesh make_tread_mesh(const TreadParameters& tread, int across, int around, bool half);

@@ -28,7 +28,7 @@ class TyreSurface {
 
   Surface& surface() { return surface_; }
 
-  /// Positions and velocities from those of tread and rim.
+  /// Sets positions and velocities from those of tread and rim.
   void place(const ShellNodes& tread, const std::vector<SidewallRing>& rings, const WheelHub& rim);
 
   /// Distributes surface().f over tread and rim.

@@ -90,8 +90,8 @@ class Stepper {
     Branch branch = Branch::elastic;
   };
 
-  /// The state after a step to `variable`; false with the message of the law when the law refuses
-  /// it.
+  /// Updates the state by a step to `variable`; false with the message of the law when the law
+  /// refuses it.
   bool update(const Vector6& variable, double time_step, Trial& trial, std::string& refusal) const {
     trial.variable = variable;
     trial.state = state_;

@@ -27,7 +27,7 @@ struct CellSum {
     add_rows(weights, p, value_z, flux);
   }
 
-  /// The same without the first term.
+  /// Adds a particle without the first term.
   [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector4* flux) {
     Vector4 value_z[stencil];
 #pragma GCC unroll 3

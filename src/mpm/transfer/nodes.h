@@ -9,9 +9,9 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-// The four numbers of a node,
+// Vector of the four numbers of a node.
 typedef double Vector4 __attribute__((vector_size(32)));
-// and the same anywhere in memory.
+// Vector of four numbers anywhere in memory.
 typedef double Stored4 __attribute__((vector_size(32), aligned(8), may_alias));
 
 /// Distance in memory, in doubles, from a node to the next along x and y.

@@ -59,7 +59,7 @@ constexpr double usual_stiffness_ratio = 0.1;  // d/E; clay has up to 0.02 [Bowl
 // Fresh snow of 50 kg/m3 has a shear strength of 90 Pa [Jamieson2001]
 constexpr double usual_cohesion_of_snow = 20.0, snow_density = 600.0;  // [Pa], [kg/m3]
 
-/// Other units, and sections that belong to two grounds.
+/// Warnings about other units, and sections that belong to two grounds.
 std::vector<std::string> doubts_of_cap(const MaterialOptions& sections) {
   const Options& law = sections.at("law").options;
   const double d = law.number("d"), R = law.number("R");

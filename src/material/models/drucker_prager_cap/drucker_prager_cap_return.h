@@ -91,7 +91,8 @@ inline void return_to_cutoff(const DruckerPragerCapParameters& parameters, const
   where(active, end.branch) = double(Branch::tension);
 }
 
-/// The end of the step: the trial where it is elastic, else its return to the surface it violates.
+/// Returns the end of the step: the trial where it is elastic, else its return to the surface it
+/// violates.
 FURROW_INLINE CapReturn return_mapping(const DruckerPragerCapParameters& parameters,
                                        const ViolatedSurface& violated, const CapTrial& trial) {
   CapReturn end;

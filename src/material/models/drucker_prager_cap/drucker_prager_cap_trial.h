@@ -42,7 +42,7 @@ FURROW_INLINE CapTrial make_trial(const DruckerPragerCapParameters& parameters,
           deviator.t()};
 }
 
-/// The end of a step.
+/// State at the end of a step.
 struct CapReturn {
   Lanes p;  ///< [Pa]
   Lanes t;

@@ -35,8 +35,8 @@ FURROW_INLINE void finish_cap(const DruckerPragerCapParameters& parameters, cons
   where(active, end.branch) = double(Branch::cap);
 }
 
-/// Both equations together, by Newton's method in (De, u), for linear elasticity: there g = A Q
-/// sin(phi) + 3 G (R/A) De u - t_tr. @return the points that it has not solved
+/// Solves both equations together, by Newton's method in (De, u), for linear elasticity: there
+/// g = A Q sin(phi) + 3 G (R/A) De u - t_tr. @return the points that it has not solved
 FURROW_INLINE Mask solve_cap_together(const DruckerPragerCapParameters& parameters,
                                       const Mask& active, const CapTrial& trial, const Lanes& guess,
                                       CapReturn& end) {
@@ -76,8 +76,8 @@ FURROW_INLINE Mask solve_cap_together(const DruckerPragerCapParameters& paramete
   return active && !solved;
 }
 
-/// One equation inside the other, each within a bracket: g increases with u, and f with the u that
-/// solves g decreases with De.
+/// Solves one equation inside the other, each within a bracket: g increases with u, and f with the
+/// u that solves g decreases with De.
 inline void solve_cap_nested(const DruckerPragerCapParameters& parameters, const Mask& active,
                              const CapTrial& trial, const Lanes& guess, CapReturn& end) {
   const ElasticStep& elastic = trial.elastic;
