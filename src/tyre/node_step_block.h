@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Data of a kernel of the nodes' step works on, as plain data: this header is compiled with every
+/// Input of the kernel of the nodes' step, as plain data: this header is compiled with every
 /// instruction set (simd/lanes.h explains why).
 
 #include <cstddef>
