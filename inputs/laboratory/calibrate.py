@@ -93,7 +93,7 @@ class Trials:
 
 
 def targets(test: Task) -> list[str]:
-    """What its residuals are of."""
+    """Names of the quantities of its residuals."""
     if "reference" in test:
         return [f"{test['test']} at {rho:g} kg/m3" for rho, _ in reference_of(test)]
     return [f"{test['test']} {name}" for name in test["quantities"]]
@@ -193,7 +193,7 @@ def calibrate(task: Task, trials: Trials) -> dict[str, Any]:
 
 
 def findings(found: Fit) -> list[str]:
-    """What the targets do not determine."""
+    """Sentences on parameters that the targets do not determine."""
     names = [one.parameter.name for one in found.parameters]
     text = []
     for share, direction in found.weak(WEAK):

@@ -126,7 +126,7 @@ def eccentricity(K0: float, tangent: float) -> float:
 
 @dataclass(frozen=True)
 class Law:
-    """What is identified before the hardening."""
+    """Parameters that are identified before the hardening."""
 
     tangent: float  # of beta
     d: float  # [Pa]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is refused before a test of the laboratory runs: grounds, variables and their values."""
+"""Checks before a test of the laboratory runs: grounds, variables and their values."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -72,7 +72,7 @@ def require_preparation(test: str, ground: str) -> None:
 
 
 def require_variables(test: str, ground: str, given: Sequence[tuple[str, str]]) -> None:
-    """Of a test: each is read by its scripts and has a value in its range. @raises ResultsError"""
+    """Checks that the scripts of a test read each variable, and that its value is in range. @raises ResultsError"""
     require_preparation(test, ground)
     script = HERE / f"{test}.lig"
     surroundings = {"here": str(HERE), "ground": ground}
@@ -90,7 +90,7 @@ def require_variables(test: str, ground: str, given: Sequence[tuple[str, str]]) 
 
 
 def require_loading(values: Mapping[str, str]) -> None:
-    """Of an oedometer, which goes from its confinement to its stress. @raises ResultsError"""
+    """Checks that an oedometer goes from its confinement to a larger stress. @raises ResultsError"""
     start, end = values.get("confinement", ""), values.get("stress", "")
     if is_number(start) and is_number(end) and float(end) <= float(start):
         raise ResultsError(
@@ -110,7 +110,7 @@ def require_snow(values: Mapping[str, str]) -> None:
 
 
 def require_size(text: str, values: Mapping[str, str]) -> None:
-    """Of a plate on its bed. @raises ResultsError"""
+    """Checks that a plate is narrower than its bed. @raises ResultsError"""
     width = values.get("width", "")
     if is_number(width) and float(text) >= float(width):
         raise ResultsError(
@@ -127,7 +127,7 @@ def is_number(text: str) -> bool:
 
 
 def require_value(name: str, text: str) -> None:
-    """Of a variable that is a number. @raises ResultsError outside of its range"""
+    """Checks a variable that is a number. @raises ResultsError outside of its range"""
     if not is_number(text):
         raise ResultsError(f"variable {name}: '{text}' is not a number")
     value = float(text)

@@ -32,12 +32,12 @@ class PlaneStrain(NamedTuple):
 
 
 def plane_strain(tangent: float, K: float) -> PlaneStrain:
-    """What the law has; tangent: of beta."""
+    """Plane strain of the law; tangent: of beta."""
     mean = 2 * tangent * (1 + K**3) / (9 * (1 - K**2))
     level = mean**3 - mean * tangent**2 / 3 + 2 * tangent**3 / 27
 
     def excess(m: float) -> float:
-        """Of s1 s2 s3; m: mean of s1 and s3."""
+        """Excess of s1 s2 s3; m: mean of s1 and s3."""
         return m * (3 * mean - 2 * m) ** 2 - level
 
     m = float(brentq(excess, mean, 1.5 * mean, xtol=1e-14 * mean))
@@ -76,7 +76,7 @@ class Cone(NamedTuple):
         return [each == kind for each in self.kinds]
 
     def sentences(self) -> list[str]:
-        """What the cone has, and what it cannot fit."""
+        """Sentences on the values of the cone, and on what it cannot fit."""
         lines = [
             f"tan(beta) {self.tangent:.3f} +- {self.tangent_error:.3f}, K {self.K:.3f} +- "
             f"{self.K_error:.3f}, from {len(self.kinds)} tests",

@@ -18,7 +18,7 @@ from furrow_post.errors import ResultsError
 
 CRUSHED = 1.02  # density over that at the start, from which on the oedometer shows hardening
 PASSES = 5  # over the hardening; what is left of the density is below 1e-3
-# What weighs as much as a factor of e in a stress: differences, and logarithms of densities
+# Differences, or logarithms of densities, that weigh as much as a factor of e in a stress
 SCALE = {"K0": 0.1, "lateral_ratio": 0.2, "density": 0.1}
 NO_STATE = 3.0  # residual of a value where the law has no state: a factor of 20
 SEARCH = Search(step=0.02, central=False, ftol=1e-4, xtol=1e-3, scale=1.0, evaluations=30)
@@ -168,7 +168,7 @@ def is_ratio(quantity: str) -> bool:
 
 
 def deviation(row: Row, value: float) -> float:
-    """Of a law from a row: difference of ratios, or ln of law over grains; NaN without a state."""
+    """Deviation of a law from a row: difference of ratios, or ln of law over grains; NaN without a state."""
     if is_ratio(row.quantity):
         return value - row.value
     return math.log(value / row.value) if value > 0 else math.nan

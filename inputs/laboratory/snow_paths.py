@@ -75,7 +75,7 @@ def _after_compaction(compaction: float, strain: float) -> str:
 
 
 def _last(columns: Columns) -> tuple[Floats, Floats, Floats]:
-    """Of the last piece of a path: axial and lateral strain since its start, axial stress;
+    """Last piece of a path: axial and lateral strain since its start, axial stress;
     compression positive."""
     piece = last_piece(columns)
     axial, lateral = -piece["strain_zz"], -piece["strain_xx"]
@@ -149,7 +149,7 @@ PATHS: dict[str, Callable[[float, float, Sequence[Row], Run], Evaluation]] = {
 
 
 def predicted(sections: str, record: Sequence[Row], points: Points) -> Values:
-    """What a law gives in each place of a record; NaN where it has no state."""
+    """Values of a law in each place of a record; NaN where it has no state."""
     found: Values = {}
     paths: dict[tuple[str, float, float], list[Row]] = {}
     for row in record:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What laboratory tests on clusters of snow measured, in rows that a law can be held against:
+"""Results of laboratory tests on clusters of snow, in rows that a law can be compared with:
 confined compression; triaxial compression; tension, compression with free sides and shear of snow
 that was compressed in confined compression before."""
 
@@ -23,7 +23,7 @@ ELASTIC = 5e-5  # axial strain up to which a cell that is pulled is elastic
 
 
 class Place(NamedTuple):
-    """What was done, and where it is compared."""
+    """Test of a row, and the place where it is compared."""
 
     test: str  # oedometer, tension, unconfined, shear or triaxial
     compaction: float  # logarithmic strain of the confined compression before

@@ -58,7 +58,7 @@ class Fit(NamedTuple):
 
 
 class Strengths(NamedTuple):
-    """Of one kind, by density [kg/m3], in Pa."""
+    """Strengths of one kind [Pa], by density [kg/m3]."""
 
     density: Floats
     strength: Floats

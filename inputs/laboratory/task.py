@@ -51,7 +51,7 @@ def _without_repetition(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _fault(error: Any) -> str:
-    """What a value of the file is, and what is needed."""
+    """Fault of a value of the file, and what is needed."""
     while error.context and len(error.context[-1].path) > 0:  # of a value below
         error = error.context[-1]
     schema, key = error.schema, ".".join(str(part) for part in error.absolute_path)
@@ -81,7 +81,7 @@ def _fault(error: Any) -> str:
 
 
 def _check(task: Task) -> None:
-    """What spans several keys, or the scripts of a test. @raises ResultsError"""
+    """Checks what spans several keys, or the scripts of a test. @raises ResultsError"""
     require_ground(task["ground"])
     for seed in task["seeds"]:
         require_value("seed", str(seed))

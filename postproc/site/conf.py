@@ -170,7 +170,7 @@ def table_of_contents(pages: set[str]) -> str:
 
 
 def _below(page: str, pattern: str) -> bool:
-    """Whether the page lies in the folder of the pattern; pathlib matches from the right alone."""
+    """True if the page lies in the folder of the pattern; pathlib matches from the right alone."""
     if "**" in pattern:
         return page.startswith(pattern.partition("**")[0])
     return page.count("/") == pattern.count("/")
@@ -249,7 +249,7 @@ def sources(app: Sphinx) -> Any:
 
 
 def copy_mathjax(app: Sphinx, error: Exception | None) -> None:
-    """What equations need without a network, about 5 MB."""
+    """Copies the part of MathJax that equations need without a network, about 5 MB."""
     target = Path(app.outdir) / "_static" / "mathjax"
     if error is None and not target.exists():
         for part in ("config/TeX-AMS_SVG.js", "jax", "extensions", "localization/en"):

@@ -110,7 +110,7 @@ def call_times(count: int, calls: int = 200) -> np.ndarray:
 
 
 def middle_mean(values: np.ndarray) -> tuple[float, float]:
-    """Of the blocks (n), and its standard error."""
+    """Trimmed mean of the blocks (n), and its standard error."""
     samples = np.random.default_rng(1).choice(values, (SAMPLES, len(values)))
     return float(trim_mean(values, OUTSIDE)), float(trim_mean(samples, OUTSIDE, axis=1).std())
 

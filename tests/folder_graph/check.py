@@ -13,7 +13,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-# what an include of a package asks for
+# libraries that the includes of a package ask for
 PACKAGES = {
     r"fmt/": "fmt::fmt",
     r"mpi\.h": "MPI::MPI_C",

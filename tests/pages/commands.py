@@ -30,7 +30,7 @@ SECONDS = 300  # of one command
 
 
 def commands(page: Path) -> Iterator[str]:
-    """Of the code blocks without a language, comments and placeholders left out."""
+    """Commands of the code blocks without a language, comments and placeholders left out."""
     blocks = re.findall(r"^```\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S)
     for line in "".join(blocks).replace("\\\n", " ").splitlines():
         text = line.split(" #")[0].strip()
@@ -54,7 +54,7 @@ class Tree:
         shutil.copytree(source / OWN_SCRIPT, scratch / OWN_SCRIPT)
 
     def run(self, command: str) -> str:
-        """What it says; the test ends where its status is not 0."""
+        """Output of a command; the test ends where its status is not 0."""
         print(f"+ {command}", flush=True)
         status, said = run_command(command, self.root, self.root / "build", SECONDS)
         if status:

@@ -66,7 +66,7 @@ class Session:
 
     def run(self, command: str, folder: str = ".", fails: bool = False) -> str:
         print(f"+ {command}", flush=True)
-        # what inputs/run becomes, when nothing is to be built
+        # the command behind inputs/run, when nothing is to be built
         direct = re.sub("^bash inputs/run (.*--no-build)", r"postproc/furrow-post run \1", command)
         chosen = direct if is_python(direct) else command
         status, said = run_command(chosen, self.root / folder, self.root / "build", SECONDS)
@@ -91,7 +91,7 @@ class Session:
             self.run(small)
 
     def small(self, command: str, later: str) -> str:
-        """What is run for it. A scene that the tests of scenes run has its variables checked, unless
+        """Command that is run for it. A scene that the tests of scenes run has its variables checked, unless
         a later command reads its results, or the page brings the scene or a file."""
         words = shlex.split(command)
         if words[:2] == ["postproc/furrow-post", "sweep"]:  # the tests of sweeps draw

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a newcomer needs from the first page: readme_test.py <source>. Both commands with their time,
+"""Needs of a newcomer on the first page: readme_test.py <source>. Both commands with their time,
 and a link to each of the pages that first users looked for."""
 
 import re
@@ -18,7 +18,7 @@ LINKS = {
 
 
 def anchors(page: str) -> set[str]:
-    """Of the headings, as GitHub and the site write them."""
+    """Anchors of the headings, as GitHub and the site write them."""
     heads = re.findall(r"^#+ (.*)$", page, re.M)
     return {re.sub(r"[^\w -]", "", head).strip().lower().replace(" ", "-") for head in heads}
 

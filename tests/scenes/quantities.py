@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a finished run gave, by name and unit; its energies and momenta must balance."""
+"""Results of a finished run, by name and unit; its energies and momenta must balance."""
 
 import json
 import sys
@@ -40,7 +40,7 @@ def check_pictures(folder, drawn):
 
 
 def wheel_quantities(folder):
-    """Of summary.json, which the run itself writes, and of history.h5."""
+    """Quantities of summary.json, which the run itself writes, and of history.h5."""
     summary = json.loads((folder / "summary.json").read_text())
     if not summary["complete"]:
         sys.exit(f"{folder} did not come to its end")
@@ -67,7 +67,7 @@ def steady_values(summary):
 
 
 def plate_quantities(folder):
-    """Of curve.txt: time step, sinkage, force, pressure; its end is the last twentieth."""
+    """Quantities of curve.txt: time step, sinkage, force, pressure; its end is the last twentieth."""
     curve = np.loadtxt(folder / "curve.txt")
     end = curve[-max(len(curve) // 20, 1):].mean(axis=0)
     return {"peak force": (curve[:, 2].max(), "N"), "force at the end": (end[2], "N"),
@@ -75,7 +75,7 @@ def plate_quantities(folder):
 
 
 def continuum_quantities(folder):
-    """Of the history of terrain/continuum: what the base carries in the last third."""
+    """Quantities of the history of terrain/continuum: what the base carries in the last third."""
     for file in folder.glob("*.h5"):
         with h5py.File(file) as content:
             if "history/base_impulse" not in content:

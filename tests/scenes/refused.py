@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What inputs/run refuses before anything runs, with the message."""
+"""Inputs that inputs/run refuses before anything runs, with the message."""
 
 import os
 from pathlib import Path

@@ -55,7 +55,7 @@ BLANKS = "Lauf mit Größe"  # name of a results folder: LIGGGHTS splits lines a
 
 
 def run(command, status=0, folder=None, **environment):
-    """What a command says that ends with this status; else the test ends with it. folder: where it
+    """Output of a command that ends with this status; else the test ends with it. folder: where it
     is started"""
     print("+", shlex.join(map(str, command)), flush=True)
     done = subprocess.run(command, env={**os.environ, **environment}, text=True, cwd=folder,
@@ -86,7 +86,7 @@ def check_scene(script, folder, drawn=True):
     Head(script).check(found)
 
 
-# Of each kind of body and ground one scene is drawn: drawing takes longer than most quick runs.
+# One scene is drawn of each kind of body and ground: drawing takes longer than most quick runs.
 DRAWN = ("grains_on_continuum", "rover_wheel_mesh", "two_axles", "tyre_on_continuum", "tyre_on_plane",
          "wheel_climbs_slope", "wheel_on_sand", "wheel_on_scm", "wheel_on_washboard")
 
@@ -164,7 +164,7 @@ PAGE = PROJECT / "inputs" / "sweep" / "README.md"
 
 
 def commands_of_page():
-    """Of its code blocks, a list for each, of words; paths below the project are absolute."""
+    """Commands of its code blocks as lists of words; paths below the project are absolute."""
     def word(text):
         return str(PROJECT / text) if text.startswith(("inputs/", "postproc/")) else text
 

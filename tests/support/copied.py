@@ -21,7 +21,7 @@ SHELL = re.compile(r"[][$*?|&;<>`(){}~!]")  # what only a shell understands
 
 
 def is_python(command: str) -> bool:
-    """Whether a command of a page can run in a copy: a Python program of the tree, without a shell."""
+    """True if a command of a page can run in a copy: a Python program of the tree, without a shell."""
     return bool(POST.match(command)) and not SHELL.search(command)
 
 
@@ -44,7 +44,7 @@ def run_command(command: str, folder: Path, build: Path, seconds: float) -> tupl
 
 
 def file_program(script: Path) -> Callable[[], None]:
-    """What Python does with a file."""
+    """Program that does what Python does with a file."""
 
     def program() -> None:
         sys.path.insert(0, str(script.resolve().parent))
@@ -66,7 +66,7 @@ def _run_script(command: str, folder: Path, environment: Mapping[str, str]) -> t
 def run_both(
     program: Callable[[], int | None], words: Sequence[object], folder: Path | None = None
 ) -> subprocess.CompletedProcess[str]:
-    """Of a function with the command line sys.argv; its status is what it returns."""
+    """Runs a function with the command line sys.argv; its status is what it returns."""
     command = [str(word) for word in words]
     with tempfile.TemporaryFile() as printed, tempfile.TemporaryFile() as said:
         status = run_copy(program, command, folder, (printed.fileno(), said.fileno()), {})

@@ -49,7 +49,7 @@ class Vehicle:
         self.count = len(places)
 
     def mean(self, channel: str) -> np.ndarray:
-        """Of each wheel."""
+        """Mean of a channel of each wheel."""
         return self.columns[channel][WINDOW].mean(axis=0)
 
     def momentum(self) -> np.ndarray:
@@ -85,7 +85,7 @@ def check(what: str, found: float, expected: float, allowed: float) -> None:
 
 
 def check_balance(vehicle: Vehicle, pull: tuple[float, float, float], guide: float = 0.0) -> None:
-    """Of wheel loads with the other forces. @param pull  weight of a kilogram along x, y, z [N/kg]"""
+    """Checks the balance of wheel loads with the other forces. @param pull  weight of a kilogram along x, y, z [N/kg]"""
     weight, sprung = np.array(pull) * vehicle.count * (WHEEL + SPRUNG), vehicle.count * SPRUNG
     change, load = vehicle.momentum(), vehicle.mean("force_z")
     guides = [-weight[axis] - vehicle.mean(f"force_{name}").sum() for axis, name in enumerate("xy")]

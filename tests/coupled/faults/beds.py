@@ -20,7 +20,7 @@ SNOW = {"length": "0.3", "closed": "0", "width": "0.3", "depth": "0.1", "clearan
 AFTER = ("fix m4 all property/global coefficientFriction peratomtypepair 2 0.6 0.5 0.5 0.5\nrun 0\n"
          'print "LEVEL ${bed_level}"\n')
 
-# what a parameter may not be, and what is said
+# values that a parameter may not have, and the error
 SAND_VALUES = [
     *((name, value, f"keyword '{name}' is {value}; allowed: a number > 0")
       for name in ("length", "width", "depth", "diameter", "density", "young", "step") for value in ("-1", "0", "nan", "inf")),

@@ -266,7 +266,7 @@ def main(furrow, liggghts, *mpirun):
         table.check("stock file, unchecked", continued(furrow, table, "stock", mode="unchecked"), 0)
         table.check("stock LIGGGHTS reads", continued(liggghts, table, "ck.10"), 0)
 
-    # what cannot be written leaves the last good file
+    # a checkpoint that cannot be written leaves the last good file
     def write(name, prepare=lambda: None):
         prepare()
         return run_script(furrow, table.folder, GRAINS + f"run 10\nwrite_restart {name}\n")

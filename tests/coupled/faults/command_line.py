@@ -55,7 +55,7 @@ CASES = [
     ("--keys", 0, ['"fix wheel/rigid": {', '"diameter": {', '"allowed": "a number > 0 [m]"']),
     ("--version", 0, ["furrow", "LIGGGHTS 3.8.0"]),
     ("--help", 0, ["Usage: furrow -in <script>", "--version"]),
-    # what must not be refused: a branch that is not taken, an included file, a negative number
+    # lines that must not be refused: a branch that is not taken, an included file, a negative number
     ("-in script.lig -log none -var x 1 -var angle 7", 0, ["length 1"]),
     ("-in script.lig -log none -var x 1 -var width -6", 0, ["1 -6"]),
     ("-i script.lig -l none -v length 3 4 5 -v x 1", 0, ["length 3"]),

@@ -52,7 +52,7 @@ class Said:
 
 
 def run(command, folder, **environment):
-    """What a command says, and its status."""
+    """Output of a command, and its status."""
     done = subprocess.run(list(map(str, command)), cwd=folder, env={**os.environ, **environment},
                           timeout=TIME_LIMIT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT)

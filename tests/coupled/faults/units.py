@@ -97,7 +97,7 @@ FEATURES = {
                 {"load": {**MASS, "N": 9.80665}, "stiffness": STIFFNESS, "damping": STIFFNESS, "pitch_inertia": INERTIA,
                  "height": LENGTH}),
 }
-# of the card, by lines "key: {value: ..."
+# values of the card, by lines "key: {value: ..."
 CARD_UNITS = {"k_c": MODULUS, "k_phi": MODULUS, "c": PRESSURE, "phi": ANGLE, "K": LENGTH, "stiffness": PRESSURE}
 CARD_TEXT = """title: A sand
 stiffness: 1e8
@@ -132,7 +132,7 @@ def run(furrow: str, folder: Path, script: str) -> tuple[int, set[str], dict[str
 
 
 def change(columns: dict[str, np.ndarray], sound: dict[str, np.ndarray]) -> float:
-    """Of the end of the run, over the largest value of each channel; infinite for another length."""
+    """Change of the end of the run, over the largest value of each channel; infinite for another length."""
     worst = 0.0
     for name, column in sound.items():
         if columns[name].size != column.size:

@@ -116,7 +116,7 @@ class Answers:
         self.process = subprocess.Popen([point, "channels"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def error(self, content):
-        """Of a material; empty where it is accepted."""
+        """Error of a material; empty where it is accepted."""
         (self.folder / "made.yaml").write_text(yaml.safe_dump(content, sort_keys=False))
         path = "{type: confined, stress: [10], steps: 1}"
         (self.folder / "path.yaml").write_text(f"title: x\nmaterial: {self.folder}/made.yaml\npath: {path}\n")

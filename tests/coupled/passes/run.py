@@ -34,7 +34,7 @@ ROUNDING = 1e-10  # of the largest energy, force, moment
 LOADS = {"": 40.0, "rear": 30.0}  # of sand_axles.lig [N]
 LOAD_ERROR = 0.1  # of the load: the mean over a short way
 QUANTITIES = ("hub_drop", "resistance_coefficient")
-# what makes a run continue from a checkpoint
+# variables by which a run continues from a checkpoint
 CONTINUED = {"sand": lambda file: ("from", file), "sand_axles": lambda file: ("from", file),
              "snow": lambda file: ("continued", "1")}
 
@@ -51,7 +51,7 @@ def run(furrow, case, folder, *variables):
 
 
 def columns(results):
-    """Of all wheels, by file and name."""
+    """Columns of all wheels, by file and name."""
     found = {}
     for path in sorted(results.rglob("history.h5")):
         with h5py.File(path) as file:

@@ -157,7 +157,7 @@ def kill_at_any_moment(folder: Path, prepared: float, duration: float, number: i
 
 
 def step_of(forced: Path) -> int:
-    """Of the checkpoint of a signal, which has it in its name."""
+    """Step of the checkpoint of a signal, which has it in its name."""
     return int(re.findall(r"\d+", forced.name)[-1])
 
 

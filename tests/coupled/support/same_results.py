@@ -40,7 +40,7 @@ def compare_arrays(
     groups: tuple[str, ...] = GROUPS,
     but: tuple[str, ...] = (),
 ) -> int:
-    """Of two folders of results; ends the program where they differ.
+    """Compares two folders of results; ends the program where they differ.
 
     @param tolerance  of the largest number of a unit
     @param but  arrays that may differ

@@ -52,7 +52,7 @@ def wave(x, values):
 
 
 def amplitudes(name, history, x, z):
-    """Of the axle and of the ground behind over AMPLITUDE, of the force over that on rigid ground."""
+    """Amplitudes of the axle and of the ground behind over AMPLITUDE, and of the force over that on rigid ground."""
     steady = history["x"] >= DISTANCE - 2 * WAVELENGTH
     axle, drop, force = (wave(history["x"][steady], history[key][steady]) for key in ("z", "sprung_drop", "force_z"))
     mass = -drop

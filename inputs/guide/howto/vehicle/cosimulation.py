@@ -41,7 +41,7 @@ class Wheel:
         return np.array([*self.hub.force, self.hub.velocity[3]])
 
     def lost_energy(self) -> float:
-        """What a height field has taken [J]."""
+        """Energy that a height field has taken [J]."""
         contact: dict[str, float] = self.run.outputs("touch")
         return contact["stored_energy"] + contact["compaction_loss"] + contact["shear_loss"]
 

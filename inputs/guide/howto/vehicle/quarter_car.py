@@ -26,7 +26,7 @@ class QuarterCar:
     drop: float = 0.05  # [m]
 
     def largest_step(self, ground: float) -> float:
-        """Of the coupling "axle" [s]: semi-implicit Euler of a wheel between damper and elastic ground
+        """Stable step of the coupling "axle" [s]: semi-implicit Euler of a wheel between damper and elastic ground
         of this stiffness [N/m] is stable for (w h)^2 + 2 c/m h < 4.
         """
         a, b = (ground + self.stiffness) / self.wheel, 2 * self.damping / self.wheel

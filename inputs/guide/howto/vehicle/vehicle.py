@@ -39,7 +39,7 @@ class Vehicle:
     hitch_height: float = -0.35  # from the centre of mass [m]
     radius: float = 0.35  # of the wheels [m]
 
-    # What the driver sets
+    # Inputs of the driver
     steering: float = 0.0  # of the front wheels [rad]
     torque: Array = zeros(4)  # of the shafts [N m]
     draught: float = 0.0  # force at the hitch, backwards [N]
@@ -68,7 +68,7 @@ class Vehicle:
 
     @property
     def yaws(self) -> Array:
-        """Of the wheels, from the chassis [rad]."""
+        """Yaw angles of the wheels against the chassis [rad]."""
         return np.array([self.steering, self.steering, 0.0, 0.0])
 
     def turned(self, vectors: Array, yaw: float) -> Array:

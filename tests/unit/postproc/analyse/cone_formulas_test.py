@@ -47,7 +47,7 @@ class TractionTest(unittest.TestCase):
         self.assertAlmostEqual(found.net, 0.482305, delta=1e-6)
 
     def test_brixius_by_hand(self) -> None:
-        # of a pocket calculator: the exponential terms and the root of the mobility number
+        # by pocket calculator: the exponential terms and the root of the mobility number
         found = brixius(CI, TYRE, 0.2)
         self.assertAlmostEqual(found.numeric, 24.774194, delta=1e-6)
         self.assertAlmostEqual(found.gross, 0.88 * 0.91604085 * 0.77686984 + 0.04, delta=1e-6)

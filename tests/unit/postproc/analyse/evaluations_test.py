@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What studies take from their runs: the ratio of their costs."""
+"""Values that studies take from their runs: the ratio of their costs."""
 
 import math
 import unittest

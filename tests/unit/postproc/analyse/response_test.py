@@ -32,7 +32,7 @@ class ResponseTest(unittest.TestCase):
         self.assertAlmostEqual(found.left["sinkage"], 0.0, places=4)
 
     def test_scatter_widens_the_range_as_the_standard_error_does(self) -> None:
-        """Of z alone: its error over dz/dM, from N = 6 tests; here z and c state the same, and the density is a
+        """The scatter is of z alone: its error over dz/dM, from N = 6 tests; here z and c state the same, and the density is a
         thirteenth term, without scatter."""
         for scatter in (0.002, 0.003):
             found = identify(2.4, scatter)

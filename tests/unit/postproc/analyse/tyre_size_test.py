@@ -9,7 +9,7 @@ from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 
 CATALOGUE = Path(__file__).with_name("tyre_catalogue.csv")
-# Of diameter and width; flotation sizes name the largest tyre of the size
+# Tolerances of diameter and width; flotation sizes name the largest tyre of the size
 TOLERANCES = {"x": (0.05, 0.09), "/": (0.03, 0.07), "": (0.03, 0.09)}
 
 

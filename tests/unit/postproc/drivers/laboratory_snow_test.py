@@ -38,7 +38,7 @@ MADE = Material(LAWS["cam_clay"], (3.0, 0.25), Elastic(2e7, 0.0), 200.0, TABLE)
 
 
 def shear_strength(M: float, beta: float, p0: float, load: float) -> float:
-    """Of Cam clay between sides that do not move: stress tau that flows without lateral strain."""
+    """Shear strength of Cam clay between sides that do not move: stress tau that flows without lateral strain."""
     side = M**2 * ((1 - beta) * p0 - 2 * load) / (9 * (1 + 2 * beta) + 4 * M**2)
     p = load + 2 * side  # side: deviatoric stress along x and y
     q2 = M**2 * (p + beta * p0) * (p0 - p) / (1 + 2 * beta)

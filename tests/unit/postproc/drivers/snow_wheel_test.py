@@ -29,7 +29,7 @@ TWO_STRESSES = study.STRESSES[1:3]
 
 
 def number(text: str, key: str) -> float:
-    """Of a material file's text."""
+    """Number of a key in the text of a material file."""
     found = re.search(rf"\b{key}: *([-+.e\d]+)", text)
     assert found, key
     return float(found[1])

@@ -20,7 +20,7 @@ SCALES = (1.0, 1e3, 1e-3, 1e2, 1e-2, 10.0, 0.1)  # between the units of tables a
 # Numbers of pages that no table of the study need have, with where they are from
 ELSEWHERE = {
     "cmu_sand": {"0.071"},  # mean of several rows
-    # of a plate of 23 cm, from the loads of the runs by circumference and area
+    # shares of a plate of 23 cm, from the loads of the runs by circumference and area
     "plate_variants": {"-1", "-22", "-13", "+12", "-12", "-31"},
     "pull_slip": {"67", "600", "3000"},  # cell and loads, defaults of its scripts
     "sand_zones": {"-0.33"},  # slip of the towed wheel: results of the run
@@ -52,7 +52,7 @@ def stored_numbers(folder: Path) -> list[float]:
 
 
 def is_stored(text: str, numbers: list[float]) -> bool:
-    """Whether one of the numbers, rounded as the text is, in its unit or another, is the text.
+    """True if one of the numbers, rounded as the text is, in its unit or another, is the text.
 
     Pages show a value without an error with three digits.
     """
@@ -106,7 +106,7 @@ class StudyPagesTest(unittest.TestCase):
 
 
 class LabelsTest(unittest.TestCase):
-    """What a label, a reference or a verdict must not hide."""
+    """Facts that a label, a reference or a verdict must not hide."""
 
     def test_a_reference_that_is_ours_is_not_ascribed_to_the_report(self) -> None:
         for value in Registry.of(SOURCE):

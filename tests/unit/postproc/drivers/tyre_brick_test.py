@@ -30,7 +30,7 @@ BEAD_ZONES = (0.046, 0.030, 0.0)  # [m] before the bead, where the last zones en
 
 @dataclass(frozen=True)
 class Mould:
-    """What an outline is made of, beside what is measured."""
+    """Parameters of an outline, in addition to those that are measured."""
 
     crown: float = 1.5  # [m] radius, identified
     crown_end: float = 0.066  # [m] axial, assumed

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is wrong on the command line of furrow-post, and in the tables that it names."""
+"""Faults on the command line of furrow-post, and in the tables that it names."""
 
 import os
 import shutil

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a user gets wrong with the laboratory: its tests, their evaluation, calibrations."""
+"""Mistakes of users with the laboratory: its tests, their evaluation, calibrations."""
 
 import copy
 import importlib

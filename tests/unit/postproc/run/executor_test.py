@@ -156,7 +156,7 @@ class ExecutorTest(FolderTest):
         self.assertEqual((self.tree.starts(), ended), (["a", "b"] * 2, ["a", "b"] * 2))
 
     def test_second_attempt_with_other_variables(self) -> None:
-        """What stopped the first one is kept."""
+        """The record keeps what stopped the first attempt."""
         case = replace(self.tree.case("a", status=1), fallback={"status": 0})
         self.executor.run([case])
         record = self.executor.record(case)

@@ -16,7 +16,7 @@ from support.runs import write_run
 
 
 def forecast(cells: float, cost: float, model: float = 0.01) -> Forecast:
-    """Of a hub drop of 0.1 m and a coefficient that is known."""
+    """Forecast of a hub drop of 0.1 m and a coefficient that is known."""
     parts = {"hub_drop": Budget(1e-4, cells, model=model, sources={"model": "made tests"}), "resistance_coefficient": Budget(1e-4)}
     return Forecast([("cell", f"{cells:g}")], cost, parts, {"hub_drop": 0.1, "resistance_coefficient": 0.25})
 

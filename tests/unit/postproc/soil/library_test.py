@@ -87,7 +87,7 @@ class LibraryTest(unittest.TestCase):
         self.assertIn(markdown(cards), (SOILS / "README.md").read_text(encoding="utf-8"))
 
     def test_the_ring_on_snow_lies_between_the_closed_forms(self) -> None:
-        """Of fresh snow at constant volume and of the steady state; c is the former."""
+        """The closed forms are those of fresh snow at constant volume and of the steady state; c is of fresh snow."""
         page = (SOILS / "README.md").read_text(encoding="utf-8")
         for name in ("field_snow", "fresh_snow_cam_clay", "snow"):
             shear = read_card(SOILS / f"{name}.yaml").shear

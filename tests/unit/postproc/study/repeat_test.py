@@ -14,7 +14,7 @@ from support.command import SOURCE, run_post
 from support.folder import FolderTest
 
 VALIDATION = SOURCE / "inputs" / "validation"
-# Of each other: a coarse mesh and the fine one, one rig and the other
+# Studies that check one of their runs with another: a coarse mesh with the fine one, one rig with the other
 OWN_CHECKS = {"free_travel", "tyre_brick"}
 
 

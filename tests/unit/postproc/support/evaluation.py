@@ -44,7 +44,7 @@ def run_study(study: Study, words: Sequence[str]) -> int:
 
 
 def options(name: str, command: click.Command, words: Sequence[str]) -> Given:
-    """What a command gets. @raises ResultsError for words that it refuses"""
+    """Options that a command gets. @raises ResultsError for words that it refuses"""
     try:
         return Given(**command.make_context(name, list(words)).params)
     except click.UsageError as error:

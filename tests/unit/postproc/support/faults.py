@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 
 class Outcome(NamedTuple):
-    """Of a program that ran in this process."""
+    """Outcome of a program that ran in this process."""
 
     status: object
     said: str  # on stderr

@@ -136,7 +136,7 @@ def write_run(
 
 
 def add_parts(folder: Path, forces: Mapping[str, float], unexplained: float = 0.0) -> None:
-    """What the resistance is made of [N], into summary.json."""
+    """Adds the parts of the resistance [N] to summary.json."""
     file = folder / "summary.json"
     content = json.loads(file.read_text())
     whole = sum(forces.values()) + unexplained

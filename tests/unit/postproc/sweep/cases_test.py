@@ -22,7 +22,7 @@ print "${value} ${seed} ${material} ${motion} ${fail}"
 variable steps equal 3
 run ${steps}
 """
-# what is asked for, what is said
+# request and error
 REFUSED: tuple[tuple[dict[str, object], str], ...] = (
     ({"sweep": ["valeu=1,2"]}, "no line reads 'valeu'; did you mean value?"),
     ({"sweep": ["steps=1,2"]}, "computes 'steps' itself, so that --sweep cannot set it"),
