@@ -162,7 +162,7 @@ def hardening(test: LaboratoryTest, law: Law) -> tuple[list[tuple[float, float]]
 
 
 class Shear(NamedTuple):
-    """The law's cone, and what the file states of it."""
+    """Cone of the law, and what the file states of it."""
 
     tangent: float  # of beta
     what: str

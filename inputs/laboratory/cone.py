@@ -3,7 +3,7 @@
 
 At one p the strength in compression is q = p tan(beta), in extension K times that, between them the
 section of Matsuoka-Nakai's and Lade-Duncan's cones (src/material/section/section.h). It is that of
-s1 s2 s3 = const at a mean stress p' = 2 tan(beta)/(9 w), w = (1 - K^2)/(1 + K^3), of its own, and
+s1 s2 s3 = const at a mean stress p' = 2 tan(beta)/(9 w), w = (1 - K^2)/(1 + K^3), and
 flow in the deviatoric plane is normal to it: in plane strain at constant volume s2 (s1 + s3) = 2 s1
 s3 at that p'. Cohesion is left out: the grains do not stick, and d is given.
 """

@@ -79,7 +79,7 @@ def meaning(kind: tuple[str, str]) -> str:
 def material_text(
     title: str, record: Path, material: Material, rows: Sequence[Row], values: Values
 ) -> str:
-    """The file, which says how far the law is from the tests."""
+    """The file, which states how far the law is from the tests."""
     found = deviations(rows, values)
     worth = "; ".join(f"{meaning(kind)} {cell(value)}" for kind, value in found.items())
     said = (

@@ -127,7 +127,7 @@ def hardened(
 ) -> Material | None:
     """The law whose confined compression is that of the record; None where it has none.
 
-    Under a stress of the oedometer the law has a strength and a plastic strain of its own; the
+    Under a stress of the oedometer the law has another strength and plastic strain; the
     table is moved by what its density is short of, and found again.
     """
     rows, density = compression(record), starting_density(record)
@@ -180,7 +180,7 @@ def residual(row: Row, value: float) -> float:
 
 
 def judged(record: Sequence[Row]) -> list[Row]:
-    """The rows that a law is held against: all but the moduli, which are elasticity's."""
+    """The rows that a law is compared with: all but the moduli, which are elasticity's."""
     return [row for row in record if row.quantity != "modulus"]
 
 
@@ -191,7 +191,7 @@ def is_fitted(test: str) -> bool:
 
 
 def weights(rows: Sequence[Row]) -> Floats:
-    """Each quantity of each test weighs the same, whatever the number of its rows."""
+    """Each quantity of each test weighs the same, for any number of its rows."""
     kinds = [(row.test, row.quantity) for row in rows]
     return np.array([1 / math.sqrt(kinds.count(kind)) for kind in kinds])
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Where ranks stop paying: a sub-step of a test track on many ranks, in slabs and in blocks.
 
-What is measured, assumed and computed is said in many_ranks.md beside this.
+many_ranks.md next to this file states what is measured, assumed and computed.
 
     tests/benchmarks/many_ranks.py [cell in m]
 """

@@ -21,7 +21,7 @@ from same_results import compare_arrays, largest, numbers
 INPUTS = Path(__file__).resolve().parents[2] / "inputs"
 TOLERANCE = 1e-10
 STEPS = 330
-# each rank bounds the step of its own block; one rank sends nothing
+# each rank bounds the step of its block; one rank sends nothing
 OF_RANKS = tuple(
     f"terrain.h5/history/{name}" for name in ("stable_step", "halo_messages", "halo_bytes")
 )

@@ -6,7 +6,7 @@ CONTRIBUTING.md draws the layers, lowest first, one tree on each line:
 
     coupling: liggghts <- base <- bodies, contact <- checks, main
 
-A folder may include every folder to the left of its own layer, and none of the same layer. A name
+A folder may include every folder to the left of its layer, and none of the same layer. A name
 that is no folder (main) stands for the files of the tree itself.
 
     layers.py <root of the project> <CONTRIBUTING.md>

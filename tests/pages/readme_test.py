@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Needs of a newcomer on the first page: readme_test.py <source>. Both commands with their time,
-and a link to each of the pages that first users looked for."""
+and a link to each of the pages that first users need."""
 
 import re
 import sys

@@ -11,7 +11,7 @@
     run.py converge <results>                   two sizes of a scene, and a later run that takes their error
     run.py usage                                the list of scenes, and what inputs/run refuses
 
-The head of a script says what is run and what must come out, in SI units:
+The head of a script states what is run and what must come out, in SI units:
 
     # Quick:    -v cell 0.05 -v distance 0.6
     # Gives:    hub drop 0.15 to 0.17 m, resistance coefficient 0.16 to 0.20
@@ -93,7 +93,7 @@ DRAWN = ("grains_on_continuum", "rover_wheel_mesh", "two_axles", "tyre_on_contin
 
 def scene(script, ranks, results):
     folder, drawn = empty(results), Path(script).stem in DRAWN
-    # A cache of its own: the bed is made, not read.
+    # A separate cache: the bed is made, not read.
     said = inputs_run(script, "--quick", "-n", ranks, "-o", folder / BLANKS, *([] if drawn else ["--no-pictures"]),
                       FURROW_CACHE=str(folder / "cache"))
     check_scene(script, folder / BLANKS, drawn)
@@ -303,7 +303,7 @@ def material(results):
 
 
 def refused(words):
-    """(status, what is said) of the program that inputs/run becomes."""
+    """(status, output) of the program that inputs/run becomes."""
     said = io.StringIO()
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
         status = post(["run", *words])

@@ -46,7 +46,7 @@ def end_of(said):
 
 
 def particles(furrow, table, launcher=()):
-    """The particles of terrain are in files of the ranks next to the restart file, which belong to it."""
+    """The particles of terrain are in files of the ranks next to their restart file."""
     ranks = "two ranks" if launcher else "one rank"
 
     def check(name, said, status, *texts):

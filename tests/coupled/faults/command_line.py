@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Wrong command lines of furrow: one line that says what is allowed, status 2. And scripts that
+"""Wrong command lines of furrow: one line that states what is allowed, status 2. And scripts that
 crash the parser of LIGGGHTS.
 
     command_line.py <furrow> [<mpirun -n>]
@@ -18,7 +18,7 @@ include part.lig
 """
 PART = 'variable width index 5\nprint "$x ${width}"\n'
 
-# words, status, what is said
+# words, status, output
 CASES = [
     ("-in nofile.lig", 2, ["script 'nofile.lig' cannot be read: No such file"]),
     ("-in .", 2, ["script '.' is a folder"]),

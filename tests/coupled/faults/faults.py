@@ -74,7 +74,7 @@ class Table:
         self.folder = Path(self._folder.name)
 
     def check(self, name, said, status, *texts, absent=()):
-        """The status is this one, the texts are said, and in at most one message."""
+        """The status is this one, the texts are in the output, and in at most one message."""
         self.cases += 1
         problems = []
         if said.status != status:

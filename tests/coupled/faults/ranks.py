@@ -24,7 +24,7 @@ HISTORY = ("fix rig all wheel/rig wheel wheel load_force 1 speed 1 mode towed se
 
 
 def launch(launcher, second, furrow):
-    """The second rank under conditions of its own, as a line of sh."""
+    """The second rank under separate conditions, as a line of sh."""
     shell = f'[ "$OMPI_COMM_WORLD_RANK" != 1 ] || {{ echo $$ > pid; {second}; }}; exec "$0" "$@"'
     return [*launcher, "2", "sh", "-c", shell, furrow]
 

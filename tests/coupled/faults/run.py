@@ -7,10 +7,10 @@ Beside the script stands a table of the same name, `<script>.faults`: a paragrap
 
     two_rigs                              its name
     - <text>                              a piece of the script, which must occur once,
-    + <text>                              ... and what stands in its place
+    + <text>                              ... and what replaces it
     > <line>                              a line more, before the last one
     error: <text>                         part of the message: the run must be refused
-    warning: <text>                       part of a warning: the run must come to its end
+    warning: <text>                       part of a warning: the run must end normally
 
 A refusal has a status other than 0, is no signal, and names a line of the script. A run that ends
 well has the warnings that are announced, of the case or for all in the head of the script

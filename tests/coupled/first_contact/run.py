@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How a wheel comes to rest on the ground, and what friction it meets there.
+"""Settling of a wheel on the ground, and the friction there.
 
     run.py lowering <furrow>  the height at which a wheel starts does not change its rest
     run.py friction <furrow>  a contact line without values takes those of the material file

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A termination signal while a bed is made: an error that says so, a status that is not zero, and
+"""A termination signal while a bed is made: an error that names it, a status that is not zero, and
 nothing kept for later runs.
 
     interrupted_bed.py <furrow> <bed script>

@@ -48,7 +48,7 @@ class ClosedForms(unittest.TestCase):
                 self.assertAlmostEqual(found / expected, 1, delta=2e-3)
 
     def test_point_load_is_in_equilibrium(self) -> None:
-        """The vertical stress of a plane adds up to the load, whatever the factor."""
+        """The vertical stress of a plane adds up to the load, for any factor."""
         radius = 0.1 * np.sinh(np.linspace(0, 12, 600))
         for factor in (ELASTIC, *SOEHNE):
             stress = np.array(

@@ -50,7 +50,7 @@ class PowerLawTest(unittest.TestCase):
         self.assertAlmostEqual(found.index_error, 3.0 * distance / 2, places=9)
 
     def test_two_terms_stay_within_the_error(self) -> None:
-        """f0 + a h + b h^2 has no order of its own, but a value at zero size."""
+        """f0 + a h + b h^2 has no one order, but a value at zero size."""
         for a, b in ((3.0, 40.0), (3.0, -20.0), (-1.0, -200.0), (0.5, 100.0)):
             values = [2.0 + a * h + b * h**2 for h in SIZES]
             with self.subTest(a=a, b=b):

@@ -302,7 +302,7 @@ class ShippedFitsTest(FolderTest):
 
 
 def measured(point: PointCurves, truth: Any) -> list[Curve]:
-    """The curves, with the law's values as the measured ones."""
+    """The curves, with values of the law as the measured ones."""
     return [
         replace(curve, measured=values)
         for curve, values in zip(point.curves, point(np.array(truth)))

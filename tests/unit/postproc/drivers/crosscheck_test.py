@@ -27,7 +27,7 @@ def entry(source: str, value: float, u: float, kind: str = RUN) -> Entry:
 
 class AnswersTest(unittest.TestCase):
     def test_the_answer_is_the_verdict_s(self) -> None:
-        # against 100 mm: value and uncertainty of the other ground, what is said
+        # against 100 mm: value and uncertainty of the other ground, verdict
         for value, u, expected in (
             (0.102, 0.01, "yes, +2 % (20 %)"),
             (0.15, 0.01, "no, +50 % (20 %)"),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/laboratory/calibrate.py finds the parameters of a made ground from two tests at once, also
-where every packing scatters, and says which one they do not determine and whether it has ended."""
+where every packing scatters, and names the one that they do not determine, and whether it has ended."""
 
 import contextlib
 import io

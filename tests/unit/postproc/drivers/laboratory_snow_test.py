@@ -131,7 +131,7 @@ class FitTest(FolderTest):
             self.assertAlmostEqual(np.log(strength), made, delta=0.03)
 
     def test_shear_of_a_law_in_closed_form(self) -> None:
-        """It comes to flow without lateral strain: df/d(sigma_xx) = 0 with sigma_zz given, on
+        """It ends in flow without lateral strain: df/d(sigma_xx) = 0 with sigma_zz given, on
         q^2 (1 + 2 beta) = M^2 (p + beta p0)(p0 - p)."""
         loads = (1.0, 300.0)
         rows = [Row("shear", 0.0, load, 0.0, "strength", 0.0, 0.0, 1) for load in loads]

@@ -43,7 +43,7 @@ def column(text: str, key: str) -> list[float]:
 
 class FieldSnowTest(unittest.TestCase):
     def test_strength_is_one_function_of_density(self) -> None:
-        """Whatever the initial density; from 525 kg/m3 on the final densities under wheels."""
+        """For any initial density; from 525 kg/m3 on the final densities under wheels."""
         first, second = field_snow(110.0), field_snow(220.0)
         self.assertEqual((number(first, "density"), number(second, "density")), (110, 220))
         rho, p = column(first, "rho"), column(first, "p")

@@ -20,7 +20,7 @@ from support.tables import made_runs
 BEKKER = "bekker --load 6000 --diameter 0.74 --width 0.272 --terrain"
 WONG = "wong_reece --load 6000 --diameter 1.2 --width 0.3 --terrain"
 
-# (words of empirical, terrain or None, what is said)
+# (words of empirical, terrain or None, error)
 EMPIRICAL = (
     *(
         (f"nrmm --load 6e3 --diameter 0.74 --width 0.272 --depth 0.2 --density 200 {pressure}", None, said)
@@ -38,7 +38,7 @@ EMPIRICAL = (
     (f"--slip 0.2 {WONG}", "LETE sand", "are not known; a terrain that has them"),
 )
 
-# (words after two runs "a b", what is said)
+# (words after two runs "a b", error)
 COMPARE = (
     (["--formula", "nrmm:179e3"], "a: the density of its ground is not known"),
     (["--formula", "nrmm:179"], "a contact pressure of 179 Pa; allowed: 5000 to 2e+06 Pa"),
@@ -56,7 +56,7 @@ COMPARE = (
     (["none"], "none: no such file; name the results folder of a run"),
 )
 
-# (words, what is said)
+# (words, error)
 OTHERS: tuple[tuple[list[str], str], ...] = (
     (["fit-tyre", "235/75R15", "--pressure", "241000", "-o", "x"], "241000 kPa is no pressure of a tyre"),
     (["fit-tyre", "235/75R15", "--pressure", "2.41", "-o", "x"], "give kPa: bar times 100"),
@@ -177,7 +177,7 @@ class ArgumentsFaultsTest(FaultsTest):
         self.post(["cost", "bad.csv"], "bad.csv: is not text in UTF-8")
 
     def test_locales_without_umlauts(self) -> None:
-        """Text is UTF-8 whatever the locale; a name that is not is said."""
+        """Text is UTF-8 in any locale; the error gives a name that is not."""
         plain = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
         environment = {**os.environ, **plain}
         write_run(Path("Spur ä ö"))

@@ -27,7 +27,7 @@ MATERIAL = SOURCE / "inputs" / "materials" / "fresh_snow.yaml"
 REFERENCE = SOURCE / "inputs" / "validation" / "snow_oedometer" / "reference.csv"
 sys.path.insert(0, str(LABORATORY))
 
-# (words of run.py, what is said); everything is refused before a run
+# (words of run.py, error); everything is refused before a run
 TESTS = (
     ("odometer", "'odometer' is not one of"),
     ("oedometer --ground snoww", "there is no ground 'snoww'; there are sand_cmu"),
@@ -93,7 +93,7 @@ QUANTITIES: dict[str, Any] = {"reference": None, "lowest": None, "highest": None
 SEVERAL: dict[str, Any] = {"test": None, **QUANTITIES}
 PULL = {"tensile_strength": [1e3, 100]}
 
-# (changed keys, None: left out; what is said)
+# (changed keys, None: left out; error)
 CALIBRATIONS: tuple[tuple[dict[str, Any], str], ...] = (
     *(({key: None}, f"'{key}' is missing") for key in ("test", "ground", "parameters", "seeds")),
     ({"test": "odometer"}, "'test' is \"odometer\"; needed is a test: oedometer"),
@@ -146,7 +146,7 @@ CALIBRATIONS: tuple[tuple[dict[str, Any], str], ...] = (
     ({"iterations": 0}, "'iterations' is 0; needed is a whole number from 1"),
 )
 
-# (text of the file, what is said)
+# (text of the file, error)
 NO_CALIBRATIONS = (
     ("", "is no JSON"),
     ('{"test": ', "is no JSON"),
@@ -171,7 +171,7 @@ CURVES: Mapping[str, Floats] = {
 }
 FACTS = "ground made confinement 1e4 size 0.1 depth 0.05 speed 0.5 diameter 0.01 density 2650"
 
-# (fault, change of a curve's rows, what is said)
+# (fault, change of a curve's rows, error)
 BAD_CURVES: tuple[tuple[str, Callable[[Floats], Floats], str], ...] = (
     ("not a number", lambda rows: rows * np.nan, "columns of finite numbers"),
     ("few rows", lambda rows: rows[:5], "has fewer than ten rows; was the run stopped?"),

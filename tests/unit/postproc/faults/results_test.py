@@ -91,7 +91,7 @@ def renamed_history(content: Any) -> None:
     content.create_group("history")
 
 
-# (fault, change of history.h5, subcommand, what is said)
+# (fault, change of history.h5, subcommand, error)
 HISTORIES: tuple[tuple[str, Change, str, str], ...] = (
     ("time runs backwards", column("time", backwards), "plot", "row 1001 of the history is at 0 s"),
     ("time stands", column("time", np.zeros_like), "compare", "time does not run forwards"),
@@ -121,7 +121,7 @@ HISTORIES: tuple[tuple[str, Change, str, str], ...] = (
 )
 
 SUMMARY = '{"window": {"start": %s, "end": %s}, "quantities": {"hub_drop": %s}}'
-# (fault, text of summary.json, subcommand, what is said)
+# (fault, text of summary.json, subcommand, error)
 SUMMARIES = (
     ("cut", "{", "plot", "summary.json: cannot be read"),
     ("empty", "", "report", "summary.json: cannot be read"),
@@ -143,7 +143,7 @@ GRAINS: tuple[tuple[str, Change, str], ...] = (
 )
 
 
-# (quantity, mean in summary.json, what is said): numbers that a hand wrote
+# (quantity, mean in summary.json, error): numbers that a hand wrote
 CHANGED = (
     ("hub_drop", -5.0, "has a hub drop of -5 m, its history 0.05"),
     ("hub_drop", 9.9, "has a hub drop of 9.9 m, its history 0.05"),

@@ -21,7 +21,7 @@ INPUTS = SOURCE / "inputs"
 STUDIES = study_folders(SOURCE)
 FILES = ("history.h5", "terrain.h5", "curve.txt", "facts.txt", "summary.json", "point.csv")
 
-# (words, what is said)
+# (words, error)
 WORDS = (
     ("no_such_run", "nothing is called 'no_such_run'; --list shows all runs"),
     ("--build=none", "there is no program"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""furrow_post.load(): the history as a data frame; the example script; what is said without pandas."""
+"""furrow_post.load(): the history as a data frame; the example script; the error without pandas."""
 
 import os
 import shutil

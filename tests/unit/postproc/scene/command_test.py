@@ -17,7 +17,7 @@ from support.command import FURROW_POST, SOURCE, run_post
 from support.fake import ANSWER
 from support.folder import FolderTest
 
-# Says how it was started; waits for a file "go", and ends with a checkpoint when it gets a signal
+# Reports how it was started; waits for a file "go", and ends with a checkpoint when it gets a signal
 PROGRAM = """#!{python}
 {answer}
 import pathlib, signal, time

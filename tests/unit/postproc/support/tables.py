@@ -26,7 +26,7 @@ def row(
 def made_runs() -> list[Row]:
     """Continuum: f0 + C h with f0 = 0.1 m and 0.2; grains: another line.
 
-    Of the grains two packings of 40 mm and a wider domain too
+    Two packings of grains of 40 mm, and a wider domain too
     """
     rows = [
         row(

@@ -26,7 +26,7 @@ RIGHT = (
     ("material=crust.yaml:0.03,snow.yaml", "crust.yaml:0.03 snow.yaml"),
     ("material=crust.yaml:0.03", "crust.yaml:0.03"),
 )
-# text, what is said
+# text, error
 WRONG = (
     ("slip", "'slip' has no ="),
     ("=1,2", "'=1,2' has no name"),
