@@ -503,7 +503,7 @@ Found wheel_stays_off_the_end(const Scene&, FixContactContinuum& contact) {
                   contact.options().subject(), pair.body.id, near_end, pair.terrain_x.upper));
 }
 
-/// A wheel touches with less than its diameter.
+/// Compares lengths; a wheel may touch with less than its diameter.
 Found terrain_is_long_enough(const Scene&, FixContactContinuum& contact) {
   const Pair pair = describe(contact);
   const double body = pair.body_x.length(), ground = (1.0 + round_off) * pair.terrain_x.length();

@@ -139,7 +139,7 @@ const char* key_of_load(const Options& options) {
   return "";
 }
 
-/// [N]
+/// Load of a rig, from a force or from a mass and gravity [N].
 double load_from(const Options& options) {
   const bool mass = options.has("load_mass");
   return options.number(key_of_load(options)) * (mass ? options.number("gravity") : 1.0);

@@ -23,7 +23,7 @@ class FixWheelRig : public FixRig, public MotionController {
   /// Tilts the gravity of grains on a slope.
   void post_force(int) override;
 
-  /// Other targets from the next step on, each a key and its value as a script writes them.
+  /// Sets other targets from the next step on, each a key and its value as a script writes them.
   /// @throws InputError, and nothing has changed
   void change_targets(const std::vector<Entry>& targets);
 

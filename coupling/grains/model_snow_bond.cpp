@@ -153,7 +153,7 @@ class NormalModel<furrow::coupling::snow_bond_id> : public NormalModelBase {
 
 using SnowBondModel = NormalModel<furrow::coupling::snow_bond_id>;
 
-/// "1": changes its sign when i and j swap.
+/// Values of the contact history; those marked "1" change their sign when i and j swap.
 SnowBondModel::NormalModel(LAMMPS* lammps, IContactHistorySetup* history, ContactModelBase* model)
     : NormalModelBase(lammps, history, model), is_wall_(model->is_wall()), overlaps_(*lammps) {
   using Value = std::pair<const char*, const char*>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Can there be such a bed, and has it become one? Before the minutes that it takes, and after.
+/// Checks of a bed: whether there can be such a one, and whether it has become one.
 
 #include <string>
 #include <vector>

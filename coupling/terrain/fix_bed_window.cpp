@@ -319,7 +319,7 @@ void FixBedWindow::put_in(const std::vector<std::size_t>& grains, std::optional<
   }
 }
 
-/// The slab renewed last stands still: its front face looks into the rut.
+/// Holds the slab that was renewed last: its front face looks into the rut.
 void FixBedWindow::post_force(int) {
   for (int i = 0; i < atom->nlocal; ++i)
     if (is_frozen(i))

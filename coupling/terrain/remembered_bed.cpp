@@ -37,7 +37,7 @@ void RememberedBed::remember(LAMMPS_NS::LAMMPS& lammps) {
   if (contacts_) refer_partners_by_index();
 }
 
-/// Each grain comes with its size and the places of its riders' parts before it.
+/// Gathers the grains of all ranks. Each comes after its size and the places of its riders' parts.
 void RememberedBed::gather(LAMMPS_NS::LAMMPS& lammps) {
   const std::size_t header = 1 + riders_.size();
   std::vector<double> own;

@@ -90,15 +90,15 @@ class Schema {
   Schema& choice(const std::string& name, std::vector<std::string> choices,
                  const std::string& meaning);
   Schema& text(const std::string& name, const std::string& meaning);
-  /// yes | no, "no" unless given
+  /// key with the values yes and no, "no" unless given
   Schema& flag(const std::string& name, const std::string& meaning);
-  /// the key declared last may be left out
+  /// makes the key declared last optional
   Schema& optional();
-  /// makes the key optional, with this value
+  /// makes the key declared last optional, with this value
   Schema& by_default(const std::string& value);
   Schema& by_default(double value);
   Schema& by_default(const std::vector<double>& values);
-  /// ... may have another value when a run is continued from a checkpoint
+  /// lets the key declared last have another value when a run is continued from a checkpoint
   Schema& may_change();
 
   /// Another name of a key that is declared already. Readers of options with aliases print

@@ -36,7 +36,8 @@ struct Surface {
   double minimum_angle() const;
   std::pair<Vector3, Vector3> bounds() const;  ///< lowest and highest corner
 
-  /// Every edge is shared by exactly two triangles that run along it in opposite directions.
+  /// True if every edge is shared by exactly two triangles that run along it in opposite
+  /// directions.
   bool is_closed() const;
   /// @throws StateError naming body and node when a position or velocity is not finite
   void check_finite(const std::string& body) const;

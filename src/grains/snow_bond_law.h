@@ -41,12 +41,12 @@ class SnowBond {
   /// Advances a contact by one step.
   static SnowBondResponse advance(const SnowBondParameters& law, const SnowContact& contact,
                                   SnowBondState& state, SnowBondEnergy* energy = nullptr);
-  /// The two parts of advance(), from the trial of the state. Most steps are elastic ... @return
-  /// false: the step is not elastic, and nothing is changed
+  /// Advances a contact by an elastic step, from the trial of the state, as advance(): most are.
+  /// @return false: the step is not elastic, and nothing is changed
   static bool advance_elastic(const SnowBondParameters& law, const SnowContact& contact,
                               const SnowBondTrial& trial, SnowBondState& state,
                               SnowBondResponse& response, SnowBondEnergy* energy);
-  /// ... and one of a contact that yields, breaks, sinters or is dry.
+  /// Advances a contact that yields, breaks, sinters or is dry, by a step.
   static SnowBondResponse advance_yielding(const SnowBondParameters& law,
                                            const SnowContact& contact, const SnowBondTrial& trial,
                                            SnowBondState& state, SnowBondEnergy* energy);
@@ -82,12 +82,12 @@ inline SnowStrength SnowBond::strength(const SnowBondParameters& law, double d,
   return found;
 }
 
-/// a_s^2
+/// Square of the radius a_s that gives the bending stiffness.
 inline double squared_stiffness_radius(double area, double d) {
   return std::max(area * (1.0 / pi), SnowBond::bond_radius * SnowBond::bond_radius * (d * d));
 }
 
-/// a^2
+/// Square of the radius a that gives the bending strength.
 inline double squared_strength_radius(double area, double d) {
   return std::max(area * (1.0 / pi), SnowBond::least_radius * SnowBond::least_radius * (d * d));
 }

@@ -19,8 +19,8 @@ const Range possible_density = Range::closed(1e-3, 23e3);
 constexpr double solid_density = 3000.0;
 // Compression waves at rest [m/s]; diamond has 18 km/s
 const Range possible_speed = Range::closed(1e-3, 3e4);
-// ... and in ground that bears a wheel [m/s]: peat and very soft clay of 0.2 MPa have 14, snow 100
-// to 1000, ice and frozen soil 4000, rock 6000 [Mellor1977, Bowles1996 Tables 2-7 and 2-8]
+// Compression waves in ground that bears a wheel [m/s]: peat and very soft clay of 0.2 MPa have 14,
+// snow 100 to 1000, ice and frozen soil 4000, rock 6000 [Mellor1977, Bowles1996 Tables 2-7 and 2-8]
 constexpr double usual_pressure = 1e4;  // [Pa]
 const Range usual_speed = Range::closed(10, 4500), usual_rock_speed = Range::closed(10, 8000);
 constexpr double rock_density = 2000;  // [kg/m3]

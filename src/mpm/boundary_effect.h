@@ -25,7 +25,8 @@ struct BoundaryEffect {
   double distance(double change) const;
 };
 
-/// Sides: x from the side of the body to that of the ground. Base: x from the undisturbed surface.
+/// Effects by a distance x: of sides, from the side of the body to that of the ground; of the base,
+/// from the undisturbed surface.
 struct BoundaryEffects {
   BoundaryEffect response;  ///< share of the hub drop of a wheel, or of the force on a plate
   BoundaryEffect traction;  ///< of the net traction coefficient; none for a plate

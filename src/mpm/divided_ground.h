@@ -52,7 +52,8 @@ class DividedGround {
   void sort();
   /// Divides nodes by the parts, before particles go to the grid. Not collective.
   void begin_interval();
-  /// Adds the sums of copies that are none to those of the node. Not collective.
+  /// Adds the sums of linked fields, which are no separate copies, to those of the node. Not
+  /// collective.
   void join_sums();
   /// Gives copies of a divided node its motion. Not collective.
   void copy_motion();

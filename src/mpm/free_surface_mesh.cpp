@@ -15,7 +15,7 @@ std::vector<std::size_t> places_of_nodes(std::size_t count, std::size_t every) {
   return places;
 }
 
-/// -1 at the first of a row, 1 at its last, 0 between them.
+/// Direction outwards: -1 at the first of a row, 1 at its last, 0 between them.
 double outwards(std::size_t n, std::size_t last) { return n == 0 ? -1.0 : n == last ? 1.0 : 0.0; }
 
 }  // namespace
@@ -32,7 +32,7 @@ std::vector<FreeSurfaceMesh::SectionNode> FreeSurfaceMesh::nodes_across(const Te
     for (const std::size_t n : places)
       nodes.push_back({from + n, level, outwards(n, places.back()), 1.0});
     if (to == rows) break;
-    // The corners belong to the level stretches.
+    // corners between stretches belong to the level ones
     const std::size_t next = fill.first_level(to);
     std::vector<std::size_t> heights =
         places_of_nodes(std::max(level, next) - std::min(level, next), every);

@@ -64,9 +64,8 @@ class WheelRig {
   /// The targets that can have a course.
   static const std::vector<std::string>& changing_targets();
 
-  /// Other values of the load, the speed, the slip, the torque, the spin rate or the drawbar load,
-  /// from the next step on; all other keys as they were. @throws InputError, and nothing has
-  /// changed
+  /// Sets other values of the load, the speed, the slip, the torque, the spin rate or the drawbar
+  /// load, from the next step on; all other keys stay. @throws InputError, and nothing has changed
   void retarget(const Options& options);
   /// The keys that retarget() takes.
   static const std::vector<std::string>& targets();

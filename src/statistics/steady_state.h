@@ -53,13 +53,13 @@ Window select_window(const History& history, const WindowRequest& request,
 
 /// Limits of the verdict.
 struct SteadyCriteria {
-  /// change over the window, as a share of the reference, that counts as steady even if it is
-  /// significant
+  /// negligible change over the window, as a share of the reference: it counts as steady even if it
+  /// is significant
   double negligible_drift = 0.02;
   /// least number of independent blocks for a verdict, about 40 correlation times
   std::size_t min_blocks = 6;
-  /// ... or the 95 % interval of the mean by Student's t is within this share of the reference, or
-  /// no value departs from the mean by more than half of it
+  /// share of the reference within which the mean counts as known: its 95 % interval by Student's t
+  /// is within it, or no value departs from the mean by more than half of it
   double known_mean = 0.02;
 };
 

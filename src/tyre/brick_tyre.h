@@ -11,7 +11,7 @@
 
 namespace furrow {
 
-/// How a tyre is computed.
+/// Mesh, symmetry and damping of a tyre.
 struct BrickTyreSettings {
   int sections = 120;           ///< round the tyre; the mesh across follows (brick_tyre_mesh.h)
   bool half = false;            ///< only y >= 0, mirrored: for straight travel on symmetric ground

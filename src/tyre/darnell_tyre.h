@@ -17,7 +17,7 @@
 
 namespace furrow {
 
-/// How a tyre is computed.
+/// Mesh, symmetry and damping of a tyre.
 struct DarnellTyreSettings {
   int across = 6;       ///< elements across the whole tread
   int around = 72;      ///< elements around

@@ -41,7 +41,7 @@ class NodalTyre : public Tyre {
   void set_pressure(double pressure) override;
 
  protected:
-  /// How a tyre is made.
+  /// Shape, pressure and damping from which a tyre is made.
   struct Making {
     Matrix3X reference;         ///< [m] stress-free nodes about the axle centre
     double pressure = 0.0;      ///< [Pa]

@@ -14,10 +14,10 @@ namespace {
 constexpr double loading_time = 0.12;       // [s]
 constexpr double loading_damping = 2000.0;  // [1/s] of the tread
 constexpr double rim_damping = 60.0;        // [1/s]
-// [1/s] of the tread afterwards: wrinkles that snap must not swing
+// Damping rate of the tread after the loading [1/s]: wrinkles that snap must not swing
 constexpr double wrinkle_damping = 200.0;
 constexpr double disturbance = 1e-3;  // [m/s]
-// [Pa] the forces of at least this pressure are the scale of unbalanced ones
+// Pressure [Pa] whose forces are the least scale of unbalanced ones
 constexpr double least_pressure_scale = 1e3;
 
 }  // namespace

@@ -117,7 +117,7 @@ void SidewallChainEnergy::set_pressure_derivatives(const SegmentDirections& dire
     const double y_r = L * (-s * (T_ar + C_ra) + c * (T_rr + C_rr));
     for (Eigen::Index k = 0; k < m; ++k)
       hessian(k, m) = hessian(m, k) = -pressure * L * (cosine[k] * y_r - sine[k] * y_a);
-    // ... at its near node, and between both
+    // Segment m's share at its near node, and in the second derivatives between both nodes
     P += Vector2(w0 * (r1 - r0) + w1 * (r0 * r1 + r1 * r1 - 2.0 * r0 * r0),
                  -w0 * (a0 + a1) + w1 * (a0 * (r1 - 4.0 * r0) - a1 * (r1 + 2.0 * r0)));
     T_ar += -w0 + w1 * (r1 - 4.0 * r0) + C_ar + C_ra;

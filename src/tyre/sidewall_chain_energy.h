@@ -29,7 +29,7 @@ class SidewallChainEnergy {
   double segment_length() const { return L_; }  ///< L [m]
 
   double bending(const VectorX& angles, double phi) const;  ///< E [J/m]
-  /// Phi [J/m]. @param directions of the angles
+  /// Potential Phi [J/m]. @param directions of the angles
   double potential(const VectorX& angles, const SegmentDirections& directions, double phi,
                    double pressure) const;
   /// dPhi/dtheta [J/m] and d2Phi/dtheta2 [J/m].

@@ -18,7 +18,7 @@
 
 namespace furrow {
 
-/// How a tyre is brought to rest.
+/// Settings of the relaxation of a tyre to rest.
 struct SettleOptions {
   /// largest unbalanced force on a node over the pressure's force on a node
   double tolerance = 1e-3;

@@ -23,8 +23,8 @@ ElasticityParameters make_elasticity(const SectionOptions& section);
 void check_reaches_tension(const ElasticityParameters& parameters, double tensile);
 /// The pressure at which a run starts: 0, or p0 of porous elasticity [Pa].
 double initial_pressure(const ElasticityParameters& parameters);
-/// "eps_vol_pl" and "eps_dev_pl" of a law that yields. The latter is the sum of sqrt(2/3 de:de)
-/// over the deviatoric plastic strains de = (s_trial - s_end)/(2 G) of its steps.
+/// Plastic strains "eps_vol_pl" and "eps_dev_pl" of a law that yields. The latter is the sum of
+/// sqrt(2/3 de:de) over the deviatoric plastic strains de = (s_trial - s_end)/(2 G) of its steps.
 std::vector<StateVariable> plastic_strains(double eps_vol_pl_0 = 0.0);
 /// Tangent moduli at pressure p.
 ElasticModuli moduli_at(const ElasticityParameters& parameters, double p);

@@ -67,7 +67,7 @@ void TerrainContact::select_active() {
     ContactHistory& history = history_of(particle);
     const double reach =
         NarrowPhase::largest_reach(group_of(particle).particles, particle.particle, history);
-    // one that touches may be inside, farther than its reach
+    // a particle that touches may be inside, farther than its reach
     if (!history.touches() &&
         search_.lower_bound(candidates[n]) > (history.slip > 0.0 ? 2.0 : 1.0) * reach) {
       history.end_contact();
