@@ -87,7 +87,7 @@ void Footprint::cut(const Surface& body, const HeightField& field, int triangle)
   const Vector3 area = body.area_vector(static_cast<std::size_t>(triangle));
   if (-area.z() <= steepest * area.norm()) return;
   const Vector3i& nodes = body.triangles[static_cast<std::size_t>(triangle)];
-  std::array<Polygon, 2> rest, row_rest;  // what is left to cut, alternately
+  std::array<Polygon, 2> rest, row_rest;  // remainder to cut, alternately
   for (int k = 0; k < 3; ++k) rest[0].add(body.x.col(nodes[k]).head<2>());
   const double cell = field.cell();
   const auto place = [&](double value, int axis) {
@@ -171,7 +171,7 @@ void Footprint::add(const Polygon& polygon, std::size_t cell, int triangle, cons
   pieces_.outline.push_back(pieces_.corners.size());
 }
 
-/// Of a steep face over a cell only the foot counts.
+/// Keeps only the foot of a steep face over a cell.
 void Footprint::drop_high(double allowed) {
   cells_.area.assign(cells_.size(), 0.0);
   for (std::size_t p = 0; p < pieces_.size(); ++p) {

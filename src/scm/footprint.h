@@ -10,14 +10,13 @@
 namespace furrow {
 
 /// A piece is the part of a triangle within a cell, seen from above. The pieces of a body have the
-/// area of its outline, whatever the size of the cells. A cell carries no more than its area: where
-/// the body lies above itself, the lowest pieces count. A piece higher than the lowest one of its
-/// cell by more than three cells does not count. All arrays keep their memory between
-/// steps.
+/// area of its outline, for cells of any size. A cell carries no more than its area: where the body
+/// lies above itself, the lowest pieces count. A piece higher than the lowest one of its cell by
+/// more than three cells does not count. All arrays keep their memory between steps.
 class Footprint {
  public:
-  /// By which a piece may be above the lowest one of its cell [cells]. Of faces with a steeper
-  /// slope over a cell only the foot counts.
+  /// Height by which a piece may be above the lowest one of its cell [cells]. A steeper face over a
+  /// cell counts with its foot only.
   static constexpr double highest_piece = 3.0;
 
   struct Pieces {
@@ -38,8 +37,8 @@ class Footprint {
     std::size_t size() const { return cell.size(); }
   };
 
-  /// Of triangles that reach below the highest surface of the field, and of those next to them: the
-  /// height of a cell is the mean over all that covers it.
+  /// Finds the pieces of triangles that reach below the highest surface of the field, and of those
+  /// next to them: the height of a cell is the mean over all that covers it.
   /// @throws StateError when one of them reaches an edge of the field
   void find(const Surface& body, const HeightField& field);
   const Pieces& pieces() const { return pieces_; }

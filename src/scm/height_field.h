@@ -61,7 +61,7 @@ class HeightField {
   double reference(std::size_t cell) const { return reference_[cell]; }  ///< [m]
   /// Presses the surface of a cell down to a height [m].
   void press(std::size_t cell, double height) { surface_[cell] = height; }
-  /// Puts soil of this height [m] on a cell next to a rut. What is steeper than the angle of repose
+  /// Puts soil of this height [m] on a cell next to a rut. Soil steeper than the angle of repose
   /// moves on, away from the rut. Keeps the volume.
   /// @param direction  away from the rut: 1 or -1 along y @param slope  tangent of that angle
   void deposit(int column, int row, int direction, double height, double slope);

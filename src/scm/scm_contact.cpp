@@ -95,7 +95,7 @@ void ScmContact::press(double dt) {
   }
 }
 
-/// Of a half model the patch and its image in y = 0.
+/// Contact width of the patch; in a half model of the patch and its image in y = 0.
 double ScmContact::patch_width() {
   const Footprint::Pieces& pieces = footprint_.pieces();
   points_.clear();
@@ -111,7 +111,7 @@ double ScmContact::patch_width() {
   return contact_width(area, hull_perimeter(points_, hull_));
 }
 
-/// Whether a cell is covered and all around it are in contact: it has no corner of the hull.
+/// True if a cell is covered and all around it are in contact: it has no corner of the hull.
 bool ScmContact::is_inside(std::size_t slot) const {
   if (footprint_.cells().area[slot] < full * field_.cell_area()) return false;
   const std::size_t cell = footprint_.cells().cell[slot];
@@ -134,7 +134,7 @@ Vector3 ScmContact::place_of(std::size_t piece, const Matrix3X& nodal) const {
   return (1.0 - b - c) * nodal.col(nodes[0]) + b * nodal.col(nodes[1]) + c * nodal.col(nodes[2]);
 }
 
-/// Of the soils below a triangle, weighted by their area.
+/// Shear length of the soils below a triangle, weighted by their area [m].
 double ScmContact::shear_length(std::size_t first, std::size_t end) const {
   if (soils_.all().size() == 1) return soils_.all().front().shear_length;
   const Footprint::Pieces& pieces = footprint_.pieces();
@@ -223,8 +223,8 @@ void ScmContact::shear_triangle(std::size_t first, std::size_t end, double dt) {
   }
 }
 
-/// Of each column across the travel, half of the displaced soil goes to either side. Of a half
-/// model all goes to the side that is computed.
+/// Moves the displaced soil of each column across the travel, half to either side. In a half model
+/// all goes to the side that is computed.
 void ScmContact::move_soil() {
   const Footprint::Cells& cells = footprint_.cells();
   if (cells.size() == 0) return;

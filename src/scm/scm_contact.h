@@ -20,12 +20,13 @@ class ScmContact : public Contact {
  public:
   struct Settings {
     std::optional<double> width;  ///< b in k_c/b [m]; none: of the present contact patch
-    /// of the body's surface and the soil, up to the strength of the soil; infinity: that strength
+    /// friction of the body's surface and the soil, up to the strength of the soil; infinity: that
+    /// strength
     double friction = std::numeric_limits<double>::infinity();
     std::optional<double> slip_length = {};  ///< [m] in the place of K, for this friction; none: K
     bool records = true;  ///< this rank hands forces to the body's contact record
   };
-  /// Of the last apply(); of a half model, of the half.
+  /// Results of the last apply(); in a half model, of the half.
   struct Step {
     Vector3 force = Vector3::Zero();           ///< on the body [N]
     double area = 0.0;                         ///< in contact, seen from above [m^2]
@@ -35,7 +36,7 @@ class ScmContact : public Contact {
     double stored = 0.0;                       ///< elastic energy of the soil below the body [J]
     Vector3 of_steep_faces = Vector3::Zero();  ///< part of the force [N]; not in checkpoints
   };
-  /// Since the start; of a half model, of the half [J].
+  /// Losses since the start [J]; in a half model, of the half.
   struct Losses {
     double compaction = 0.0;  ///< plastic work of the pressure
     double shear = 0.0;       ///< work of the shear stress
@@ -77,7 +78,7 @@ class ScmContact : public Contact {
   // it, as a force on the body, and the area in contact [m^2].
   Eigen::Matrix2Xd mobilised_;
   VectorX sheared_area_, next_area_;
-  // Of each covered cell.
+  // Values of each covered cell.
   std::vector<double> pressure_;        // [Pa]
   std::vector<double> descent_;         // of the surface of the body [m/s]
   std::vector<double> pressed_;         // permanent sinkage of this step [m]

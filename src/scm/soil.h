@@ -24,7 +24,7 @@ struct Soil {
   double damping = 0.0;         ///< [Pa s/m] pressure per velocity of the sinkage
   double flow = 0.0;            ///< share of the displaced volume that moves to the sides
 
-  /// [Pa/m^n] under a contact of this width [m]. @throws StateError unless it is positive
+  /// Modulus under a contact of this width [m] [Pa/m^n]. @throws StateError unless it is positive
   double modulus(double width) const;
   /// Compares all parameters with the saved ones. @throws Error
   void match(Checkpoint& state) const;

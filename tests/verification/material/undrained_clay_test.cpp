@@ -94,8 +94,8 @@ TEST(UndrainedClay, RateAddsItsShareOfEachDecade) {
   EXPECT_NEAR(strength(1e1) - strength(1e-2), 0.36, 1e-3);
 }
 
-/// The strength falls with the slip, whatever the width of the band, to su over the sensitivity.
-/// The heat of an area of the band is the integral of the strength over the slip.
+/// The strength falls with the slip to su over the sensitivity, for any width of the band. The heat
+/// of an area of the band is the integral of the strength over the slip.
 TEST(UndrainedClay, RemouldsWithTheSlipAcrossTheBand) {
   const double sensitivity = 4.0, slip_95 = 0.05;
   const auto fall = [&](double slip) {
