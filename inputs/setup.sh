@@ -17,7 +17,7 @@ furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev mypy chromium-h
 furrow_map_packages="python3-sklearn python3-gdal"
 # To build with sanitizers: gcc takes half an hour for the kernels then, and has no libFuzzer.
 furrow_sanitizer_packages="clang libclang-rt-dev"
-furrow_format_packages="clang-format"
+furrow_format_packages="clang-format python3"
 # To build the site of all pages.
 furrow_site_packages="python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex doxygen python3-breathe
   libjs-mathjax"
