@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is run: the lines of cases.csv."""
+"""Runs of the cross-check: the lines of cases.csv."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -34,12 +34,12 @@ class Planned:
 
     @property
     def is_check(self) -> bool:
-        """Of the base, which is none of itself."""
+        """True for a check of the base, which is none of itself."""
         return self.role != BASE and self.kind in CHECKS
 
     @property
     def is_point(self) -> bool:
-        """Of a series: as the base, but for one condition."""
+        """True for a point of a series: as the base, but for one condition."""
         return self.role.startswith(SERIES)
 
     @property

@@ -77,12 +77,12 @@ def quantity_of(key: str) -> Quantity:
 
 
 def is_value(line: Mapping[str, str]) -> bool:
-    """Whether the line has a place in the table."""
+    """True if the line has a place in the table."""
     return line["kind"] in (RUN, BEST, FORMULA, MEASURED) and not is_point(line)
 
 
 def is_point(line: Mapping[str, str]) -> bool:
-    """Whether it is of a series."""
+    """True if the line is of a series."""
     return "=" in line["place"]
 
 
@@ -118,7 +118,7 @@ def entries(group: Iterable[Mapping[str, str]], kind: str) -> dict[str, Entry]:
 
 
 def answers(own: Mapping[str, Entry]) -> list[str]:
-    """Whether the other grounds agree with the continuum, how far they are from it, what their
+    """Sentences on how far the other grounds are from the continuum, whether they agree, what their
     uncertainty allows, and which parts of it are not known."""
     if GROUNDS[0] not in own:
         return []

@@ -30,7 +30,7 @@ BEKKER = ("LLL dry sand", "LETE sand")  # for cases on sand
 
 
 class Test(NamedTuple):
-    """What formulas need to know, SI."""
+    """Data that formulas need, SI."""
 
     load: float
     wheel_diameter: float
@@ -44,7 +44,7 @@ class Test(NamedTuple):
 
 
 def formulas(case: str, test: Test) -> list[Prediction]:
-    """What the formulas of the case say, those in their range."""
+    """Predictions of the formulas of the case, those in their range."""
     wheel = (test.load, test.wheel_diameter, test.wheel_width)
     if "snow" in case:
         snow = (test.depth, test.density, PRESSURE)
@@ -85,7 +85,7 @@ class WheelCase:
 
     @property
     def complete(self) -> bool:
-        """Whether there is a pair to compare."""
+        """True if there is a pair to compare."""
         return all((ground, BASE) in self.runs for ground in GROUNDS)
 
     def compared(self, role: str) -> Comparison:
@@ -138,7 +138,7 @@ def cited_table(case: str) -> list[cost_table.Row]:
 
 
 def cited_lines() -> Iterator[OutputRow]:
-    """Of the cases of cited.csv, a family of a table of inputs/costs each."""
+    """Lines of the cases of cited.csv, a family of a table of inputs/costs each."""
     cited = read_rows(HERE / "cited.csv")
     for line in cited:
         rows, _ = cost_table.read_table(INPUTS / "costs" / f"{line['table']}.csv")

@@ -37,7 +37,7 @@ def clusters(file: Path) -> Floats:
 
 
 def volume_below(level: float, z: Floats, radius: Floats) -> Floats:
-    """Of each sphere, below a level."""
+    """Volume of each sphere below a level."""
     h = np.clip(level - z, -radius, radius)
     volume: Floats = np.pi / 3 * (2 * radius**3 + 3 * radius**2 * h - h**3)
     return volume

@@ -13,7 +13,7 @@ NOISE, SHARE = 0.02, 0.2  # of a change: what a fit may miss, at small and at la
 
 
 def distance(v: Any, edge: str) -> float:
-    """Of an edge of the ground, in widths of the body: from its side, from the surface, from below its middle."""
+    """Distance of an edge of the ground, in widths of the body: from its side, from the surface, from below its middle."""
     body, width = (v.size, v.box) if hasattr(v, "box") else (0.272, v.width)
     side = 0.5 * (width / body - 1.0)
     places = {"all": 0.0, "width": side, "absorbing": side, "depth": v.depth / body, "length": 0.5 * v.get("length", 0.0) / body}

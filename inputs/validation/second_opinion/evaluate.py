@@ -22,7 +22,7 @@ import decks
 
 
 def calculix(runs: Runs, texts: dict[str, str]) -> list[list[float]]:
-    """Of each input: vertical force of the node set PLATE on the ground at the end of each increment [N]."""
+    """Results of each input: vertical force of the node set PLATE on the ground at the end of each increment [N]."""
     cases = [Case(f"calculix/{name}", "ccx", ("-i", name), files={f"{name}.inp": text}) for name, text in texts.items()]
     made = runs.executor.completed(cases)
     results = [(run.folder / f"{name}.dat").read_text() for run, name in zip(made, texts)]

@@ -9,7 +9,7 @@ from furrow_post.study.runs import Run
 
 
 def stress_in_depth(run: Run) -> dict[str, float]:
-    """Of the stress 10 to 15 cm below the undisturbed surface, near the axle: share ahead of it, and centroid [m]."""
+    """Stress 10 to 15 cm below the undisturbed surface, near the axle: share ahead of it, and centroid [m]."""
     terrain = read_terrain_fields(run.folder)
     x = terrain["x"][:, 0] - Results(run.folder).columns["x"][-1]
     middle = (np.abs(terrain["initial_position"][:, 2] - 0.075) < 0.025) & (np.abs(x) < 0.4)

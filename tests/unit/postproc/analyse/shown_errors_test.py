@@ -74,7 +74,7 @@ class CommittedTest(unittest.TestCase):
         self.assertGreater(seen, 100)
 
     def test_pages_show_errors_of_cells_or_state_that_errors_are_over_time(self) -> None:
-        """Of the size series, cells or grains, packing and ground are known. Marked values have their parts in experiments.csv."""
+        """Series of sizes have known cells or grains, packing and ground. Marked values have their parts in experiments.csv."""
         known, seen, pages, over_time = size_errors(), 0, 0, set()
         for page in (page for page in SOURCE.rglob("*.md") if page.relative_to(SOURCE).parts[0] not in ("build", "lib", "results")):
             text = page.read_text(encoding="utf-8")
