@@ -111,8 +111,8 @@ class WheelRig {
   double load() const { return load_; }
   /// Rim speed in cruise, now [m/s]; 0 unless slip or spin is prescribed.
   double target_rim_speed() const { return spin_rate_ * wheel_.nominal_radius(); }
-  /// Travel along x over a time [m]; nothing where the travel is free, or goes back. @param from,
-  /// to [s]
+  /// Travel along x over a time [m]; nothing where the travel is free, or goes back.
+  /// @param from, to  [s]
   std::optional<double> travel(double from, double to) const;
   double cruise_start() const { return speed_ramp_.end(); }  ///< [s]
 
