@@ -56,7 +56,7 @@ class HeightField {
   }
 
   double surface(std::size_t cell) const { return surface_[cell]; }  ///< [m]
-  /// Of the surface at a place in the field, linear between the middles of cells [m].
+  /// Height of the surface at a place in the field, linear between the middles of cells [m].
   double height(const Vector2& place) const;
   double reference(std::size_t cell) const { return reference_[cell]; }  ///< [m]
   /// Presses the surface of a cell down to a height [m].

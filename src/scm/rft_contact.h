@@ -19,14 +19,14 @@ class RftContact : public Contact {
     double slip_length = 0.0;  ///< K [m], by which a face moves until the sand resists
     bool records = true;       ///< this rank hands forces to the body's contact record
   };
-  /// Of the last apply().
+  /// Results of the last apply().
   struct Step {
     Vector3 force = Vector3::Zero();  ///< on the body [N]
     double area = 0.0;                ///< of the faces that press on sand [m^2]
     double pressure = 0.0;            ///< largest of a face [Pa]
     double sinkage = 0.0;             ///< largest depth of a node [m]
   };
-  /// Since the start [J].
+  /// Losses since the start [J].
   struct Losses {
     double pressure = 0.0;  ///< work of the pressure
     double shear = 0.0;     ///< work of the stress along the faces

@@ -57,7 +57,7 @@ RftStress rft_stress(const Vector3& n, const Vector3& v, double friction) {
 
 namespace {
 
-/// Of the corner at node a alone, the others being above the surface.
+/// Moments of depth by the corner at node a alone, the others being above the surface.
 Vector3 corner_moments(const Vector3& depth, int a) {
   const int b = (a + 1) % 3, c = (a + 2) % 3;
   const double along_b = depth[a] / (depth[a] - depth[b]);

@@ -85,7 +85,7 @@ TEST(RftContact, LevelPlateCarriesInProportionToItsDepth) {
   EXPECT_NEAR(once, plate_stress * strength * 0.01 * 0.04, 1e-3 * once);
 }
 
-/// The force 0.192 xi w h^2/2 acts at two thirds of the depth, whatever the triangles.
+/// The force 0.192 xi w h^2/2 acts at two thirds of the depth, for any triangles.
 TEST(RftContact, UprightBladeHasTheForceAndTheMomentOfItsTriangleOfPressure) {
   const double width = 0.3, depth = 0.1;
   Pushing pushing(blade(Vector3(0.01, width, 0.25), -depth), 0.0);
