@@ -9,7 +9,7 @@
 
 namespace furrow {
 
-/// A soil from a place on.
+/// Soil of a patch, which begins at a place.
 struct PatchInput {
   double begin = 0.0;  ///< [m] on the axis
   std::string soil;    ///< as the line has it

@@ -40,7 +40,7 @@ class SidewallChainEnergy {
   /// outwards.
   double area(const VectorX& angles) const;
   double chord_area(double a, double r) const;  ///< g [m^2]
-  /// Nodes from (0, 0) on [m]; N + 1 columns.
+  /// Positions of the chain's N + 1 nodes, one column each, from (0, 0) on [m].
   Eigen::Matrix2Xd nodes(const VectorX& angles) const;
 
  private:

@@ -17,7 +17,7 @@ constexpr double position_tolerance = 1e-6;  // of the surface's size
 void check_within_terrain(const Surface& surface, const Grid& grid) {
   const auto [low, high] = surface.bounds();
   const Vector3 middle = 0.5 * (low + high);
-  // A half model ends under the middle of the wheel.
+  // the side of a half model lies in the plane of symmetry, under the middle of the wheel
   const double tolerance = position_tolerance * (high - low).norm();
   for (int a = 0; a < 2; ++a) {
     const Axis& axis = grid.axis(a);
