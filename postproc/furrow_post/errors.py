@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-# What code raises on values, keys or types that it does not expect
+# Errors that code raises on values, keys or types that it does not expect
 CONTENT_ERRORS = (
     *(ArithmeticError, IndexError, KeyError, RuntimeError, TypeError, ValueError),
     SystemError,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a file has, by name: arrays, units."""
+"""Contents of a file by name: arrays, units."""
 
 import difflib
 from collections.abc import Mapping

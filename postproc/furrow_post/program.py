@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What all Python programs of Furrow share: texts are UTF-8, and a fault is one line on stderr."""
+"""Base of all Python programs of Furrow: texts are UTF-8, and a fault is one line on stderr."""
 
 import ctypes
 import os

@@ -3,9 +3,9 @@
 
 The guide and the first page are tested by guide.py; run: results of the script OWN_SCRIPT that it made.
 
-What takes seconds is run, in a scratch folder that looks like the source tree. Of what takes
-minutes, what can be seen without running is checked: RULES states how, for each kind of command. A
-command that no rule knows fails.
+Commands that take seconds are run, in a scratch folder that looks like the source tree. Those that
+take minutes are checked for what can be seen without running: RULES states how, for each kind of
+command. A command that no rule knows fails.
 """
 
 import re

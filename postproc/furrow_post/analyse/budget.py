@@ -70,7 +70,7 @@ class Budget:
         return with_error(value, self.total) if self.known else f"{value:.3g}"
 
     def missing_text(self) -> str:
-        """What ± does not have: "+ ground, material unknown", "over time only"; empty where nothing is missing."""
+        """Parts that ± lacks: "+ ground, material unknown", "over time only"; empty where nothing is missing."""
         if self.unknown and [name for name in self.known if self.part(name) > 0] == ["time"]:
             return "over time only"
         return f"+ {', '.join(map(self.label, self.unknown))} unknown" if self.unknown else ""

@@ -36,7 +36,7 @@ CARRIED = (0.5, 2.0)  # share of the load in the uppermost particles of a body t
 
 @dataclass(frozen=True)
 class Contact:
-    """What touches the ground at the end of a run."""
+    """Contact with the ground at the end of a run."""
 
     load: float  # [N]
     fluctuation: float  # of the load at the end of the run, over its mean

@@ -172,7 +172,7 @@ def entries_of_run(run: WheelRun, families: Families) -> list[Entry]:
 
 
 def best_estimates(run: WheelRun, families: Families) -> list[Entry]:
-    """Best estimates of each quantity, as far as a table's families have more than one size."""
+    """Best estimates of each quantity, where a table's families have more than one size."""
     entries = []
     family = families.get(cost_table.FamilyKey(run.ground, run.model, run.wheel))
     for quantity in QUANTITIES:

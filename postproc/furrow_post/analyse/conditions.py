@@ -52,7 +52,7 @@ def answers_of_ground(runs: Iterable[WheelRun]) -> set[str]:
 
 
 def differ(values: Sequence[float], tolerance: Tolerance) -> bool:
-    """Whether values of a condition differ beyond its tolerance."""
+    """True where values of a condition differ beyond its tolerance."""
     allowed = max(tolerance.relative * max(abs(v) for v in values), tolerance.absolute)
     return max(values) - min(values) > allowed * (1 + 1e-9)
 
@@ -62,7 +62,7 @@ def incomparable(
 ) -> list[Difference]:
     """Every condition in which runs differ beyond its tolerance.
 
-    What is the ground's answer in all of them does not count.
+    A quantity that is the ground's answer in all of them does not count.
     """
     found = []
     answers = answers_of_ground(runs)

@@ -21,7 +21,7 @@ SHORT_TON = 2000.0  # [lb]
 
 @dataclass(frozen=True)
 class Traction:
-    """What a formula gives at a slip; coefficients are forces over the load."""
+    """Result of a formula at a slip; coefficients are forces over the load."""
 
     method: str
     source: str

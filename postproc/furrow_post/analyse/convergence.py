@@ -21,7 +21,7 @@ RELATIVE = ("hub_drop", "rut_depth", "tyre_deflection")  # errors over the value
 
 @dataclass(frozen=True)
 class SceneConvergence:
-    """What several sizes of one scene gave."""
+    """Results of several sizes of one scene."""
 
     path: Path
     script: str  # digest of the scene's script
@@ -35,7 +35,7 @@ class SceneConvergence:
         return grid_convergence(self.sizes, values, errors)
 
     def size_error(self, name: str, size: float, value: float) -> float | None:
-        """Of a run of this size and value; None for a quantity that was not kept."""
+        """Error of the size in a run of this size and value; None for a quantity that was not kept."""
         if name not in self.quantities:
             return None
         series, largest = self.series(name), max(self.sizes)
@@ -54,7 +54,7 @@ class SceneConvergence:
 
 
 def of_runs(path: Path, script: Path, runs: Sequence[WheelRun], names: Sequence[str]) -> SceneConvergence:
-    """Of runs that differ in size alone. @raises ResultsError for fewer than two sizes"""
+    """Convergence of runs that differ in size alone. @raises ResultsError for fewer than two sizes"""
     if len({run.size for run in runs}) < 2:
         raise ResultsError(f"{path.name}: convergence needs runs of at least two sizes, three for an order")
     table = [values_of(run, names) for run in runs]
@@ -94,7 +94,7 @@ def place_of(script: Path, results: Path, ending: str) -> Path | None:
 
 
 def convergence_of(run: WheelRun) -> SceneConvergence | None:
-    """Of the scene of a run; None where there is none, or the script has changed since."""
+    """Convergence of the scene of a run; None where there is none, or the script has changed since."""
     script = Path(str(run.results.run.get("script", "")))
     path = place_of(script, run.folder, ENDING)
     found = read_convergence(path) if path else None

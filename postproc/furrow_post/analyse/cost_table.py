@@ -34,7 +34,7 @@ QUANTITY_KEYS = tuple(quantity.key for quantity in QUANTITIES)
 
 
 class FamilyKey(NamedTuple):
-    """What the runs of a family have in common."""
+    """Properties that the runs of a family have in common."""
 
     ground: str
     model: str
@@ -224,9 +224,9 @@ class Family:
     def best_estimate(
         self, key: str, size: float, value: float, time_error: float
     ) -> tuple[float, Budget] | None:
-        """What a run of this size [m] and value comes to, with the parts of its error.
+        """Best estimate from a run of this size [m] and value, with the parts of its error.
 
-        A run of the table comes to the family's best estimate, whose error has those of times and
+        A run of the table has the family's best estimate, whose error has those of times and
         packings in it. Another, which may have another load or speed, moves by as much as the
         family does from this size. None with fewer than two sizes.
         """

@@ -32,7 +32,7 @@ TOLERANCES = {"size": 0.02, "depth": 0.06, "density": 0.1, "speed": 0.02}  # rel
 
 
 class CurveKind(enum.Enum):
-    """What x and y of a curve are."""
+    """Kind of a curve: its quantities x and y."""
 
     PLATE = "plate"  # sinkage [m], pressure [Pa]
     OEDOMETER = "oedometer"  # axial stress [Pa], density over that at the start
@@ -83,7 +83,7 @@ class Curve:
 
 
 def is_curve(folder: Path | str) -> bool:
-    """Whether a results folder is that of a plate or an oedometer."""
+    """True where a results folder is that of a plate or an oedometer."""
     return any((Path(folder) / name).is_file() for name in ("facts.txt", "point.csv"))
 
 
@@ -228,7 +228,7 @@ def _at_levels(curve: Curve, levels: Sequence[float], y: Floats) -> Floats:
 
 
 def _differences(curves: Sequence[Curve]) -> list[str]:
-    """What differs beyond TOLERANCES, in words."""
+    """Facts that differ beyond TOLERANCES, in words."""
     differences = []
     for name, relative in TOLERANCES.items():
         have = [(curve.label, curve.facts[name]) for curve in curves if name in curve.facts]

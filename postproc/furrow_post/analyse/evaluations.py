@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What studies take from the folder of one run: ends of paths, tyre states, curves, steady means."""
+"""Values that studies take from the folder of one run: ends of paths, tyre states, curves, steady means."""
 
 import csv
 import math

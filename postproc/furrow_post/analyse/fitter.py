@@ -6,7 +6,7 @@ are fitted in their logarithm, others in value/scale: z. A parameter with a prio
 of z about its start. Rows that are held out count in neither the fit nor the errors.
 
 Uncertainties come from the Jacobian J of the residuals by z at the solution: covariance = (J^T J/s^2 + P)^-1, P the
-inverse variances of the priors. The scatter s follows from the residuals, s^2 = sum r^2/(data - parameters used). Of
+inverse variances of the priors. The scatter s follows from the residuals, s^2 = sum r^2/(data - parameters used). For
 data with known deviations it is at least 1 (Birge's ratio): the law misses them by more than their deviations. Residuals
 of further samples at the solution, such as other packings, give s too. The covariance is linear: it is valid near the
 solution, for small errors.

@@ -38,7 +38,7 @@ from .density import ground_points
 REACH = 3.0  # of the kernel, in standard deviations
 CELLS_PER_WIDTH = 2.0  # of the picture, for each standard deviation
 GRAINS_PER_WIDTH = 1.0  # least width of the kernel over the size of the coarser ground
-# of the density that a kernel's room would have at the typical density: less is the surface's blur
+# Share of the density that a kernel's room would have at the typical density: less is the surface's blur
 COVERED = 0.5
 
 

@@ -19,7 +19,7 @@ def predictions_for(run: WheelRun, names: Iterable[str], extrapolate: bool) -> l
 
 
 def require_formulas(names: Iterable[str]) -> None:
-    """@raises ResultsError for a name that is none, whatever the run"""
+    """@raises ResultsError for a name that is none, for any run"""
     for name in names:
         method, _, what = name.partition(":")
         if method == "nrmm":

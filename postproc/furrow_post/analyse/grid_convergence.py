@@ -36,7 +36,7 @@ TRIED_ORDERS = np.linspace(0.02, 8.0, 400)
 
 @dataclass(frozen=True)
 class Convergence:
-    """What a series of sizes comes to. Errors are standard errors; NaN: not known."""
+    """Result of a series of sizes. Errors are standard errors; NaN: not known."""
 
     sizes: tuple[float, ...]  # the finest first
     values: tuple[float, ...]  # of each, means

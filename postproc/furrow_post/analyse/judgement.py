@@ -60,7 +60,7 @@ def largest_part(*entries: Entry) -> str:
 
 
 def remedies(unknown: Sequence[str]) -> list[str]:
-    """What finds unknown parts such as "size of a": a line for each, and the command that evaluates the runs."""
+    """Remedies for unknown parts, as "size of a": a line for each, and the command that evaluates the runs."""
     lines = []
     for part, (name, runs) in PARTS.items():
         of_part = [u.partition(" of ")[2] for u in unknown if u.startswith(f"{part} of ")]

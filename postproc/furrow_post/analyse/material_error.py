@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the intervals of a soil card or a material file change in a scene, as 'furrow-post converge --material' stores it.
+"""Change of a scene by the intervals of a soil card or a material file, as 'furrow-post converge --material' stores it.
 
 A soil card has a standard error with each parameter. A material file NAME.yaml has them in NAME.errors.csv, which
-'furrow-post fit law' writes: `law.beta,0.6`. Of a file with a base, errors are those of the base too.
+'furrow-post fit law' writes: `law.beta,0.6`. A file with a base has the errors of the base too.
 """
 
 import json
@@ -41,7 +41,7 @@ class Interval:
 
 
 def intervals(file: Path) -> list[Interval]:
-    """Of a soil card or a material file; none where it has none. @raises ResultsError"""
+    """Intervals of a soil card or a material file; none where it has none. @raises ResultsError"""
     content = _content(file)
     if OF_CARD[0] in content:
         sections = ((name, key, entry) for name in OF_CARD for key, entry in content.get(name, {}).items())
@@ -142,7 +142,7 @@ def read_material_error(path: Path) -> SceneMaterial:
 
 
 def material_error_of(run: WheelRun) -> SceneMaterial | None:
-    """Of the scene of a run; None where there is none, or the script or the file has changed since."""
+    """Error by the material in the scene of a run; None where there is none, or the script or the file has changed since."""
     script = Path(str(run.results.run.get("script", "")))
     path = place_of(script, run.folder, ENDING)
     found = read_material_error(path) if path else None

@@ -18,7 +18,7 @@ PROGRAM = "furrow-point"
 
 @dataclass(frozen=True)
 class Column:
-    """Of a table; unit: as its heading has it, empty without. NaN: an empty cell."""
+    """Column of a table; unit: as its heading has it, empty without. NaN: an empty cell."""
 
     heading: str
     name: str

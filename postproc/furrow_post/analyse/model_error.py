@@ -3,7 +3,7 @@
 
 A test is one measured comparison, or a group of which only rms and mean are known. Its difference is computed
 less measured, over the computed value for depths, deflections and loads of plates, else absolute. e is the
-standard error of both values. Of a regime
+standard error of both values. The error of a regime follows from
 
     model error^2 = (t/2)^2 mean over studies of [mean over tests of (difference^2 - e^2)],
 
@@ -27,7 +27,7 @@ from ..csv_table import read_rows
 from ..errors import content_of
 from ..programs import inputs_folder
 
-# What the words of a regime differ by, and the ranges that count as one step outside of the tests
+# Steps by which the words of a regime differ, and the ranges that count as one step outside of the tests
 MISMATCH = {"ground": 2.0, "wheel": 1.0, "motion": 1.0, "grousers": 1.0}
 SCALES = {"slip": 0.2, "slip_angle": 20.0, "slope": 10.0, "sinkage": math.log(2), "radius": math.log(2)}
 LOGARITHMIC = ("sinkage", "radius")
@@ -50,7 +50,7 @@ RELATIVE = ("depth", "hub drop", "deflection", "plate load")
 
 @dataclass(frozen=True)
 class Case:
-    """What decides how near tests are. NaN: not known, or without a meaning."""
+    """Conditions that decide how near tests are. NaN: not known, or without a meaning."""
 
     ground: str  # snow, sand, road
     wheel: str  # rigid wheel, tyre, plate
@@ -84,7 +84,7 @@ class Test:
 
     @property
     def _scale(self) -> float:
-        """Of difference and error, in the unit of the computed value."""
+        """Scale of difference and error, in the unit of the computed value."""
         return self.computed if self.quantity in RELATIVE else 1.0
 
     @property
@@ -137,7 +137,7 @@ class Regime:
 
 @dataclass(frozen=True)
 class ModelError:
-    """Of one quantity of a case: relative for RELATIVE ones."""
+    """Model error of one quantity of a case: relative for RELATIVE ones."""
 
     value: float
     distance: float
@@ -163,7 +163,7 @@ def _studies(tests: Sequence[Test]) -> list[list[Test]]:
 
 
 def correlation(regimes: Iterable[Sequence[Sequence[Test]]]) -> float:
-    """Of two tests of a study: share of the bias of studies in the mean square. 1 where no study shows it.
+    """Correlation of two tests of a study: share of the bias of studies in the mean square. 1 where no study shows it.
 
     regimes: tests by study; each counts over its own mean square
     """
@@ -295,7 +295,7 @@ def read_tests(path: Path) -> list[Test]:
 
 
 def test_of(row: Mapping[str, str]) -> Test:
-    """Of a row of measured.csv."""
+    """Test from a row of measured.csv."""
     case = case_of_row(row)
     values = (int(row["tests"]), float(row["difference"]), float(row["error"]), _number(row["mean"]), _number(row["computed"]))
     return Test(row["study"], row["label"], row["quantity"], case, *values)
@@ -308,7 +308,7 @@ def scored_error(regimes: Sequence[Regime], row: Mapping[str, Any]) -> str:
 
 
 def case_of_row(row: Mapping[str, Any]) -> Case:
-    """Of the columns of measured.csv."""
+    """Case from the columns of measured.csv."""
     features: dict[str, Any] = {name: row[name] for name in MISMATCH}
     features.update({name: _number(str(row[name])) for name in SCALES})
     return Case(**features)
@@ -350,7 +350,7 @@ def _read_regime(row: Mapping[str, str]) -> Regime:
 
 
 def known_regimes() -> tuple[Regime, ...]:
-    """Of inputs/validation; none where only the package is installed."""
+    """Regimes of inputs/validation; none where only the package is installed."""
     inputs = inputs_folder()
     path = inputs / "validation" / TABLE if inputs else None
     return read_regimes(path) if path and path.is_file() else ()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What an empirical formula says, and the range in which its tests let it speak."""
+"""Result of an empirical formula, and the range in which its tests support it."""
 
 import math
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ class OutOfRange(ResultsError):
 
 @dataclass(frozen=True)
 class Limit:
-    """A quantity that must lie in [low, high], and who says so."""
+    """A quantity that must lie in [low, high], with the reason."""
 
     name: str
     value: float
@@ -53,7 +53,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Prediction:
-    """What a formula says. Scatter: standard deviation of measurements about it, NaN: not known."""
+    """Result of a formula. Scatter: standard deviation of measurements about it, NaN: not known."""
 
     method: str
     source: str

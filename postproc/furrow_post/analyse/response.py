@@ -37,7 +37,7 @@ class Response:
     quantities: Mapping[str, Floats]
 
     def reaches(self, places: Sequence[float]) -> bool:
-        """Whether all of them lie between those that were run."""
+        """True where all places lie between those that were run."""
         return bool(self.places[0] <= min(places) and max(places) <= self.places[-1])
 
     def tried(self) -> Floats:

@@ -33,7 +33,7 @@ class Arc:
 def in_plane(tensor: Floats, along: int) -> tuple[Floats, Floats]:
     """Principal values (n, 2) [Pa], and directions (n, 2, 2) as columns, of stresses (n, 3, 3).
 
-    Of the part in the upright plane along an axis, 0 or 1.
+    Both are those of the part in the upright plane along an axis, 0 or 1.
     """
     plane = tensor[:, [along, 2]][:, :, [along, 2]]
     values, directions = np.linalg.eigh(plane)

@@ -18,7 +18,7 @@ VALUES = ("n", "c", "phi", "K", "c1", "c2")
 
 @dataclass(frozen=True)
 class TerrainValues:
-    """One row of terrains.csv, whose head says what the columns are; NaN: not in the source."""
+    """One row of terrains.csv, whose head explains the columns; NaN: not in the source."""
 
     name: str
     kind: str

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A tyre file of tyre/darnell from what a catalogue gives.
 
-What a catalogue does not give is scaled from the tyre of [Shoop2001] (inputs/tyres/p235_75r15.yaml)
-as if both were similar: bending stiffnesses grow with the cube of a length, springs per width with
-its square, and all moduli with the pressure, for cords that carry more of it.
+A value that a catalogue does not give is scaled from the tyre of [Shoop2001]
+(inputs/tyres/p235_75r15.yaml) as if both were similar: bending stiffnesses grow with the cube of a
+length, springs per width with its square, and all moduli with the pressure, for cords that carry
+more of it.
 """
 
 import math
@@ -37,7 +38,7 @@ Values = Mapping[str, float]
 
 @dataclass(frozen=True)
 class Catalogue:
-    """What is known of a tyre; None where it is not given. SI units."""
+    """Catalogue data of a tyre; None where a value is not given. SI units."""
 
     size: TyreSize
     pressure: float
@@ -161,7 +162,7 @@ def tyre_sections(known: Catalogue, values: Values, notes: Mapping[str, str]) ->
 
 
 def hub_mass(known: Catalogue) -> float | None:
-    """What the rim carries of the tyre's mass [kg]; None where the mass is not given."""
+    """Part of the tyre's mass that the rim carries [kg]; None where the mass is not given."""
     return None if known.mass is None else (1.0 - _TREAD_MASS_SHARE) * known.mass
 
 

@@ -2,7 +2,7 @@
 """Fits the parameters of a tyre file to tests on a rigid plane, computed by furrow-tyre.
 
 The parameters' guesses count as measurements with their spreads, so that a fit has an answer for
-any number of tests, and the change of a parameter's error by the tests says what they determine.
+any number of tests, and the change of a parameter's error by the tests shows what they determine.
 Parameters x are logarithms over their guess, in units of its spread. With J the derivatives of the
 tests' logarithms over their errors, the covariance of x is (J'J + 1)^-1. A singular value of J
 above 1 is a combination of parameters that the tests determine better than the guesses do.

@@ -12,12 +12,12 @@ from .budget import Budget
 COVERAGE = 2.0  # standard errors within which two values agree
 BARS = f"bars: {COVERAGE:g} standard errors"  # for the legends of figures
 
-# Kinds of entries; BEST: what a run comes to by the sizes of its family (grid_convergence.py)
+# Kinds of entries; BEST: estimate for a run from the sizes of its family (grid_convergence.py)
 RUN, BEST, FORMULA, MEASURED = "run", "best estimate", "formula", "measured"
 
 
 class Agreement(enum.Enum):
-    """What the difference of two values says, seen against their uncertainty."""
+    """Judgement of the difference of two values by their uncertainty."""
 
     AGREE = "agree"  # within their uncertainty
     DIFFER = "differ"  # by more than their uncertainty
@@ -26,7 +26,7 @@ class Agreement(enum.Enum):
 
 @dataclass(frozen=True)
 class Quantity:
-    """What is compared; scale: from SI to the unit that people read."""
+    """Quantity that is compared; scale: from SI to the unit that people read."""
 
     key: str
     name: str
@@ -65,7 +65,7 @@ class Entry:
 
     @property
     def of_run(self) -> bool:
-        """Whether its uncertainty has the parts of a run's."""
+        """True where the uncertainty of the entry has the parts of a run's."""
         return self.kind in (RUN, BEST)
 
     @property

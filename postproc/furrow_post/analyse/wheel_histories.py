@@ -44,7 +44,7 @@ def _rows_of_first_pass(stage: Floats) -> int:
 def cruise_history(run: WheelRun) -> CruiseHistory:
     """Hub drop and resistance coefficient over travel, the latter smoothed over 0.1 radius.
 
-    Of several passes, the first.
+    Only the first of several passes counts.
     """
     columns = run.results.columns
     stage, x = columns["stage"], columns["x"]

@@ -40,7 +40,7 @@ REMEDY = "write it again with 'furrow-post study validation'"
 
 
 def case_of(run: WheelRun) -> Case:
-    """What decides which tests are near."""
+    """Case of a run: the conditions that decide which tests are near."""
     style = run.results.styles().of_kind("wheel")
     grousers = bool(style and style.has("grousers") and style.number("grousers") > 0)
     slip = run.number("slip")
@@ -79,7 +79,7 @@ class SizeSeries:
         return math.hypot(*(MISMATCH[name] for name, word in self.words.items() if word != getattr(case, name)))
 
     def errors(self, key: str, size_over_width: float) -> tuple[float, float]:
-        """Of the size and of a packing: of a depth relative."""
+        """Errors of the size and of a packing; relative for a depth."""
         size, scale = size_over_width * self.width, abs(self.family.reference(key)[0]) if key == "sinkage" else 1.0
         largest = max(row.size for row in self.family.bases)
         parts = self.family.components(key, min(size, largest))
@@ -94,7 +94,7 @@ def read_series(path: Path) -> tuple[SizeSeries, ...]:
 
 
 def series_of(rows: Iterable[Mapping[str, str]]) -> tuple[SizeSeries, ...]:
-    """Of rows of sizes.csv. @raises ValueError"""
+    """Size series from the rows of sizes.csv. @raises ValueError"""
     groups: dict[tuple[str, str, str], list[Mapping[str, str]]] = {}
     for row in rows:
         groups.setdefault((row["series"], row["ground"], row["wheel"]), []).append(row)
@@ -125,7 +125,7 @@ def read_scheme(path: Path) -> Scheme:
 
 
 def scheme_of(rows: Iterable[Mapping[str, str]]) -> Scheme:
-    """Of rows of scheme.csv. @raises ValueError"""
+    """Errors of the scheme from the rows of scheme.csv. @raises ValueError"""
     columns = (("sinkage", "depth"), ("coefficient", "coefficient"))
     return {(row["part"], key): (float(row[column]), row["what"]) for row in rows for key, column in columns}
 
@@ -141,7 +141,7 @@ def read_effects(path: Path) -> dict[tuple[str, str], tuple[float, float, float]
 
 
 def width_of_ground(run: WheelRun, case: Case, key: str) -> Budget:
-    """What the sides of a continuum change: of a depth relative."""
+    """Error by the sides of a continuum; relative for a depth."""
     path = _validation(EFFECTS)
     effect = read_effects(path).get((case.ground, key)) if path and run.ground == "continuum" else None
     if not effect or len(run.domain) < 2:
@@ -191,7 +191,7 @@ def like_wheels(
 
 
 def _rms(values: Iterable[float]) -> float:
-    """Of the finite ones; NaN of none."""
+    """Root mean square of the finite values; NaN of none."""
     known = [value for value in values if math.isfinite(value)]
     return math.sqrt(sum(value**2 for value in known) / len(known)) if known else math.nan
 
@@ -267,7 +267,7 @@ class _Parts:
         return replace(parts, material=error, sources={**parts.sources, "material": self.soil.source})
 
     def _of_scene(self, parts: Budget, name: str, value: SteadyValue, key: str) -> Budget:
-        """Of the runs of this scene in other sizes, where there are any."""
+        """Parts with the errors from the runs of this scene in other sizes, where there are any."""
         error = self.stored.size_error(name, self.run.size, value.mean) if self.stored else None
         if self.stored and error is not None:
             parts = replace(parts, size=error, sources={**parts.sources, "size": self.stored.source})
@@ -289,12 +289,12 @@ class _Parts:
 
 
 def budgets_of(folder: Path) -> dict[str, Budget]:
-    """Of a results folder. Of one that is no complete run of a wheel only the error over time is known."""
+    """Error budgets of a results folder by quantity. Without a complete run of a wheel only the error over time is known."""
     return _budgets_and_doubt(folder)[0]
 
 
 def _budgets_and_doubt(folder: Path) -> tuple[dict[str, Budget], str]:
-    """With the reason why the run is not complete, else ""."""
+    """Error budgets, with the reason why the run is not complete, else ""."""
     try:
         return budgets(read_wheel_run(folder)), ""
     except ResultsError as error:
@@ -333,7 +333,7 @@ class OverTests:
 
 
 def over_tests(run: WheelRun) -> list[OverTests]:
-    """Of the hub drop and the coefficient that the run is made for."""
+    """Hub drop and coefficient that the run is made for, each with the tests of the nearest regime."""
     parts = _Parts(run, {})
     names = [name for name in Summary(run.folder).headline if name == "hub_drop" or name in COEFFICIENTS]
     path = _validation(TESTS)

@@ -62,7 +62,7 @@ def comparison_parameters() -> list[Decorator[Any]]:
 
 
 def reference_options() -> list[Decorator[Any]]:
-    """What runs are compared with: errors of other sizes, formulas."""
+    """Options for what runs are compared with: errors of other sizes, formulas."""
     table = "table of runs of the scene (inputs/costs): errors of size, domain, packing"
     formula = "nrmm:PRESSURE, bekker:TERRAIN or wong_reece:TERRAIN; may be repeated"
     return [

@@ -75,7 +75,7 @@ def start(command: click.Command, name: str, arguments: Sequence[str] | None = N
 
 
 def soil(arguments: Sequence[str] | None = None) -> int:
-    """The former program furrow-soil, whose commands are those of the group card."""
+    """The earlier program furrow-soil, whose commands are those of the group card."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     words = [FORMER_SOIL.get(given[0], given[0]), *given[1:]] if given else []
     click.echo(f"furrow-soil: is now 'furrow-post card {words[0] if words else ''}".rstrip() + "'", err=True)

@@ -18,7 +18,7 @@ Parse = Callable[[str], Any]
 FORMATS = ("png", "svg", "pdf")
 
 
-# What help calls the values of a type; others are numbers
+# Names that help gives to the values of a type; others are numbers
 TYPE_NAMES: dict[Parse, str] = {path: "path", Path: "path", words: "text", str: "text", seconds: "time", fraction: "percent"}
 
 

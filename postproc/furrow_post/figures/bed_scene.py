@@ -15,7 +15,7 @@ from .style import GROUND_COLOURS, round_up
 
 
 class BedScene:
-    """What all panels share: grains, displacement, wheel, bed level, the box in plan.
+    """Data that all panels share: grains, displacement, wheel, bed level, the box in plan.
 
     x (n, 3), radius, moved (n) [m]; low, high: corners (3) of the bed before [m]; heights: of the
     ground over the bed level on a grid in plan with cells of cell [m], row 0 at the lowest y.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A z-buffer for spheres and triangles in numpy, seen in parallel projection.
 
-Points x are (n, 3) in world units; images have row 0 at the bottom unless it is said otherwise.
+Points x are (n, 3) in world units; images have row 0 at the bottom unless stated otherwise.
 """
 
 from dataclasses import dataclass
@@ -137,7 +137,7 @@ class Canvas:
             t = part[which]
             row, column = lowest[t, 1] + number // size[t, 0], lowest[t, 0] + number % size[t, 0]
             share = weights(t, column, row)
-            # of triangles equally near the first is kept, as the last of the reversed ones
+            # the first of triangles equally near is kept, as the last of the reversed ones
             inside = np.flatnonzero((share >= 0).all(axis=0))[::-1]
             t = t[inside]
             depth = (share[:, inside] * pixels[t, :, 2].T).sum(axis=0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What moving grains and particles are coloured by, with scales that fit whole runs."""
+"""Quantities that colour moving grains and particles, with scales that fit whole runs."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ KNOWN = (  # key, name, unit, factor, whether the scale begins at 0
 
 @dataclass(frozen=True)
 class Quantity:
-    """What points are coloured by; the scale is shared by all runs of a page."""
+    """Quantity that colours points; the scale is shared by all runs of a page."""
 
     key: str
     name: str

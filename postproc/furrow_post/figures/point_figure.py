@@ -32,7 +32,7 @@ LABELS = {
 }
 STRESSES = ("p", "q", "axial_stress", "shear_stress")
 MAY_BE_LOGARITHMIC = ("p", "axial_stress")
-# What a path shows: channels (x, y) of panel b and of panel c
+# Panels of a path: channels (x, y) of panel b and of panel c
 PANELS = {
     "hydrostatic": (("eps_vol", "p"), ("p", "density")),
     "confined": (("axial_strain", "axial_stress"), ("axial_stress", "density")),

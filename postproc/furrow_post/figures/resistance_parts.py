@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the resistance is made of: stacked bars, one for each run, pass or point."""
+"""Parts of the resistance: stacked bars, one for each run, pass or point."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ CAPTION = (
     "What the resistance is made of: energy over travel in the steady window, bar by bar; below "
     "zero what was given back. Mark: the whole that axle and load put in."
 )
-# Of the parts, in the order of the bars
+# Colours of the parts, in the order of the bars
 COLOURS = {
     "compaction": "#8a6d4a",
     "bulldozing": "#c9a26b",

@@ -15,10 +15,10 @@ CENTIMETRE = 100.0  # per metre
 MILLIMETRE = 1000.0  # per metre
 KILOPASCAL = 1e-3  # per pascal
 
-# Of runs that are laid over each other
+# Colours of runs that are laid over each other
 RUN_COLOURS = ("#1f5a8a", "#c8672b", "#4d8a4a", "#7a4b8c", "#8a6d1f", "#3f3f3f")
 WHEEL_COLOUR = "#39424e"
-# Of ground by displacement or density; at rest: sand
+# Colours of ground by displacement or density; at rest: sand
 GROUND_COLOURS = LinearSegmentedColormap.from_list(
     "sand", ["#e6d8b4", "#f0b55e", "#dd6a3c", "#a3264f", "#46125c"]
 )

@@ -53,7 +53,7 @@ class _Selection:
         return Points(points.id[kept], points.x[kept], radius, fields)
 
     def note(self) -> str:
-        """What is shown, for the reader."""
+        """Note on the frames that are shown, for the reader."""
         motion = self.motion
         if not motion.has_frames:
             return f"{self.label}: the run wrote no frames ('vtk N'); this is its end."

@@ -154,7 +154,7 @@ def tension(test: LaboratoryTest) -> list[LaboratoryQuantity]:
 def _strength(
     test: LaboratoryTest, driven: int, largest: Floats, smallest: Floats
 ) -> list[LaboratoryQuantity]:
-    """What extension and plane strain give alike. driven: the axis of the strain that is given."""
+    """Quantities of extension and plane strain alike. driven: the axis of the strain that is given."""
     rows = test.curve()
     strain, stress, density = cell_curve(rows)
     _require_compressed(strain, stress, driven)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What one test says, by its kind."""
+"""Quantities of one test, by its kind."""
 
 from collections.abc import Callable
 
@@ -28,7 +28,7 @@ EVALUATIONS: dict[str, Callable[[LaboratoryTest], list[LaboratoryQuantity]]] = {
 
 
 def evaluate(test: LaboratoryTest) -> list[LaboratoryQuantity]:
-    """What one test gives. @raises ResultsError where its curve or deposit is no such test's"""
+    """Quantities of one test. @raises ResultsError where its curve or deposit is no such test's"""
     remedy = "was the run stopped, or too short? Make it again"
     with content_of(test.folder, remedy), np.errstate(all="ignore"):
         return EVALUATIONS[test.kind](test)

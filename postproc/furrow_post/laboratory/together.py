@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What several tests of one kind say: cohesion and friction angle; Bekker's k_c and k_phi."""
+"""Quantities from several tests of one kind: cohesion and friction angle; Bekker's k_c and k_phi."""
 
 import math
 from collections.abc import Sequence
@@ -15,9 +15,9 @@ from .quantity import LaboratoryQuantity
 
 
 def together(tests: Sequence[LaboratoryTest]) -> list[LaboratoryQuantity]:
-    """What several tests of one kind give: cohesion and friction angle; Bekker's k_c and k_phi.
+    """Quantities from several tests of one kind: cohesion and friction angle; Bekker's k_c and k_phi.
 
-    Nothing of a single test, or of tests of several kinds.
+    Empty for a single test, or for tests of several kinds.
     """
     kinds = {test.kind for test in tests}
     if len(tests) < 2 or len(kinds) != 1:

@@ -73,7 +73,7 @@ class _Reader:
         self._in_use = threading.Lock()
 
     def trouble(self, file: Path, size: int) -> str:
-        """What is wrong with a file, or an empty text.
+        """Fault of a file, or an empty text.
 
         @raises EOFError if the child dies before it answers
         """

@@ -69,7 +69,7 @@ class Body:
 
 @dataclass(frozen=True)
 class Motion:
-    """What moves in one results folder."""
+    """Moving bodies, grains and particles of one results folder."""
 
     folder: Path
     title: str
@@ -80,7 +80,7 @@ class Motion:
 
     @property
     def has_frames(self) -> bool:
-        """Whether the run wrote frames, and not its end alone."""
+        """True where the run wrote frames, and not its end alone."""
         rolling = any(body.series for body in self.bodies)
         return rolling or any(cloud.series for cloud in self.clouds)
 

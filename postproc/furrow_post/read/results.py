@@ -190,7 +190,7 @@ class Results:
 
     @property
     def has_grains(self) -> bool:
-        """Whether the run kept grains; continuum terrain has its own file, terrain.h5."""
+        """True where the run kept grains; continuum terrain has its own file, terrain.h5."""
         with opened(self.file) as content:
             return "grains/final" in content
 

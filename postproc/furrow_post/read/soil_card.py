@@ -133,7 +133,7 @@ class Cone:
         return abs(self.gradient.value) * (self.depth.high - self.depth.low) / math.sqrt(12)
 
     def mean_text(self) -> str:
-        """What the index is a mean of, with the spread; and where formulas cannot take it."""
+        """Depth over which the index is a mean, with the spread; and where formulas cannot take it."""
         depth = f"0 to {1e3 * self.depth.high:.0f} mm"
         text = f"cone index: mean over {depth}, spread over the depth {self.spread:.2g} Pa"
         if self.size == STANDARD_CONE and self.depth.high < REACHED * INDEX_DEPTH:
@@ -157,7 +157,7 @@ class NoResult:
 
 @dataclass(frozen=True)
 class SoilCard:
-    """What a card holds. density [kg/m3]; stiffness: elastic, under a rigid plate [Pa/m]; gravity: of the tests,
+    """Content of a card. density [kg/m3]; stiffness: elastic, under a rigid plate [Pa/m]; gravity: of the tests,
     in which alone the values hold [m/s2]."""
 
     title: str
@@ -179,7 +179,7 @@ class SoilCard:
         return {name: part.reason for name, part in parts.items() if isinstance(part, NoResult)}
 
     def bekker_and_shear(self) -> tuple[PressureSinkage, Shear]:
-        """What vehicle codes need. @raises ResultsError where plates or ring failed"""
+        """Pressure-sinkage and shear, which vehicle codes need. @raises ResultsError where plates or ring failed"""
         plate, shear = self.pressure_sinkage, self.shear
         for part, (_, instrument) in zip((plate, shear), SECTIONS.values()):
             if isinstance(part, NoResult):
@@ -207,7 +207,7 @@ class SoilCard:
         return f"holds in a gravity of {self.gravity:g} m/s2 only"
 
     def doubts(self) -> list[str]:
-        """What a vehicle code should know before it takes the values."""
+        """Warnings to read before a vehicle code takes the values."""
         plate = self.pressure_sinkage
         if isinstance(plate, NoResult) or plate.k_c.value >= 0.0:
             return []
@@ -396,7 +396,7 @@ def _of_chrono(path: Path, text: str) -> SoilCard:
 
 
 def contact_of(path: Path, content: Mapping[str, Any]) -> dict[str, Any] | None:
-    """Of a card or material file, whose section `contact` may name a file. @raises ResultsError where that is absent"""
+    """Section `contact` of a card or material file, which may name a file. @raises ResultsError where that is absent"""
     contact: dict[str, Any] | str | None = content.get("contact")
     if not isinstance(contact, str):
         return contact
@@ -417,7 +417,7 @@ def _gravity(path: Path, given: object) -> float:
 
 
 def _read_part(path: Path, kind: Any, section: str, content: dict[str, Any] | None) -> Any:
-    """What a person leaves out is unknown: errors, ranges and residuals."""
+    """Part of a card from its section. Errors, ranges and residuals that a person leaves out are unknown."""
     if content is None and kind is Cone:
         return NoResult("the card has none")
     if not isinstance(content, dict):

@@ -18,7 +18,7 @@ ON_SYMMETRY = 1e-6  # of a body's width: as far beyond y = 0 its half may reach
 
 
 def is_half(x: Floats) -> bool:
-    """Whether particles (n, 3) stand on one side of y = 0 alone."""
+    """True where particles (n, 3) stand on one side of y = 0 alone."""
     return bool(x[:, 1].min() > 0)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a wheel run was: conditions and discretisation from its results folder; base of comparisons.
+"""Conditions and discretisation of a wheel run, from its results folder; base of comparisons.
 
 Definitions are aligned here, once. Load is the vertical force that the ground carries at rest. Slip
 is counted as in the history ((v_rim - v)/max(|v_rim|, |v|), driving positive) and by vehicle speed.
@@ -91,7 +91,7 @@ class WheelRun:
 
     @property
     def wheel(self) -> str:
-        """What rolls, in words: "rigid wheel", "tyre"."""
+        """Name of the rolling body: "rigid wheel", "tyre"."""
         return self.text("wheel")
 
     @property
@@ -110,7 +110,7 @@ class WheelRun:
 
     @property
     def has_density(self) -> bool:
-        """Whether the ground has grains or particles, and so a density at each point."""
+        """True where the ground has grains or particles, and so a density at each point."""
         return self.ground not in ("scm", "none")
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is run: a program with its arguments, variables and files, in its results folder."""
+"""Case of a run: a program with its arguments, variables and files, in its results folder."""
 
 import math
 import os
@@ -79,7 +79,7 @@ class Case:
         return folder if self.start is None or _has_blanks(folder) else self.start
 
     def identity(self, root: Path) -> dict[str, object]:
-        """What tells this run from others, as JSON has it; root: of the project, which may move."""
+        """Properties that distinguish this run from others, as JSON has them; root: of the project, which may move."""
 
         def portable(value: Value) -> str:
             return str(value).replace(f"{root}/", "")

@@ -38,7 +38,7 @@ def claimed(folder: Path, stop: threading.Event) -> Iterator[None]:
 
 
 def is_busy(folder: Path) -> bool:
-    """Whether furrow writes to the folder: it then holds a lock of it."""
+    """True where furrow writes to the folder: it then holds a lock of it."""
     handle = os.open(folder, os.O_RDONLY)
     try:
         return not lock(handle)

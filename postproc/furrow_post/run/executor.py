@@ -170,7 +170,7 @@ class Executor:
         return runs
 
     def run(self, cases: Sequence[Case], ended: Callable[[Case], None] | None = None) -> None:
-        """Makes what is missing. Of cases that share something the first runs before the others.
+        """Makes the missing runs. Among cases that share something the first runs before the others.
 
         A failed run stops no other one. A run that another program makes at the same time is waited
         for and taken from it. ended: takes each case whose run came to its end, one at a

@@ -181,7 +181,7 @@ def _watch(process: "subprocess.Popen[bytes]", job: Job, screen: IO[bytes], sinc
 
 
 def send(process: "subprocess.Popen[bytes]", number: int) -> None:
-    """Sends a signal to furrow. Of several ranks one gets it: mpirun would kill all of them soon."""
+    """Sends a signal to furrow. Only one of several ranks gets it: mpirun would kill all of them soon."""
     children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
     with contextlib.suppress(OSError):
         for child in map(int, children.read_text().split()):
@@ -193,7 +193,7 @@ def send(process: "subprocess.Popen[bytes]", number: int) -> None:
 
 
 def keep_checkpoint(start: Path, folder: Path, since: int) -> bool:
-    """Whether a signal has made a checkpoint, which then replaces the one in the results.
+    """True where a signal has made a checkpoint, which then replaces the one in the results.
 
     since: when the run was started [ns]
     """

@@ -31,7 +31,7 @@ class Progress:
         self._terminal = sys.stdout.isatty()
 
     def printer(self, name: str) -> Callable[[str], None] | None:
-        """What takes the lines of a run for the screen; several runs have their names before them."""
+        """Receiver of a run's lines for the screen; several runs have their names before them."""
         label = f"{name}: " if self.runs > 1 else ""
         return (lambda line: show_line(label + line)) if self.watch else None
 

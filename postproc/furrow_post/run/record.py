@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is kept of a run next to its results: run.json when it came to its end, else failed.json."""
+"""Record of a run next to its results: run.json when it came to its end, else failed.json."""
 
 import hashlib
 import json
@@ -24,7 +24,7 @@ def digest(path: Path) -> str:
 
 
 def digests(paths: Iterable[Path]) -> dict[str, str]:
-    """File name -> digest. Of files with one name the later ones have a number."""
+    """File name -> digest. Later files of the same name have a number."""
     found: dict[str, str] = {}
     for path in paths:
         name, count = path.name, 1

@@ -86,7 +86,7 @@ def script_variables(
 
 
 def _state(path: Path) -> object:
-    """What differs once a file was written again."""
+    """State of a file, which differs once it was written again."""
     try:
         found = path.stat()
     except OSError:

@@ -71,7 +71,7 @@ def batch_text(
         raise ResultsError(
             f"{str(results)!r}: has a line break or another control character; name another folder"
         )
-    # Slurm takes % in the name of an output for a number of its own
+    # Slurm takes % in the name of an output for a number that it fills in
     output = str(results / FOLDER).replace("%", "%%") + "/%a.txt"
     exports = (f"export {name}={shlex.quote(value)}" for name, value in environment.items())
     return BATCH.format(
@@ -100,7 +100,7 @@ def submit(folder: Path, text: str, points: Sequence[str]) -> ArrayJob:
 
 
 def is_queued(job: ArrayJob) -> bool:
-    """Whether a task of it waits or runs. @raises ResultsError where Slurm does not answer"""
+    """True where a task of the job waits or runs. @raises ResultsError where Slurm does not answer"""
     done = _slurm("squeue", "--noheader", "--jobs", job.number, "--format", "%T")
     if done.returncode and "Invalid job id" not in done.stderr:
         raise ResultsError(f"squeue does not answer: {' '.join(done.stderr.split())}")
@@ -166,6 +166,6 @@ def lost(job: ArrayJob, executor: Executor, cases: Sequence[Case]) -> list[str]:
 
 
 def environment() -> dict[str, str]:
-    """What a task needs of this one's: the build, Open MPI's settings, the cache of beds."""
+    """Variables of this environment that a task needs: the build, Open MPI's settings, the cache of beds."""
     kept = ("FURROW_", "OMPI_")
     return {name: value for name, value in os.environ.items() if name.startswith(kept)}

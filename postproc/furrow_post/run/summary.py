@@ -23,7 +23,7 @@ class SteadyValue:
 
 @dataclass(frozen=True)
 class ResistanceParts:
-    """What the resistance over the window is made of [N]: whole = sum of forces + unexplained."""
+    """Parts of the resistance over the window [N]: whole = sum of forces + unexplained."""
 
     whole: float
     forces: Mapping[str, float]  # by the name of the part, in the order of the summary

@@ -43,7 +43,7 @@ class Tools:
         return cls(find_program("furrow").parent.parent, inputs.parent if inputs else Path.cwd())
 
     def program(self, name: str) -> Path:
-        """Of the build, or one of OTHERS. @raises ResultsError where it is not there"""
+        """Path of a program of the build, or of one of OTHERS. @raises ResultsError where it is not there"""
         if name in OTHERS:
             found = shutil.which(name)
             if not found:
@@ -75,7 +75,7 @@ class Refused(ResultsError):
 
 
 def answer(command: Sequence[object]) -> str:
-    """What a program prints. @raises Refused with its message where it fails"""
+    """Output of a program. @raises Refused with its message where it fails"""
     words = [str(word) for word in command]
     done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode:

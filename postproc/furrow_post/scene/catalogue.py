@@ -33,7 +33,7 @@ def scene_names() -> list[str]:
 
 
 def is_shipped(script: Path) -> bool:
-    """Whether it is one of the scenes, whose paths do not depend on where they are started."""
+    """True where a script is one of the scenes, whose paths do not depend on where they are started."""
     folder = scenes_folder()
     return folder is not None and script.resolve().parent == folder.resolve()
 
@@ -79,7 +79,7 @@ def head_of(script: Path) -> tuple[str, dict[str, str]]:
 
 
 def head_entry(script: Path, name: str) -> str:
-    """What stands behind "# NAME:" in the head; empty where there is no such line."""
+    """Text behind "# NAME:" in the head; empty where there is no such line."""
     return head_of(script)[1].get(name, "")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What 'furrow-post run' does: checks all that is asked for, runs it, and shows what came out."""
+"""Carries out 'furrow-post run': checks all that is asked for, runs it, and shows what came out."""
 
 import importlib
 import math
@@ -27,7 +27,7 @@ from .wanted_error import outcome, plan
 
 @dataclass
 class Request:
-    """What the command line asks for, checked."""
+    """Checked request of the command line."""
 
     options: Any
     folder: Path  # of the results

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What sizes of cells or grains, and the intervals of the soil, change in a scene: stored for all its later runs."""
+"""Changes of a scene by sizes of cells or grains and by the intervals of the soil: stored for all its later runs."""
 
 from collections.abc import Sequence
 from pathlib import Path

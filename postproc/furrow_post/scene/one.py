@@ -60,12 +60,12 @@ class SceneRun:
 
     @property
     def begins_inside(self) -> bool:
-        """Whether a variable names a file of the results folder."""
+        """True where a variable names a file of the results folder."""
         return any(str(self.folder.resolve()) in value for _, value in self.variables)
 
 
 def ranks_remark(ranks: int) -> str:
-    """Whether several ranks can gain anything on this machine now."""
+    """Remark on whether several ranks can gain anything on this machine now."""
     cores, load = len(os.sched_getaffinity(0)), os.getloadavg()[0]
     free = max(0.0, cores - load)
     machine = f"{ranks} ranks on {cores} core{'s' if cores > 1 else ''}, of which {min(load, cores):.1f} are busy"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a run came to, for the screen: values with whole errors, what is not steady, and the verdict as the last line."""
+"""Results of a run for the screen: values with whole errors, quantities that are not steady, and the verdict as the last line."""
 
 from pathlib import Path
 
@@ -36,7 +36,7 @@ def verdict_line(folder: Path, quick: bool) -> str:
 
 
 def _answer(summary: Summary) -> str:
-    """What the run was made for: its coefficient, or the slip where that is imposed."""
+    """Quantity that the run was made for: its coefficient, or the slip where that is imposed."""
     name = next((name for name in summary.headline if name.endswith("coefficient")), "slip")
     value = summary.quantity(name)
     return "slip" if value and value.imposed else name

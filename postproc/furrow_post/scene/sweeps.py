@@ -20,7 +20,7 @@ from .options import called
 
 
 def wanted_of(options: Any, script: Path) -> Wanted:
-    """What lies beside the curves."""
+    """References to draw beside the curves, from the options."""
     inputs = inputs_folder()
     table = inputs / "costs" / f"{script.stem}.csv" if inputs else None
     return Wanted(

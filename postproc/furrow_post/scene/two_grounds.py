@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is run without a scene: a tyre on snow, and one wheel on two grounds, in minutes on two cores."""
+"""Runs without a scene: a tyre on snow, and one wheel on two grounds, in minutes on two cores."""
 
 from collections.abc import Callable
 from pathlib import Path

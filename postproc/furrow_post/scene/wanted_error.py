@@ -30,7 +30,7 @@ LONGER = (1.0, 2.0, 4.0)
 EXPONENTS = {True: 3.5, False: 3.8}  # b of cells and of grains, where no convergence of the scene shows it
 COEFFICIENT_SCALE = 0.25  # a coefficient below counts as this
 SAME = 1.05  # errors that differ by less are the same
-# What reduces the largest part of an error
+# Remedies for the largest part of an error
 REMEDIES = {
     "model": {
         "snow": "measure sinkage and pull at one depth of your snow",
@@ -47,7 +47,7 @@ REMEDIES = {
 
 @dataclass(frozen=True)
 class Forecast:
-    """What a run would come to. budgets: of the hub drop and the coefficient; scales: what errors refer to."""
+    """Forecast of a run. budgets: of the hub drop and the coefficient; scales: values that errors refer to."""
 
     variables: Variables
     cpu_time: float  # [s] of one core
@@ -109,7 +109,7 @@ class Plan:
 
 
 def limit_of(budget: Budget, scale: float, name: str, run: WheelRun) -> str:
-    """What the largest part leaves, and what would reduce it."""
+    """Remark on the error that the largest part leaves, and on what would reduce it."""
     part = max(budget.known, key=budget.part)
     remedy = REMEDIES.get(part, "")
     if isinstance(remedy, Mapping):
@@ -182,7 +182,7 @@ def _exponent(run: WheelRun) -> float:
 
 
 def outcome(made: Plan, folder: Path) -> list[str]:
-    """Whether the finished run is within the error, and which part dominates. @raises ResultsError"""
+    """Remarks on whether the finished run is within the error, and which part dominates. @raises ResultsError"""
     run = read_wheel_run(folder)
     found = budgets_of(folder)
     parts = {name: found[name] for name in made.forecast.budgets}

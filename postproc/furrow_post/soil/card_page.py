@@ -18,7 +18,7 @@ FITTED = {"color": "0.25", "lw": 1.0, "ls": "--"}
 
 @dataclass(frozen=True)
 class Curves:
-    """What the instruments measured; cones: none, one, or one for each packing."""
+    """Curves that the instruments measured; cones: none, one, or one for each packing."""
 
     plates: Sequence[PlateCurve]
     rings: Sequence[ShearCurve]

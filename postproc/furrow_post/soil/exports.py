@@ -16,7 +16,7 @@ from ..errors import ResultsError
 from ..analyse.terrain_values import LOOSE_SAND, terrain
 from ..read.soil_card import UNITS, SoilCard
 
-# Of Chrono's sample files [Pa s/m]: a card has no damping
+# Damping of Chrono's sample files [Pa s/m]: a card has none
 CHRONO_DAMPING = 3e4
 
 

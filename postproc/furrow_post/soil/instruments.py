@@ -20,7 +20,7 @@ from ..run.tools import Tools
 from .fits import ConeCurve, PlateCurve, ShearCurve
 from .material import Material, read_material
 
-# Of the wave speed: slow enough that a faster test gives the same curve within its noise
+# Shares of the wave speed: slow enough that a faster test gives the same curve within its noise
 PLATE_PACE, PRESS_PACE, CONE_PACE = 1 / 300, 1 / 400, 1 / 60
 # Two speeds of the ring: the grid adds a shear stress that grows with the speed (fit_shear in fits.py)
 RING_PACE, FAST_RING_PACE = 1 / 1600, 1 / 400

@@ -20,7 +20,7 @@ from .oedometer import Confined
 from .units import EARTH, require_plausible
 
 POISSON = Parameter(0.25, "0.2 to 0.35 for soil", guessed=True)
-# Of elastic over oedometric modulus: unloading modulus 3 times the secant modulus E_50, T. Schanz,
+# Ratio of elastic to oedometric modulus: unloading modulus 3 times the secant modulus E_50, T. Schanz,
 # P. A. Vermeer and P. G. Bonnier, Beyond 2000 in Computational Geotechnics (1999), 281-296
 UNLOADING = 3.0
 REFERENCE = 1e5  # [Pa] of the oedometric modulus
@@ -154,7 +154,7 @@ def material_of(
 
 
 def young_of(confined: Confined) -> Parameter:
-    """Of the unloading of a test; of a curve without unloading, a guess."""
+    """Young's modulus from the unloading of a test; a guess for a curve without unloading."""
     if math.isfinite(confined.unloading):
         nu = float(POISSON.value)
         young = confined.unloading * (1 + nu) * (1 - 2 * nu) / (1 - nu)
@@ -293,7 +293,7 @@ def cone_resistance(strength: Strength, density: float, shear_modulus: float, de
 def from_cone(title: str, cone_index: float, soil_class: str, density: float | None) -> NewMaterial:
     """cone_index [Pa] mean of the first 15 cm; soil_class: of CLASSES.
 
-    Of a coarse soil the cone gives the friction angle, of a fine one the cohesion.
+    The cone gives the friction angle of a coarse soil, and the cohesion of a fine one.
     """
     require_plausible("cone_index", cone_index)
     if soil_class not in CLASSES:

@@ -86,7 +86,7 @@ def _each(folder: Path, name: str, run: dict[str, Any]) -> Iterator[tuple[str, d
 
 
 def _keys(folder: Path, values: Any) -> Iterator[dict[str, Any]]:
-    """What the keys of `for` stand for in each run."""
+    """Values of the keys of `for` in each run."""
     if isinstance(values, str):
         yield from eval(values.removeprefix("="), dict(vars(evaluation_of(folder))))
         return

@@ -64,7 +64,7 @@ def origin(file: str, records: Iterable[Record], root: Path) -> Origin:
 
 
 def read_origins(folder: Path) -> dict[str, Origin]:
-    """File -> its origin, as far as provenance.csv has it."""
+    """File -> its origin, for files that provenance.csv has."""
     path = folder / FILE
     return {row["file"]: Origin(**row) for row in read_rows(path)} if path.is_file() else {}
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Whether the values of a study, made again, are still what is stored; and what its runs cost."""
+"""Compares the values of a study, made again, with the stored ones, and adds up what its runs cost."""
 
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -37,7 +37,7 @@ def difference(value: Value, made: Path) -> str:
 def known_cost(folder: Path) -> float:
     """Core seconds of all runs of a study, as its stored tables have them; 0: not known.
 
-    A run that stands in several tables counts once: by its name, or where the study lists its costs
+    A run of several tables counts once: by its name, or where the study lists its costs
     by that list alone.
     """
     per_run = dict[str, float]()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is done with a study: its runs are listed, made and evaluated."""
+"""Lists, makes and evaluates the runs of a study."""
 
 import fnmatch
 import sys

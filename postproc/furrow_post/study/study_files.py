@@ -42,7 +42,7 @@ def with_section(page: str, lines: Sequence[str], begin: str = BEGIN, end: str =
 
 
 def by_run(path: Path) -> bool:
-    """Whether a stored table has a row for each run."""
+    """True where a stored table has a row for each run."""
     rows = read_rows(path) if path.suffix == ".csv" else []
     return bool(rows) and next(iter(rows[0])) in OF_RUNS
 
@@ -66,9 +66,9 @@ class Output:
     """Files of a study for one folder, where publish() puts them together: an evaluation that
     breaks off replaces nothing. To be used in a with statement.
 
-    page: README.md is there and gets the section between its marks; else the section is a file of
-    its own. merge: only tables with a row for each run are written, and files that are named by
-    of_all_runs(); rows of these runs replace those that are stored, and the others stay.
+    page: README.md is there and gets the section between its marks; else the section is a
+    separate file. merge: only tables with a row for each run are written, and files that are named
+    by of_all_runs(); rows of these runs replace those that are stored, and the others stay.
     """
 
     def __init__(self, folder: Path, page: bool, merge: bool = False) -> None:
@@ -104,7 +104,7 @@ class Output:
             write_rows(self.path(name), self.known(name, rows), comments)
 
     def known(self, name: str, rows: Sequence[Mapping[str, Any]]) -> Sequence[Mapping[str, Any]]:
-        """What table() writes of these rows: with merge, stored rows of other runs too."""
+        """Rows that table() writes: these, and with merge stored rows of other runs too."""
         joins = self.merge and name not in self._of_all_runs
         return merged(self.folder / name, rows) if joins else rows
 
@@ -118,7 +118,7 @@ class Output:
         self.path(PAGE).write_text(with_section(page, lines), encoding="utf-8")
 
     def _joins(self, file: str, known: Mapping[str, Any]) -> bool:
-        """Whether a file may be put beside stored ones: of all runs, or a table by run, stored
+        """True where a file may be put beside stored ones: of all runs, or a table by run, stored
         before or new."""
         if file in self._of_all_runs:
             return True

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a wheel can do on a slope, from a surrogate: best pull, slip it needs, energy, speed.
+"""Mobility of a wheel on a slope, from a surrogate: best pull, slip it needs, energy, speed.
 
 A wheel of weight W on a slope alpha carries W cos(alpha) and needs the pull W sin(alpha) to climb at
 constant speed. It can where its largest net traction coefficient is at least tan(alpha). It then has

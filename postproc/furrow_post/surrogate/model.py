@@ -65,7 +65,7 @@ class Surrogate:
         return np.stack(np.broadcast_arrays(*columns), -1)
 
     def inside(self, name: str, values: Floats) -> Booleans:
-        """Whether values of an input lie in its training range, but for rounding."""
+        """True where values of an input lie in its training range, but for rounding."""
         one = self.inputs[self.names.index(name)]
         slack = 1e-6 * (one.high - one.low)
         found: Booleans = (values >= one.low - slack) & (values <= one.high + slack)

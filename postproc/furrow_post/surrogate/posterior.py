@@ -52,7 +52,7 @@ class Posterior:
         return ratio
 
     def remarks(self) -> list[str]:
-        """What the tests cannot identify."""
+        """Remarks on what the tests cannot identify."""
         found = [
             f"{name} is not identified: its posterior is {100 * ratio:.0f} % as wide as the prior"
             for name, ratio in zip(self.names, self.ratio)

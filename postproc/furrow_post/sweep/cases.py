@@ -27,7 +27,7 @@ DRIVEN = {"slip": "mode slip slip {}", "torque": "mode torque torque {}"}  # val
 
 @dataclass(frozen=True)
 class SweepRequest:
-    """What the command line asks for."""
+    """Request of the command line for a sweep."""
 
     script: Path
     sweep: Sequence[str]  # as --sweep has them

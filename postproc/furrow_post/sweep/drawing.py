@@ -57,7 +57,7 @@ def draw_sweep(
 
 
 def draw_parts_of_sweep(figure: Figure, target: Path) -> bool:
-    """What the resistance is made of, a panel for each line. @return whether any point knows it"""
+    """Draws the parts of the resistance, a panel for each line. @return True where any point knows them"""
     panels = []
     for line in figure.lines:
         points = [

@@ -28,7 +28,7 @@ class SweepPoint:
 
     @property
     def steady(self) -> bool:
-        """Whether hub drop and resistance are steady in all runs."""
+        """True where hub drop and resistance are steady in all runs."""
         return all(self.quantities[name].steady for name in ("hub_drop", "resistance_coefficient"))
 
     @property
@@ -143,7 +143,7 @@ def _add(
 
 
 def _not_reached(folder: Path) -> list[str]:
-    """What the command run_until_steady warned of."""
+    """Warnings of the command run_until_steady."""
     try:
         lines = (folder / SCREEN).read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:

@@ -29,7 +29,7 @@ class Axis:
 
 
 SLIP, SLOPE = "slip", "slope"
-# Of wheels that are free along x, whose slip is the answer to it
+# Conditions of wheels that are free along x, whose slip is the answer to them
 HELD_BACK_BY = (SLOPE, "drawbar_load")
 CONDITIONS = {
     axis.key: axis
@@ -51,7 +51,7 @@ TORQUE = Axis("torque_coefficient", "torque / (load × radius)")
 EFFICIENCY = Axis("tractive_efficiency", "tractive efficiency")
 HUB_DROP = Axis("hub_drop", "hub drop", "mm", 1e3)
 RESISTANCE = Axis("resistance_coefficient", "resistance coefficient")
-# Of a wheel that does not roll straight on, where the summary has them
+# Axes for a wheel that does not roll straight on, where the summary has them
 SIDEWAYS = (
     Axis("lateral_coefficient", "lateral force / load"),
     Axis("lateral_force", "lateral force", "N"),
@@ -87,7 +87,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Figure:
-    """What a sweep is drawn as."""
+    """Drawing of a sweep: axis, curves and lines."""
 
     x: Axis
     curves: tuple[Curve, ...]
@@ -130,7 +130,7 @@ def _setting(point: SweepPoint, name: str) -> str:
 
 
 def _condition(series: Sequence[Series]) -> str:
-    """What lies on the x axis, from what was swept or differs. @raises ResultsError"""
+    """Name of the condition on the x axis, from what was swept or differs. @raises ResultsError"""
     swept = [one.variables for one in series if one.variables]
     common = [name for name in swept[0] if all(name in names for names in swept)] if swept else []
     if common:
@@ -183,7 +183,7 @@ def _positions(
 
 
 def _are_free(points: Sequence[SweepPoint]) -> bool:
-    """Whether the ground answers with slip and speed in all runs."""
+    """True where the ground answers with slip and speed in all runs."""
     return all(run.text("travel") == "free" for point in points for run in point.runs)
 
 

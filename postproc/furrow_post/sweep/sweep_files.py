@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What comes of a sweep: sweep.csv, sweep.h5, sweep.png and report.html in a folder, and parts.png
+"""Files of a sweep: sweep.csv, sweep.h5, sweep.png and report.html in a folder, and parts.png
 where the runs know what their resistance is made of."""
 
 import tempfile
@@ -34,7 +34,7 @@ class Named:
 
 @dataclass(frozen=True)
 class Wanted:
-    """What lies beside the curves."""
+    """Settings of a sweep's figure: its x axis, and references to draw beside the curves."""
 
     against: str | None = None  # condition on the x axis; None: the first variable of the sweep
     errors: Path | None = None  # table of runs of the scene (inputs/costs)
@@ -62,7 +62,7 @@ class Result:
     measured: Sequence[MeasuredPoints]
 
     def remarks(self) -> list[str]:
-        """What is not in the curves, a sentence each."""
+        """Remarks on what is not in the curves, a sentence each."""
         found = []
         for one in self.series:
             found += [f"{one.label}: {r.folder} failed: {r.text}" for r in one.failures]
@@ -142,7 +142,7 @@ def _page(result: Result, picture: Path, parts: Path | None) -> str:
     title = " and ".join(dict.fromkeys(one.title for one in result.series))
     head, rows = shown_rows(result.figure)
     lines = [line for line in result.figure.lines if line.points]
-    # What the sweep changes is in the points
+    # Conditions that the sweep changes are in the points
     runs = [line.points[0].runs[0] for line in lines]
     return render(
         "sweep.html",

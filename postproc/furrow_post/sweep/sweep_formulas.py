@@ -16,7 +16,7 @@ from .sweep_quantities import speed_over_rim
 
 @dataclass(frozen=True)
 class FormulaLine:
-    """What a formula says along a line, where it is valid."""
+    """Values of a formula along a line, where it is valid."""
 
     formula: str
     line: str  # label of the line whose conditions it has; empty: of all
@@ -30,7 +30,7 @@ class FormulaLine:
         return f"{self.formula} ({self.line})" if self.line else self.formula
 
     def equals(self, other: "FormulaLine") -> bool:
-        """Whether it says the same within a percent."""
+        """True where the other line has the same values within a percent."""
 
         def numbers(one: FormulaLine) -> list[float]:
             return [n for x, p in zip(one.x, one.predictions) for n in (x, p.sinkage, p.resistance)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a sweep consists of: sweep.json in its folder, from which every other program takes it."""
+"""Plan of a sweep: sweep.json in its folder, from which every other program takes it."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -43,11 +43,11 @@ class Plan:
         return replace(self, points=tuple(points.values()))
 
     def settings(self) -> tuple[object, ...]:
-        """What all points have in common."""
+        """Settings that all points have in common."""
         return self.script, self.variables, dict(self.fixed), self.until_steady
 
     def write(self, folder: Path) -> None:
-        """In one step: a killed program leaves the former file."""
+        """Writes the plan in one step: a killed program leaves the earlier file."""
         folder.mkdir(parents=True, exist_ok=True)
         with replaced(folder / FILE) as part:
             part.write_text(json.dumps(asdict(self), indent=1) + "\n", encoding="utf-8")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a point of a sweep gave: the steady values of its run and what follows from them.
+"""Values of a point of a sweep: the steady values of its run and what follows from them.
 
 torque coefficient = T/(W r), net traction coefficient = P/W, tractive efficiency = P v/(T omega), with
 the drawbar pull P, the torque T, the vertical force W, the radius r of the undeformed wheel, and the

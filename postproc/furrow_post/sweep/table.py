@@ -97,7 +97,7 @@ def write_table(series: Sequence[Series], csv: Path, hdf5: Path) -> None:
 
 
 def _is_unknown_part(name: str, rows: Sequence[dict[str, Cell]]) -> bool:
-    """Whether it is a part of an error that is unknown or zero at every point."""
+    """True where a column is a part of an error that is unknown or zero at every point."""
     cells = [row.get(name, math.nan) for row in rows]
     return "_error_" in name and all(isinstance(cell, float) and not cell > 0 for cell in cells)
 

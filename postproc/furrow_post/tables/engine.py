@@ -202,7 +202,7 @@ class Engine:
     # ---- tables of tables
 
     def is_of_stored(self, name: str) -> bool:
-        """Whether a table can be made of stored ones: none of its sources is a table of runs that is not stored."""
+        """True where a table can be made of stored ones: none of its sources is a table of runs that is not stored."""
         spec = self.tables.get(name)
         if spec is None or Path(name).suffix and "of" not in spec:
             return True
@@ -320,7 +320,7 @@ class Engine:
         return frame if len(frame) or not path.is_file() else read_frame(path)
 
     def changed(self, limit: Spec, frame: pandas.DataFrame) -> Iterator[str]:
-        """What differs of rows made again from the stored ones."""
+        """Differences of rows made again from the stored ones."""
         path, key = self.folder / limit["table"], limit["key"]
         stored = {row[key]: row for row in read_frame(path).to_dict("records")} if path.is_file() else {}
         for row in frame.to_dict("records"):
@@ -331,7 +331,7 @@ class Engine:
 
 
 def names_of(run: Run) -> Row:
-    """What an expression sees of a run."""
+    """Names that an expression can use for a run."""
     variables = {name: cell(str(value)) for name, value in {**run.case.variables, **run.record.changes}.items()}
     return {
         "name": run.name,

@@ -75,9 +75,9 @@ def below_plate(run: Run, radius: float, depth: float, layers: int, under: float
 
 
 def deposit(run: Run, radius: float, layer: float, reach: float, ring: float, thin: float) -> Row:
-    """Of a column of this radius that fell on a layer: runout, from its edge to where the deposit is as thin as given
-    [m]; top, height of its middle above the layer [m]; slope [degrees]. reach, ring: radius and width of the profile's
-    rings [m]."""
+    """Deposit of a column of this radius that fell on a layer: runout, from its edge to where the deposit is as thin
+    as given [m]; top, height of its middle above the layer [m]; slope [degrees]. reach, ring: radius and width of the
+    profile's rings [m]."""
     terrain = Terrain.read(run.folder)
     edges = np.arange(0.0, reach, ring)
     volume = np.histogram(np.hypot(terrain.x[:, 0], terrain.x[:, 1]), edges, weights=terrain.volume)[0]

@@ -54,7 +54,7 @@ def listed(names: str | Sequence[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class Sources:
-    """What lines are drawn of. names: of a run; curve: its numbers by a measure with arguments."""
+    """Data that lines are drawn of. names: of a run; curve: its numbers by a measure with arguments."""
 
     runs: Runs
     tables: Mapping[str, pandas.DataFrame]
@@ -64,7 +64,7 @@ class Sources:
 
 
 def sources_of(spec: Spec) -> list[Spec]:
-    """Lines of all panels, or the figure itself, as far as they have a source."""
+    """Lines of all panels, or the figure itself, where they have a source."""
     lines = [line for panel in spec.get("panels") or [] for line in panel.get("lines") or []]
     return [one for one in (*lines, spec) if "table" in one or "runs" in one]
 

@@ -66,8 +66,8 @@ def line_means(run: Run, pressure: float, load: float, lines: int, half_tread: f
 
 
 def across_middle(run: Run, pressure: float, load: float, near: float) -> Row:
-    """Across the middle of the print: pressures [Pa] and places [m] of its centre, of the largest beside it (side), and
-    of the least between the two (between); least_pressure: of the whole print."""
+    """Pressures [Pa] and places [m] across the middle of the print: of its centre, of the largest beside it (side), and
+    of the least between the two (between); and the least pressure of the whole print."""
     nodes = tyre_print(run, pressure, load)
     middle = sorted((float(y), float(p)) for x, y, p in zip(nodes["x"], nodes["y"], nodes["p"]) if abs(x) < near)
     side = max(range(1, len(middle)), key=lambda i: middle[i][1])

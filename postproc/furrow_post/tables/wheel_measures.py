@@ -76,8 +76,8 @@ def energies(run: Run) -> Row:
 
 
 def work_per_metre(run: Run, metres: float, load: float, step: float) -> Row:
-    """What ground, grid and contact take of a half model over the last part of the travel [m], per metre and over the
-    load [N]; step: of the run [s]."""
+    """Work that ground, grid and contact take of a half model over the last part of the travel [m], per metre and over
+    the load [N]; step: of the run [s]."""
     wheel, ground = Results(run.folder).columns, read_terrain_history(run.folder)
     contact = read_matrix(run.folder / "contact.txt", 3)
     x = wheel["x"] - wheel["x"][0]

@@ -3,7 +3,7 @@
 
     run.py <furrow> <script> [<launcher> ...]
 
-The header of a script says what must happen:
+The header of a script states what must happen:
     # expect: <text>      part of the message (any number of lines)
     # intact: <file>      results file that must be readable after the error, with no row missing
                           before it

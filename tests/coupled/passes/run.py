@@ -7,7 +7,7 @@ and continued.
     run.py snow <furrow> <results of inputs/scenes/two_axles.lig in its quick version>
 
 The run that continues gives the histories of the run in one, bit for bit. The second pass goes
-deeper, with less resistance than the first. Of two wheels each carries its own load, and keeps its
+deeper, with less resistance than the first. Each of two wheels carries its own load, and keeps its
 own energy and momentum. Snow: a second wheel behind the first finds what the second pass of the
 first finds; sinkage and resistance coefficient of wheels and passes differ by no more than three
 standard errors of their difference, and the sinkage by what the load of the other wheel adds.

@@ -12,9 +12,9 @@ per volume before compression), with the z of the ground: sinkage less penetrati
 Within 3 %, with cells of a quarter of the depth.
 road: on a rigid plane all that resists a towed tyre is its own loss and motion.
 bed: what grains and friction get, measured at the contacts, is what the wheel gives, within 1 %; a
-towed wheel is not driven, so that friction turns it and takes less than pressing grains down. What
-the contacts among the grains, the walls, gravity and motion take (fix grain/work) is what the
-grains get, within 1 %, and it is lost below, ahead of and beside the track.
+towed wheel is not driven, so that friction turns it and takes less than pressing grains down. The
+contacts among the grains, the walls, gravity and motion take (fix grain/work) what the grains get,
+within 1 %, and it is lost below, ahead of and beside the track.
 """
 
 import json

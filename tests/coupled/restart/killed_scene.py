@@ -9,7 +9,7 @@ continue, `read_restart` in the variable `begin`, or the checkpoint in `from` of
 of history.h5 and terrain.h5 must be the same, bit for bit, but for the two files' own facts (cost,
 audit of a part of a run, script). A curve that fix ave/time writes must be the same in every byte.
 
-One kill comes some time after the second checkpoint. Of several, each comes at any moment of the
+One kill comes some time after the second checkpoint. Each of several comes at any moment of the
 last run, every other one as SIGTERM; then the checkpoint is that of the signal. After it several ranks
 of a continuum, whose sums it has added up at that step, agree to 1e-9 of the largest number of a
 unit. The moments follow from the seed, which is printed: another one each time unless it is given.
