@@ -42,9 +42,10 @@ constexpr double longest_window = 30.0, longest_track = 200.0, widest_terrain = 
                  deepest_terrain = 10.0;
 constexpr double largest_pull = 1.0;    // over the vertical force: sand of 45 degrees
 constexpr double cells_of_a_lug = 2.5;  // in height and spacing of grousers
-constexpr double sideways = 0.5;        // largest vertical part of a tool's direction
-constexpr double beyond_rim = 1.01;     // distance of a grouser's corner from the axle, in radii
-constexpr double near_end = 0.75;       // diameters of the wheel
+// Largest vertical part of a tool's direction, and radial part of a grouser's normal
+constexpr double sideways = 0.5;
+constexpr double beyond_rim = 1.01;  // distance of a grouser's corner from the axle, in radii
+constexpr double near_end = 0.75;    // diameters of the wheel
 // Ratio of surcharge and weight of the grains, either over the other.
 constexpr double surcharge_ratio = 2.0;
 // Force on the steep faces of a wheel along its axle, over the vertical force on the wheel
@@ -401,11 +402,16 @@ Found thin_parts_divide_the_ground(const Scene&, FixContactContinuum& contact) {
   const Matrix3X& x = body.body().surface().x;
   const auto divides = [&](const ThinPart& part) {
     if (pushes) return true;
-    double reach = 0.0;
-    for (const ThinPart::Facet& facet : part.facets)
-      for (const int n : facet.nodes)
-        reach = std::max(reach, (x.col(n) - wheel->centre()).cross(wheel->axle()).norm());
-    return reach > beyond_rim * wheel->nominal_radius();
+    return std::any_of(part.facets.begin(), part.facets.end(), [&](const auto& facet) {
+      const Vector3 a = x.col(facet.nodes[0]) - wheel->centre(),
+                    b = x.col(facet.nodes[1]) - wheel->centre(),
+                    c = x.col(facet.nodes[2]) - wheel->centre(),
+                    normal = (b - a).cross(c - a).normalized();
+      const auto radius = [&](const Vector3& arm) { return arm.cross(wheel->axle()).norm(); };
+      const Vector3 radial = (a + b + c).cross(wheel->axle()).cross(wheel->axle()).normalized();
+      return std::max({radius(a), radius(b), radius(c)}) > beyond_rim * wheel->nominal_radius() &&
+             std::abs(normal.dot(radial)) < sideways;
+    });
   };
   const auto parts = DividedGround::parts_of(body.body().surface(), parameters.x.cell);
   const auto count = std::count_if(parts.begin(), parts.end(), divides);
