@@ -12,6 +12,7 @@
 #include "core/check_number.h"
 #include "core/checksum.h"
 #include "core/error.h"
+#include "geometry/bilinear.h"
 
 namespace furrow {
 
@@ -28,13 +29,6 @@ constexpr double flattest = 5e-4;  // amplitude over wavelength
 constexpr double longest_of_ground = 4.0, longest_of_window = 50.0, cells_of_wave = 4.0;
 constexpr char best_road = 'A', worst_road = 'H';
 constexpr double best_density = 16e-6;  // G(n0) of the best road [m^3]
-
-/// The node below a coordinate, and the place between it and the next as 0 to 1.
-std::pair<int, double> between(double coordinate, double lower, double spacing, int count) {
-  const double place = std::clamp((coordinate - lower) / spacing, 0.0, count - 1.0);
-  const int node = std::min(static_cast<int>(place), std::max(0, count - 2));
-  return {node, place - node};
-}
 
 /// Equal on every platform, unlike the distributions of the standard library.
 double uniform(std::mt19937& generator) { return (generator() + 0.5) / 4294967296.0; }
@@ -56,15 +50,10 @@ double Heightmap::height(double x, double y) const {
         fmt::format("places with x from {:.6g} to {:.6g} and y from {:.6g} to {:.6g} m", first.x(),
                     last.x(), first.y(), last.y()),
         "give the file's x, y and z of the ground's origin as 'heightmap_origin', or a larger map");
-  const auto [i, u] = between(x, lower.x(), spacing.x(), columns);
-  const auto [j, v] = between(y, lower.y(), spacing.y(), rows);
-  const auto at = [&](int column, int row) {
-    return heights[static_cast<std::size_t>(std::min(row, rows - 1)) *
-                       static_cast<std::size_t>(columns) +
-                   static_cast<std::size_t>(std::min(column, columns - 1))];
-  };
-  return (1.0 - v) * ((1.0 - u) * at(i, j) + u * at(i + 1, j)) +
-         v * ((1.0 - u) * at(i, j + 1) + u * at(i + 1, j + 1));
+  return bilinear({x, y}, lower, spacing, columns, rows, [&](int column, int row) {
+    return heights[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                   static_cast<std::size_t>(column)];
+  });
 }
 
 GroundRelief::GroundRelief(ReliefParameters parameters, const std::string& where)

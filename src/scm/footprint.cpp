@@ -7,10 +7,6 @@
 #include <limits>
 #include <tuple>
 
-#include <fmt/format.h>
-
-#include "core/error.h"
-
 namespace furrow {
 
 namespace {
@@ -98,11 +94,7 @@ void Footprint::cut(const Surface& body, const HeightField& field, int triangle)
   const int first = place(x_lower, 0), last = place(x_upper, 0);
   const int first_row = place(y_lower, 1), last_row = place(y_upper, 1);
   if (first < 0 || last >= field.columns() || first_row < 0 || last_row >= field.rows())
-    throw StateError(fmt::format(
-        "the body reaches the edge of the height field at x = {:.4g} m, y = {:.4g} m: the field "
-        "spans {:.4g} to {:.4g} m and {:.4g} to {:.4g} m; make it longer or wider",
-        0.5 * (x_lower + x_upper), 0.5 * (y_lower + y_upper), field.lower().x(), field.upper().x(),
-        field.lower().y(), field.upper().y()));
+    field.refuse_edge(0.5 * Vector2(x_lower + x_upper, y_lower + y_upper));
   if (first == last && first_row == last_row) {
     add(rest[0], field.index(first, first_row), triangle, body);
     return;

@@ -8,6 +8,7 @@
 
 #include "core/check_number.h"
 #include "core/error.h"
+#include "geometry/bilinear.h"
 
 namespace furrow {
 
@@ -86,16 +87,17 @@ HeightField::HeightField(const HeightFieldParameters& parameters, const std::str
 }
 
 double HeightField::height(const Vector2& place) const {
-  const auto between = [&](int axis, int count, int& first) {
-    const double at = std::clamp((place[axis] - lower_[axis]) / cell() - 0.5, 0.0, count - 1.0);
-    first = std::min(static_cast<int>(at), std::max(count - 2, 0));
-    return at - first;
-  };
-  int column = 0, row = 0;
-  const double u = between(0, columns_, column), v = between(1, rows_, row);
-  const int right = std::min(column + 1, columns_ - 1), above = std::min(row + 1, rows_ - 1);
-  return (1.0 - v) * ((1.0 - u) * surface_[index(column, row)] + u * surface_[index(right, row)]) +
-         v * ((1.0 - u) * surface_[index(column, above)] + u * surface_[index(right, above)]);
+  return bilinear(place, lower_ + Vector2::Constant(0.5 * cell()), Vector2::Constant(cell()),
+                  columns_, rows_,
+                  [&](int column, int row) { return surface_[index(column, row)]; });
+}
+
+void HeightField::refuse_edge(const Vector2& place) const {
+  const Vector2 last = upper();
+  throw StateError(fmt::format(
+      "the body reaches the edge of the height field at x = {:.4g} m, y = {:.4g} m: the field "
+      "spans {:.4g} to {:.4g} m and {:.4g} to {:.4g} m; make it longer or wider",
+      place.x(), place.y(), lower_.x(), last.x(), lower_.y(), last.y()));
 }
 
 void HeightField::raise(std::size_t cell, double height) {

@@ -58,6 +58,8 @@ class HeightField {
   double surface(std::size_t cell) const { return surface_[cell]; }  ///< [m]
   /// Height of the surface at a place in the field, linear between the middles of cells [m].
   double height(const Vector2& place) const;
+  /// @throws StateError always: a body is at this place beyond the field
+  [[noreturn]] void refuse_edge(const Vector2& place) const;
   double reference(std::size_t cell) const { return reference_[cell]; }  ///< [m]
   /// Presses the surface of a cell down to a height [m].
   void press(std::size_t cell, double height) { surface_[cell] = height; }

@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "core/error.h"
 #include "scm/rft_law.h"
 
 namespace furrow {
@@ -50,10 +47,7 @@ void RftContact::find_depths() {
       continue;
     }
     if ((place.array() < lower.array()).any() || (place.array() > upper.array()).any())
-      throw StateError(fmt::format(
-          "the body reaches the edge of the height field at x = {:.4g} m, y = {:.4g} m: the field "
-          "spans {:.4g} to {:.4g} m and {:.4g} to {:.4g} m; make it longer or wider",
-          place.x(), place.y(), lower.x(), upper.x(), lower.y(), upper.y()));
+      field_.refuse_edge(place);
     depth_[node] = field_.height(place) - x(2, node);
     step_.sinkage = std::max(step_.sinkage, depth_[node]);
   }
