@@ -417,9 +417,10 @@ Found thin_parts_divide_the_ground(const Scene&, FixContactContinuum& contact) {
   const auto count = std::count_if(parts.begin(), parts.end(), divides);
   if (count == 0) return {};
   return warning(fmt::format(
-      "'{}' has {} thinner than 2.5 cells: ground before and behind moves as one and pushes up to "
+      "'{}' has {} thinner than {:g} cells: ground before and behind moves as one and pushes up to "
       "3 times too hard; write 'thin_parts yes' in the line of terrain '{}'",
-      body.id, count == 1 ? "a part" : fmt::format("{} parts", count), contact.terrain_fix().id));
+      body.id, count == 1 ? "a part" : fmt::format("{} parts", count),
+      DividedGround::largest_thickness, contact.terrain_fix().id));
 }
 
 Found cells_of_the_field_show_the_grousers(const Scene&, FixContactScm& contact) {

@@ -65,8 +65,7 @@ struct Search {
 
   void measure(double largest);
   void join_faces();
-  bool is_wide(const std::vector<int>& triangles) const;
-  double area(int number) const;
+  bool is_wide(int number) const;
   bool bends_backwards(std::size_t triangle, std::size_t corner) const;
   std::vector<int> parts_by_area();
   void drop_carriers(std::vector<int>& parts) const;
@@ -79,6 +78,7 @@ struct Search {
   std::vector<std::array<int, 3>> neighbour;  // across from each corner
   std::vector<int> face;                      // of each triangle
   std::vector<std::vector<int>> faces;        // their triangles
+  std::vector<double> areas;                  // of each face [m^2]
   std::vector<int> part;                      // of each face: the face that stands for it
 };
 
@@ -121,17 +121,20 @@ void Search::join_faces() {
         triangles.push_back(next);
       }
     }
+    double area = 0.0;
+    for (const int n : triangles) area += surface.area_vector(static_cast<std::size_t>(n)).norm();
+    areas.push_back(area);
     faces.push_back(std::move(triangles));
   }
 }
 
 /// Wider than the part is thick, by more than rounding: its area over its length.
-bool Search::is_wide(const std::vector<int>& triangles) const {
+bool Search::is_wide(int number) const {
+  const std::vector<int>& triangles = faces[static_cast<std::size_t>(number)];
   Vector3 middle = Vector3::Zero();
-  double largest = 0.0, area = 0.0;
+  double largest = 0.0;
   for (const int t : triangles) {
     largest = std::max(largest, thickness[static_cast<std::size_t>(t)]);
-    area += surface.area_vector(static_cast<std::size_t>(t)).norm();
     for (const int n : surface.triangles[static_cast<std::size_t>(t)]) middle += surface.x.col(n);
   }
   middle /= 3.0 * static_cast<double>(triangles.size());
@@ -139,14 +142,7 @@ bool Search::is_wide(const std::vector<int>& triangles) const {
   for (const int t : triangles)
     for (const int n : surface.triangles[static_cast<std::size_t>(t)])
       half_length = std::max(half_length, (surface.x.col(n) - middle).norm());
-  return area > least_width * largest * 2.0 * half_length;
-}
-
-double Search::area(int number) const {
-  double sum = 0.0;
-  for (const int t : faces[static_cast<std::size_t>(number)])
-    sum += surface.area_vector(static_cast<std::size_t>(t)).norm();
-  return sum;
+  return areas[static_cast<std::size_t>(number)] > least_width * largest * 2.0 * half_length;
 }
 
 /// Over the edge across from a corner, to the neighbour's corner that is not on the edge.
@@ -167,7 +163,7 @@ bool Search::bends_backwards(std::size_t triangle, std::size_t corner) const {
 std::vector<int> Search::parts_by_area() {
   std::vector<std::pair<double, int>> by_area;
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
-    if (is_wide(faces[static_cast<std::size_t>(f)])) by_area.push_back({-area(f), f});
+    if (is_wide(f)) by_area.push_back({-areas[static_cast<std::size_t>(f)], f});
   std::stable_sort(by_area.begin(), by_area.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   part.assign(faces.size(), none);
@@ -189,15 +185,16 @@ std::vector<int> Search::parts_by_area() {
 /// space meet there, and a node has two copies.
 void Search::drop_carriers(std::vector<int>& parts) const {
   std::vector<bool> carries(faces.size(), false);
+  const auto part_of = [&](int triangle) {
+    const int f = triangle == none ? none : face[static_cast<std::size_t>(triangle)];
+    return f == none ? none : part[static_cast<std::size_t>(f)];
+  };
   for (std::size_t t = 0; t < face.size(); ++t)
     for (std::size_t c = 0; c < 3; ++c) {
-      const int other = neighbour[t][c];
-      if (other == none || face[t] == none || face[static_cast<std::size_t>(other)] == none)
-        continue;
-      const int mine = part[static_cast<std::size_t>(face[t])],
-                theirs = part[static_cast<std::size_t>(face[static_cast<std::size_t>(other)])];
+      const int mine = part_of(static_cast<int>(t)), theirs = part_of(neighbour[t][c]);
       if (mine == none || theirs == none || mine == theirs || bends_backwards(t, c)) continue;
-      carries[static_cast<std::size_t>(area(mine) > area(theirs) ? mine : theirs)] = true;
+      const auto a = static_cast<std::size_t>(mine), b = static_cast<std::size_t>(theirs);
+      carries[areas[a] > areas[b] ? a : b] = true;
     }
   parts.erase(std::remove_if(parts.begin(), parts.end(),
                              [&](int f) { return carries[static_cast<std::size_t>(f)]; }),

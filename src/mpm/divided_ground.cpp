@@ -14,9 +14,8 @@ namespace {
 constexpr int reach_of_nodes = 3;
 constexpr int reach_of_particles = 2;
 constexpr double nowhere = std::numeric_limits<double>::infinity();
-// Cells: ground of both sides of a thicker part reaches no common node; ground in a wider gap
-// reaches no node that two parts divide.
-constexpr double largest_thickness = 2.5, largest_gap = 8.0;
+// Cells: ground in a wider gap reaches no node that two parts divide.
+constexpr double largest_gap = 8.0;
 
 }  // namespace
 

@@ -28,6 +28,8 @@ class DividedGround {
  public:
   /// Velocity fields: enough for parts in any ring or row.
   static constexpr int fields = 3;
+  /// Cells: ground of both sides of a thicker part reaches no common node.
+  static constexpr double largest_thickness = 2.5;
 
   /// Parts of a surface that are thin enough to divide ground.
   /// @param cell  where the surface is [m]
