@@ -39,6 +39,14 @@ std::vector<ParticleLevel> make_levels(const TerrainParameters& parameters, cons
   return levels;
 }
 
+std::vector<std::optional<std::size_t>> fields_of_band_width(
+    const std::vector<TerrainLayer>& layers) {
+  std::vector<std::optional<std::size_t>> fields;
+  for (const TerrainLayer& layer : layers)
+    fields.push_back(layer.material->find_field("band_width"));
+  return fields;
+}
+
 /// Levels of particles in the layers of each patch.
 std::vector<std::vector<ParticleLevel>> make_patch_levels(
     const TerrainParameters& parameters, const std::vector<ParticleLevel>& levels) {
@@ -111,6 +119,7 @@ TerrainFill::TerrainFill(const TerrainParameters& parameters, const Grid& grid,
                          const std::string& where)
     : where_(where),
       layers_(parameters.layers),
+      band_widths_(fields_of_band_width(parameters.layers)),
       relief_(parameters.relief),
       base_(grid.axis(2).lower()),
       depth_(parameters.surface - base_),
@@ -234,7 +243,7 @@ void TerrainFill::add_stack(const std::array<double, 2>& place,
         8.0 * half[0] * half[1] * half[2] / level.state[field::volume_ratio];
     particles.data(column::id)[p] = next_id_ + static_cast<double>(first + n);
     particles.set_state(p, level.state);
-    if (const auto width = layers_[level.layer].material->find_field("band_width"))
+    if (const auto width = band_widths_[level.layer])
       particles.data(column::state + *width)[p] =
           2.0 * std::cbrt(particles_per_cell_[0] * particles_per_cell_[1] * particles_per_cell_[2] *
                           half[0] * half[1] * half[2]);

@@ -57,6 +57,7 @@ class TerrainFill {
   WaveSpeeds wave_speeds(const ParticleLevel& level) const;
 
   std::vector<TerrainLayer> layers_;
+  std::vector<std::optional<std::size_t>> band_widths_;  // of each layer: the field that is a cell
   GroundRelief relief_;
   double base_, depth_, clearance_;  // z of the base, heights of ground and of grid above it [m]
   double shortest_cell_;             // along z [m]
