@@ -86,6 +86,13 @@ void check_reaches_tension(const ElasticityParameters& parameters, double tensil
                      "the pressure could not reach it");
 }
 
+void require_linear(const ElasticityParameters& parameters, const std::string& law,
+                    const std::string& remedy) {
+  if (parameters.porous)
+    throw InputError(fmt::format("law {}, section 'elasticity', keyword 'type'", law), "is porous",
+                     "linear", remedy);
+}
+
 double initial_pressure(const ElasticityParameters& parameters) {
   return parameters.porous ? parameters.p0 : 0.0;
 }

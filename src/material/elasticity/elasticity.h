@@ -9,6 +9,8 @@
 /// J_el up to 1 + 36 kappa/(1 + e0); a point stretched further stays at this limit and is
 /// compressed from there.
 
+#include <string>
+
 #include "material/elasticity/elasticity_parameters.h"
 #include "material/material_model.h"
 
@@ -21,6 +23,10 @@ ElasticityParameters make_elasticity(const SectionOptions& section);
 /// @param tensile  strength in hydrostatic tension at the start [Pa]
 /// @throws InputError where porous elasticity does not reach it
 void check_reaches_tension(const ElasticityParameters& parameters, double tensile);
+/// @param law  its name; @param remedy  instead of porous elasticity
+/// @throws InputError for porous elasticity
+void require_linear(const ElasticityParameters& parameters, const std::string& law,
+                    const std::string& remedy);
 /// The pressure at which a run starts: 0, or p0 of porous elasticity [Pa].
 double initial_pressure(const ElasticityParameters& parameters);
 /// Plastic strains "eps_vol_pl" and "eps_dev_pl" of a law that yields. The latter is the sum of

@@ -26,9 +26,8 @@ std::unique_ptr<Material> create_drucker_prager(const MaterialOptions& sections)
   if (parameters.d == 0.0 && parameters.tan_beta == 0.0)
     throw InputError(o.where("d"), "and beta are both 0: the ground has no strength",
                      "one of them above 0");
-  if (parameters.elasticity.porous)
-    throw InputError("law drucker_prager, section 'elasticity', keyword 'type'", "is porous",
-                     "linear", "take drucker_prager_cap for porous elasticity");
+  require_linear(parameters.elasticity, "drucker_prager",
+                 "take drucker_prager_cap for porous elasticity");
   return std::make_unique<DruckerPrager>(o.number("density"), parameters);
 }
 

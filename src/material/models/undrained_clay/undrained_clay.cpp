@@ -16,9 +16,8 @@ std::unique_ptr<Material> create_undrained_clay(const MaterialOptions& sections)
   const Options& o = sections.at("law").options;
   UndrainedClayParameters parameters;
   parameters.elasticity = make_elasticity(sections.at("elasticity"));
-  if (parameters.elasticity.porous)
-    throw InputError("law undrained_clay, section 'elasticity', keyword 'type'", "is porous",
-                     "linear", "the stiffness of clay without drainage is a multiple of su");
+  require_linear(parameters.elasticity, "undrained_clay",
+                 "the stiffness of clay without drainage is a multiple of su");
   const double su = o.number("su"), width = o.number("band_width"), slip = o.number("slip_95");
   parameters.q = std::sqrt(3.0) * su;
   parameters.remoulded = 1.0 / o.number("sensitivity");
