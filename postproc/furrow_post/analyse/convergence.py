@@ -89,13 +89,15 @@ def places(script: Path, results: Path, ending: str = ENDING) -> list[Path]:
     return [script.parent / name, results.resolve().parent / name]
 
 
-def place_of(script: Path, results: Path, ending: str) -> Path | None:
-    return next((path for path in places(script, results, ending) if script.is_file() and path.is_file()), None)
+def beside_scene(run: WheelRun, ending: str) -> tuple[Path, Path | None]:
+    """Script of a run, and the file of its scene with this ending; None where there is none."""
+    script = Path(str(run.results.run.get("script", "")))
+    found = (path for path in places(script, run.folder, ending) if script.is_file() and path.is_file())
+    return script, next(found, None)
 
 
 def convergence_of(run: WheelRun) -> SceneConvergence | None:
     """Convergence of the scene of a run; None where there is none, or the script has changed since."""
-    script = Path(str(run.results.run.get("script", "")))
-    path = place_of(script, run.folder, ENDING)
+    script, path = beside_scene(run, ENDING)
     found = read_convergence(path) if path else None
     return found if found and found.script == digest(script) and found.ground == run.ground else None

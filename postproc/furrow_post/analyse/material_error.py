@@ -19,7 +19,7 @@ from ..errors import ResultsError, content_of
 from ..json_text import parse_json
 from ..read.wheel_run import WheelRun
 from ..run.record import digest
-from .convergence import RELATIVE, place_of
+from .convergence import RELATIVE, beside_scene
 
 BESIDE = ".errors.csv"  # instead of the ending of a material file
 ENDING = ".material.json"  # behind the stem of the scene's script
@@ -143,8 +143,7 @@ def read_material_error(path: Path) -> SceneMaterial:
 
 def material_error_of(run: WheelRun) -> SceneMaterial | None:
     """Error by the material in the scene of a run; None where there is none, or the script or the file has changed since."""
-    script = Path(str(run.results.run.get("script", "")))
-    path = place_of(script, run.folder, ENDING)
+    script, path = beside_scene(run, ENDING)
     found = read_material_error(path) if path else None
     soil = next((one for kind in ("terrain", "scm") if (one := run.results.styles().of_kind(kind))), None)
     keyword = next((key for key in ("material", "card") if soil and soil.has(key)), "")

@@ -334,13 +334,13 @@ class OverTests:
 
 def over_tests(run: WheelRun) -> list[OverTests]:
     """Hub drop and coefficient that the run is made for, each with the tests of the nearest regime."""
-    parts = _Parts(run, {})
-    names = [name for name in Summary(run.folder).headline if name == "hub_drop" or name in COEFFICIENTS]
+    parts, summary = _Parts(run, {}), Summary(run.folder)
+    names = [name for name in summary.headline if name == "hub_drop" or name in COEFFICIENTS]
     path = _validation(TESTS)
     known = read_tests(path) if path else []
     found = []
     for name in names:
-        value = run.values.get(name) or Summary(run.folder).quantity(name)
+        value = run.values.get(name) or summary.quantity(name)
         assert value is not None
         budget = parts.of(name, value)
         scale, label = (1 / run.radius, "hub drop over radius") if name == "hub_drop" else (1.0, name.replace("_", " "))
@@ -372,9 +372,12 @@ def value_text(name: str, value: SteadyValue, budget: Budget) -> str:
     return f"{text} imposed" if value.imposed else text
 
 
-def headline(folder: Path) -> str:
-    """For a title: "hub drop 94 ± 12 mm, pull 0.06 ± 0.12 (+ material unknown); torque 12 ± 1 N m (over time only)"."""
-    summary, known = Summary(folder), budgets_of(folder)
+def headline(folder: Path, known: Mapping[str, Budget] | None = None) -> str:
+    """For a title: "hub drop 94 ± 12 mm, pull 0.06 ± 0.12 (+ material unknown); torque 12 ± 1 N m (over time only)".
+
+    known: budgets of the folder, if they were read before
+    """
+    summary, known = Summary(folder), budgets_of(folder) if known is None else known
     texts: dict[str, list[str]] = {}  # what is not in ± -> values
     for name in summary.headline:
         value = summary.quantity(name)

@@ -104,7 +104,7 @@ def draw_histories(results: Results, target: Path, against: str = "time") -> Non
         axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
         axes.margins(x=0)
     all_axes[-1].set_xlabel("time [s]" if against == "time" else "x of the axle [m]")
-    line = "\n".join(textwrap.wrap(headline(results.folder), 110))
+    line = "\n".join(textwrap.wrap(headline(results.folder, errors), 110))
     whole.suptitle(f"{results.title}\n{line}" if line else results.title, fontsize=10)
     save(whole, target)
 

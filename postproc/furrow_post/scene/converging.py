@@ -4,8 +4,10 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..analyse.convergence import ENDING as CONVERGENCE
 from ..analyse.convergence import RELATIVE, SceneConvergence, of_runs, places, values_of
-from ..analyse.material_error import ENDING, SceneMaterial, found_file, require_intervals, varied_text
+from ..analyse.material_error import ENDING as MATERIAL
+from ..analyse.material_error import SceneMaterial, found_file, require_intervals, varied_text
 from ..errors import ResultsError
 from ..formatting import duration
 from ..read.wheel_run import cells_or_grains, read_wheel_run
@@ -28,9 +30,7 @@ def converge(scene: str, given: Variables, ratio: float, count: int, folder: Pat
 
     @raises ResultsError, Interrupted, Failed
     """
-    script = script_of(scene)
-    for warning in check_variables(script, given, RESERVED):
-        print(f"WARNING: {warning}")
+    script = _checked_script(scene, given)
     sizes = sizes_of(script, given)
     fixed = [pair for pair in given if pair[0] not in sizes]
     runs = []
@@ -40,9 +40,7 @@ def converge(scene: str, given: Variables, ratio: float, count: int, folder: Pat
         name = "_".join(f"{name}_{value}" for name, value in of_size)
         runs.append(SceneRun(script, folder / name, variables, words=words_of(scene, variables)))
     run_missing(folder, runs, jobs)
-    own, results = places(script, folder)
-    path = results if is_shipped(script) else own
-    found = of_runs(path, script, [read_wheel_run(run.folder) for run in runs], KEPT)
+    found = of_runs(_place(script, folder), script, [read_wheel_run(run.folder) for run in runs], KEPT)
     found.write()
     return found
 
@@ -52,9 +50,7 @@ def vary_material(scene: str, given: Variables, folder: Path, jobs: int) -> Scen
 
     @raises ResultsError, Interrupted, Failed
     """
-    script = script_of(scene)
-    for warning in check_variables(script, given, RESERVED):
-        print(f"WARNING: {warning}")
+    script = _checked_script(scene, given)
     known = {**script_variables(script, dict(given)).defaults, **dict(given)}
     files = {name: path for name, text in known.items() if text.endswith(".yaml") and (path := found_file(text, script))}
     variable, file, parameters = require_intervals(files)
@@ -73,10 +69,23 @@ def vary_material(scene: str, given: Variables, folder: Path, jobs: int) -> Scen
         name: {one.name: (other[name][0] - base[name][0]) / scale for one, other in zip(parameters, others) if name in other}
         for name, scale in scales.items()
     }
-    own, results = places(script, folder, ENDING)
-    made = SceneMaterial(results if is_shipped(script) else own, digest(script), file.name, digest(file), parts)
+    made = SceneMaterial(_place(script, folder, MATERIAL), digest(script), file.name, digest(file), parts)
     made.write()
     return made
+
+
+def _checked_script(scene: str, given: Variables) -> Path:
+    """Script of a scene. Prints warnings of the variables. @raises ResultsError"""
+    script = script_of(scene)
+    for warning in check_variables(script, given, RESERVED):
+        print(f"WARNING: {warning}")
+    return script
+
+
+def _place(script: Path, results: Path, ending: str = CONVERGENCE) -> Path:
+    """File that belongs to a scene: next to the results of a shipped one, else next to its script."""
+    own, shipped = places(script, results, ending)
+    return shipped if is_shipped(script) else own
 
 
 def material_table(made: SceneMaterial) -> str:
