@@ -16,7 +16,7 @@ from .tables import aligned
 PAGE, SECTION = "README.md", "tables.md"
 BEGIN, END = "<!-- written by the study -->", "<!-- end -->"
 COLUMNS = 100  # of a page
-OF_RUNS = ("run", "case", "law")  # first column of a table with a row for each run
+OF_RUNS = ("case", "law")  # first column of a table by run that has no column "run"
 
 
 def _wrapped(line: str) -> str:
@@ -41,23 +41,23 @@ def with_section(page: str, lines: Sequence[str], begin: str = BEGIN, end: str =
     return f"{before}{found or begin}\n\n{text}\n\n{end}{after}"
 
 
-def by_run(path: Path) -> bool:
-    """True where a stored table has a row for each run."""
+def column_of_run(path: Path) -> str:
+    """Column that names the run of a row; empty: a stored file without a row for each run."""
     rows = read_rows(path) if path.suffix == ".csv" else []
-    return bool(rows) and next(iter(rows[0])) in OF_RUNS
+    columns = list(rows[0]) if rows else []
+    return "run" if "run" in columns else next((name for name in columns[:1] if name in OF_RUNS), "")
 
 
 def merged(path: Path, rows: Sequence[Mapping[str, Any]]) -> Sequence[Mapping[str, Any]]:
     """The stored rows with these in the place of those of the same run; new ones come last."""
-    if not path.is_file() or not by_run(path):
+    key = column_of_run(path) if path.is_file() else ""
+    if not key:
         return rows
-    stored = read_rows(path)
-    key = next(iter(stored[0]))
     fresh: dict[str, list[Mapping[str, Any]]] = {}
     for row in rows:
         fresh.setdefault(str(row[key]), []).append(row)
     kept: dict[str, list[Mapping[str, Any]]] = {}
-    for old in stored:
+    for old in read_rows(path):
         kept.setdefault(old[key], []).append(old)
     return [row for group in {**kept, **fresh}.values() for row in group]
 
@@ -123,7 +123,7 @@ class Output:
         if file in self._of_all_runs:
             return True
         stored = self.folder / file
-        return file in known and by_run(stored) if stored.is_file() else by_run(self.path(file))
+        return bool(file in known and column_of_run(stored) if stored.is_file() else column_of_run(self.path(file)))
 
     def publish(self, records: Sequence[Record], root: Path) -> None:
         """Puts all files into the folder, with their provenance: they were made of these runs;

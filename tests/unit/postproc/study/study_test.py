@@ -178,6 +178,12 @@ class StudyTest(FolderTest):
         found = [(row["run"], str(row["mode"])) for row in merged(table, fresh)]
         self.assertEqual(found, [("a1", "3"), ("b1", "1"), ("b1", "2"), ("c1", "1")])
 
+    def test_rows_join_by_their_run_in_any_column(self) -> None:
+        table = self.tree.study / "error.csv"
+        table.write_text("change,run,value\nbase,a1,1\ncells,b1,2\n")
+        found = [row["value"] for row in merged(table, [{"change": "cells", "run": "b1", "value": 3}])]
+        self.assertEqual(found, ["1", 3])
+
     def test_a_table_by_run_that_is_not_stored_yet_joins_the_others(self) -> None:
         page = self.page.read_text()
         self.run_study("a1", "--merge", a1=1, b1=2)
