@@ -71,7 +71,7 @@ class FieldSnowTest(unittest.TestCase):
             if "cohesive_cam_clay" not in text:
                 continue
             density, m = number(text, "density"), number(text, "M")
-            beginning = TWO_STRESSES if case.stage in ("spreading", "fine") else study.STRESSES[1:4]
+            beginning = TWO_STRESSES if case.stage in ("fine", "refit") else study.STRESSES[1:4]
             self.assertEqual(text, field_snow(density, beginning, f"field snow of {density:g} kg/m3", m), name)
             self.assertEqual(case.fallback, {} if name == "passes" else {"remap_interval": 8})
 
