@@ -50,6 +50,7 @@ class Forecast:
     """Forecast of a run. budgets: of the hub drop and the coefficient; scales: values that errors refer to."""
 
     variables: Variables
+    size: float  # of cells or grains, over that of the scene
     cpu_time: float  # [s] of one core
     budgets: Mapping[str, Budget]
     scales: Mapping[str, float]
@@ -135,11 +136,15 @@ def plan(script: Path, given: Variables, folder: Path, error: float, time: float
 
 
 def _chosen(found: Sequence[Forecast], error: float, time: float) -> Forecast:
-    """The cheapest within error and time; else of those in time the least error, of equal ones the cheapest."""
+    """The cheapest within error and time; else of those in time the least error, of equal ones the cheapest.
+
+    An error that no size reaches is no reason for sizes coarser than the scene's."""
     within = [one for one in found if one.error <= error and one.cpu_time <= time]
     if within and math.isfinite(error):
         return min(within, key=lambda one: one.cpu_time)
     in_time = [one for one in found if one.cpu_time <= time] or [min(found, key=lambda one: one.cpu_time)]
+    if math.isfinite(error):
+        in_time = [one for one in in_time if one.size <= 1.0] or in_time
     least = min(one.error for one in in_time)
     return min((one for one in in_time if one.error <= SAME * least), key=lambda one: one.cpu_time)
 
@@ -166,7 +171,7 @@ def _forecast(
     parts = {name: replace(found[name], time=found[name].time / math.sqrt(longer)) for name in names}
     values = {name: abs(pilot.values[name].mean) if name in pilot.values else 0.0 for name in names}
     scales = {name: max(value, COEFFICIENT_SCALE) if name != "hub_drop" else value for name, value in values.items()}
-    return Forecast(variables, pilot.cpu_time * longer * ratio ** -_exponent(pilot), parts, scales)
+    return Forecast(variables, finer, pilot.cpu_time * longer * ratio ** -_exponent(pilot), parts, scales)
 
 
 def _coefficient(run: WheelRun) -> str:

@@ -15,10 +15,10 @@ from support.folder import FolderTest
 from support.runs import write_run
 
 
-def forecast(cells: float, cost: float, model: float = 0.01) -> Forecast:
+def forecast(cells: float, cost: float, model: float = 0.01, size: float = 1.0) -> Forecast:
     """Forecast of a hub drop of 0.1 m and a coefficient that is known."""
     parts = {"hub_drop": Budget(1e-4, cells, model=model, sources={"model": "made tests"}), "resistance_coefficient": Budget(1e-4)}
-    return Forecast([("cell", f"{cells:g}")], cost, parts, {"hub_drop": 0.1, "resistance_coefficient": 0.25})
+    return Forecast([("cell", f"{cells:g}")], size, cost, parts, {"hub_drop": 0.1, "resistance_coefficient": 0.25})
 
 
 SERIES = [forecast(0.02, 10.0), forecast(0.01, 100.0), forecast(0.005, 1000.0), forecast(0.0025, 1e4)]
@@ -37,6 +37,12 @@ class ChoiceTest(unittest.TestCase):
         by_model = [forecast(0.005, 100.0), forecast(0.0025, 1e4)]
         self.assertAlmostEqual(by_model[0].error, math.hypot(1e-4, 0.005, 0.01) / 0.1)
         self.assertIs(wanted_error._chosen([forecast(0.003, 100.0), forecast(0.0025, 1e4)], 0.05, math.inf).cpu_time, 100.0)
+
+
+    def test_an_error_out_of_reach_keeps_the_sizes_of_the_scene(self) -> None:
+        found = [forecast(0.001, 10.0, 0.1, 2.0), forecast(0.0005, 100.0, 0.1), forecast(0.0002, 1e4, 0.1, 0.5)]
+        self.assertIs(wanted_error._chosen(found, 0.05, math.inf), found[1])
+        self.assertIs(wanted_error._chosen(found, 0.05, 50.0), found[0])
 
 
 class PlanTest(FolderTest):
