@@ -8,6 +8,7 @@
     run.py until_steady <results>               a run that goes on until it is steady
     run.py error <results>                      plans for an error and for a time, and what limits them
     run.py material <results>                   a scene over the standard errors of its soil card, and a later run that takes them
+    run.py answer <results>                     a tyre on clay, from its size and a cone index
     run.py converge <results>                   two sizes of a scene, and a later run that takes their error
     run.py usage                                the list of scenes, and what inputs/run refuses
 
@@ -302,6 +303,26 @@ def material(results):
         sys.exit(f"the later run has {later['parts']}, not {whole} of the card:\n{said}")
 
 
+def answer(results):
+    """The command makes tyre and soil, runs them, and compares each value with the band of the formulas."""
+    folder = empty(results)
+    said = run([sys.executable, PROJECT / "postproc" / "furrow-post", "answer", "235/75R15", "--load", "6227", "--pressure", "179",
+                "--soil", "clay", "--cone-index", "270", "--slip", "0.2", "--quick", "-o", folder / "answer"], folder=folder)
+    soil = (folder / "answer" / "soil.yaml").read_text()
+    if "su: 21600" not in soil or "shear_limit: 19440" not in soil:
+        sys.exit(f"the clay is not that of the cone index:\n{soil}")
+    summary = json.loads((folder / "answer" / "run" / "summary.json").read_text())["quantities"]
+    if abs(summary["slip"]["mean"] - 0.2) > 1e-3 or abs(summary["force_z"]["mean"] / 6227 - 1) > 0.05:
+        sys.exit(f"the tyre has another slip or load: {summary}")
+    pull, error = summary["net_traction_coefficient"]["mean"], json.loads((folder / "answer" / "run" / "budget.json").read_text())[
+        "net_traction_coefficient"]["error"]
+    found = re.search(r"net traction coefficient (\S+) ± (\S+); formulas (\S+) to (\S+): (inside|outside by|OUTSIDE by)", said)
+    if not found or abs(float(found[1]) - pull) > 0.006 * abs(pull) or abs(float(found[2]) / error - 1) > 0.06:
+        sys.exit(f"the pull {pull} ± {error} is not compared:\n{said}")
+    if (found[5] == "inside") != (float(found[3]) <= pull <= float(found[4])):
+        sys.exit(f"the place in the band is wrong: {found[0]}")
+
+
 def refused(words):
     """(status, output) of the program that inputs/run becomes."""
     said = io.StringIO()
@@ -348,5 +369,5 @@ def usage():
 
 if __name__ == "__main__":
     tests = {"scene": scene, "two_grounds": two_grounds, "laboratory": laboratory, "usage": usage,
-             "sweep": sweep, "until_steady": until_steady, "error": error, "converge": converge, "material": material}
+             "sweep": sweep, "until_steady": until_steady, "error": error, "converge": converge, "material": material, "answer": answer}
     tests[sys.argv[1]](*sys.argv[2:])

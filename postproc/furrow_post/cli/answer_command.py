@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""furrow-post answer: pull, resistance and rut of a tyre on soil, from its size and a cone index."""
+
+import importlib
+from pathlib import Path
+
+from ..analyse.cone_formulas import Formulas, Tyre, formulas_for
+from ..analyse.tyre_estimate import Catalogue
+from ..analyse.tyre_fit import PlateTest, fit_tyre, press
+from ..analyse.tyre_size import read_size
+from ..arguments import between, fraction, path, positive, seconds
+from ..programs import source_tree
+from ..run.summary import Summary, whole_errors
+from ..soil.make import from_cone
+from .fit_tyre_command import inflation
+from .parameters import Given, argument, command, flag, option
+
+SCENE = "tyre_on_soil"
+SAND, CLAY = "sand", "clay"
+CLASS = "SP"  # of the sand between the classes of the USCS: clean, of one size
+INDEX_OVER_STRENGTH = 12.5  # cone index over undrained strength; 9 to 15 are measured
+USUAL_SLIP = 0.2  # of the driven columns of the formulas beside a towed tyre
+STIFFNESS = 150.0  # Young's modulus over strength; 50 to 500 are measured
+ADHESION = 0.9  # of rubber, over strength; 0.5 to 1 are measured, 0.3 to 0.6 with a film of water
+# Quantity of the run -> that of the formulas when towed, and when driven
+COMPARED = {
+    "resistance_coefficient": ("towed_resistance", ""),
+    "net_traction_coefficient": ("", "net"),
+    "rut_depth": ("towed_sinkage", "sinkage"),
+}
+
+
+@command(
+    argument("size", "of the tyre: 265/70R17, 31x10.50R15, 16.00R20, 18.4R38, ..."),
+    option("--load", parse=positive, required=True, help="of the wheel [N]"),
+    option("--pressure", parse=inflation, required=True, help="inflation [kPa]"),
+    option("--soil", choices=(SAND, CLAY), required=True, help="dry sand, or clay without drainage"),
+    option("--cone-index", parse=between(20.0, 5000.0), required=True, help="mean of the first 15 cm [kPa]"),
+    option("--slip", parse=between(-1.0, 0.9), help="of a driven wheel, 1 - v/(r omega); towed without it"),
+    option("--error", parse=fraction, metavar="PERCENT", help="wanted whole error of hub drop and coefficient, e.g. 10%"),
+    option("--time", parse=seconds, metavar="TIME", help="the least error within this time of one core, e.g. 10min"),
+    option("-o", "--output", "folder", parse=path, help="by default results/answer"),
+    flag("--quick", help="a small, coarse run, done within a minute"),
+)
+def answer(given: Given) -> int:
+    folder: Path = given.folder or (source_tree() or Path.cwd()) / "results" / "answer"
+    folder.mkdir(parents=True, exist_ok=True)
+    tyre_file, soil_file, run = folder / "tyre.yaml", folder / "soil.yaml", folder / "run"
+    tyre, radius = _tyre(given, tyre_file)
+    soil_file.write_text(_soil(given), encoding="utf-8")
+    print(f"{given.size}: {tyre_file}, estimated from its size\n{given.soil}: {soil_file}, estimated from its cone index", flush=True)
+    motion = "mode towed" if given.slip is None else f"mode slip slip {given.slip:g}"
+    values = {"tyre": tyre_file.resolve(), "material": soil_file.resolve(), "radius": f"{radius:.4f}",
+              "pressure": f"{1e3 * given.pressure:g}", "load": f"{given.load:g}", "motion": motion}
+    words = [word for name, value in values.items() for word in ("-v", name, str(value))]
+    for name in ("error", "time"):
+        if (wanted := getattr(given, name)) is not None:
+            words += [f"--{name}", f"{100 * wanted:g}%" if name == "error" else f"{wanted:g}s"]
+    words += ["--quick"] if given.quick else []
+    main = importlib.import_module(".main", __package__)
+    status: int = main.root.main(["run", SCENE, "-o", str(run), *words], prog_name=main.NAME, standalone_mode=False) or 0
+    if status == 0:
+        formulas = formulas_for(given.soil, 1e3 * given.cone_index, tyre, given.slip or USUAL_SLIP, "R" in given.size.upper())
+        print("\n".join(compared(run, formulas, given.slip is None)))
+    return status
+
+
+def _tyre(given: Given, file: Path) -> tuple[Tyre, float]:
+    """Writes the tyre file. Returns the tyre of the formulas, and its radius without load [m]."""
+    size = read_size(given.size)
+    fit = fit_tyre(Catalogue(size, 1e3 * given.pressure), [])
+    text = fit.file_text(size.designation, [f"furrow-post answer {given.size} --pressure {given.pressure:g}"])
+    (state,) = press(text, [PlateTest(given.pressure, given.load, {})])
+    file.write_text(text, encoding="utf-8")
+    return Tyre(given.load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"]), 0.5 * size.diameter
+
+
+def _soil(given: Given) -> str:
+    """Text of a material file with this cone index."""
+    index = 1e3 * given.cone_index
+    materials = (source_tree() or Path.cwd()) / "inputs" / "materials"
+    if given.soil == SAND:
+        sand = from_cone(f"Sand of cone index {given.cone_index:g} kPa", index, CLASS, None)
+        return f"{sand.text()}contact: {materials / 'contact' / 'sand.yaml'}\n"
+    strength = index / INDEX_OVER_STRENGTH
+    return (
+        f"title: Clay of cone index {given.cone_index:g} kPa\n"
+        f"# Strength: cone index over {INDEX_OVER_STRENGTH:g}. Modulus: {STIFFNESS:g} times the strength.\n"
+        f"base: {materials / 'clay_medium.yaml'}\n"
+        f"law: {{su: {strength:g}}}\nelasticity: {{E: {STIFFNESS * strength:g}}}\n"
+        "contact:\n  rubber:\n    friction: 1\n    friction_range: [0.5, 1.5]\n    slip_length: 0.006\n"
+        f"    slip_length_range: [0.003, 0.009]\n    shear_limit: {ADHESION * strength:g}\n"
+        f"    shear_limit_range: [{0.5 * strength:g}, {strength:g}]\n"
+        f"    label: assumed\n    source: adhesion {ADHESION:g} of the strength\n"
+    )
+
+
+def compared(run: Path, formulas: Formulas, towed: bool) -> list[str]:
+    """The table of the formulas, then a line for each value of the run with its whole error and the band."""
+    found, errors = Summary(run).quantities, whole_errors(run)
+    lines = ["", "Formulas of this cone index", formulas.report(), ""]
+    for name, of_formulas in COMPARED.items():
+        quantity = of_formulas[0 if towed else 1]
+        band = formulas.band(quantity) if quantity else None
+        if name not in found or band is None:
+            continue
+        value, error = float(found[name]["mean"]), errors.get(name, float(found[name]["standard_error"]))
+        _, low, high = band
+        known = f"formulas {low:.3g} to {high:.3g}" if low < high else f"formula {low:.3g}, of unknown scatter"
+        apart = max(low - value, value - high, 0.0) / error if error > 0.0 else 0.0
+        lines.append(f"{name.replace('_', ' ')} {value:.3g} ± {error:.2g}; {known}: {_place(apart)}")
+    return lines
+
+
+def _place(apart: float) -> str:
+    """apart: distance from the band over the error."""
+    return "inside" if apart == 0.0 else f"{'OUTSIDE' if apart > 2.0 else 'outside'} by {apart:.1f} errors"
