@@ -147,6 +147,41 @@ TEST(NorSandClosedForm, PeakAndDilatancyFollowTheStateParameter) {
   }
 }
 
+/// With a shear band the peak stays, and the strength falls to critical over the same slip in
+/// points of any width: psi falls by 1/e over the slip of a band, shear_band/((1 + e) chi).
+TEST(NorSandShearBand, StrengthFallsOverTheSameSlipInAllWidths) {
+  const double lateral = 2e4, band = 0.005, void_ratio = 0.6;
+  const auto fall = [&](double width) {
+    const auto material = material_of(
+        sand(void_ratio, 0.35, fmt::format("shear_band {} band_width {}", band, width)));
+    VectorX state = state_at(*material, lateral, 0.8);
+    std::vector<double> ratios;  // the peak, then one at each tenth of a millimetre of slip
+    double peak = 0.0, at_peak = 0.0;
+    for (int step = 0; step < 200000 && ratios.size() < 20; ++step) {
+      drained_step(*material, state, 2e-5 * band / width, lateral);
+      const double ratio = ratio_of(state), strain = state[NorSand::eps_dev_pl];
+      if (ratio > peak) {
+        peak = ratio;
+        at_peak = strain;
+      } else if ((strain - at_peak) * width > 1e-4 * static_cast<double>(ratios.size() + 1)) {
+        ratios.push_back(ratio);
+      }
+    }
+    ratios.insert(ratios.begin(), peak);
+    return ratios;
+  };
+  const std::vector<double> narrow = fall(band), wide = fall(4 * band), widest = fall(16 * band);
+  ASSERT_EQ(narrow.size(), 21U);
+  const double above = narrow[0] - M;
+  EXPECT_GT(above, 0.3);
+  for (std::size_t i = 0; i < narrow.size(); ++i) {
+    EXPECT_NEAR(wide[i], narrow[i], 0.05 * above) << i;
+    EXPECT_NEAR(widest[i], narrow[i], 0.05 * above) << i;
+  }
+  const double psi = (narrow[10] - M) / above, slip = 1e-3;
+  EXPECT_NEAR(psi, std::exp(-(1 + void_ratio) * chi * slip / band), 0.1);
+}
+
 /// Dense sand that was pressed harder than it now is yields on the cone of the least dilatancy.
 TEST(NorSandClosedForm, DensePointOnTheConeLiesOnTheYieldSurface) {
   const auto material = material_of(sand(0.58));

@@ -51,8 +51,10 @@ std::unique_ptr<Material> create_norsand(const MaterialOptions& sections) {
   q.floor = 0.01 * q.pt;
   q.tip = std::pow(1.0 / (1.0 - q.N), (1.0 - q.N) / q.N);
   q.section = make_section(o);
+  if (o.has("shear_band")) q.shear_band = o.number("shear_band");
   return std::make_unique<NorSand>(o.number("density"), q, o.number("e0"),
-                                   o.has("image_pressure") ? o.number("image_pressure") : q.pt);
+                                   o.has("image_pressure") ? o.number("image_pressure") : q.pt,
+                                   o.has("band_width") ? o.number("band_width") : q.shear_band);
 }
 
 std::vector<std::string> doubts_of_norsand(const MaterialOptions& sections) {
@@ -108,6 +110,14 @@ MaterialModel NorSand::model() {
       .number("image_pressure", "Pa", Range::positive(),
               "size of the yield surface at the start, from preloading; pt unless given")
       .optional();
+  schema
+      .number("shear_band", "m", Range{1e-4, 1.0, false, false},
+              "width of a shear band, about 15 grains; that of the cell unless given")
+      .optional();
+  schema
+      .number("band_width", "m", Range::positive(),
+              "width that a single point stands for; shear_band unless given")
+      .optional();
   declare_section(schema);
   MaterialModel model;
   model.name = "norsand";
@@ -122,16 +132,19 @@ MaterialModel NorSand::model() {
                     "density 1600 e0 0.7 pt 100 K 0.72 section matsuoka_nakai" + sand,
                     "density 1700 e0 0.55 K 0.8 M 1.25 gamma 0.85 lambda 0.1 csl_exponent 0.7 chi "
                     "3.5 N 0.3 H 100 "
-                    "G 40e6 n 0.4 nu 0.2"};
+                    "G 40e6 n 0.4 nu 0.2",
+                    "density 1700 e0 0.6 shear_band 0.005 band_width 0.04" + sand};
   return model;
 }
 
 NorSand::NorSand(double density, const NorSandParameters& parameters, double void_ratio,
-                 double image_pressure)
+                 double image_pressure, double width)
     : KernelLaw("norsand", density, parameters,
                 {{"void_ratio", "", "volume of voids over volume of grains", void_ratio},
                  {"image_pressure", "Pa", "size of the yield surface", image_pressure},
-                 {"eps_dev_pl", "", "equivalent plastic strain, of the deviatoric part"}}) {}
+                 {"eps_dev_pl", "", "equivalent plastic strain, of the deviatoric part"},
+                 {"band_width", "m", "width of the shear band that the point stands for", width}}) {
+}
 
 ElasticModuli NorSand::moduli(const VectorX& state) const {
   const double P = std::max(invariants(stress_of(state)).p + parameters_.pt, parameters_.floor);

@@ -24,6 +24,11 @@
 /// of d(eps_q). Sand with D_l >= M/(1 - N) is too loose to bear shear, and compression softens it.
 /// Grains that had separated thus bear a load only after the void ratio has fallen again.
 ///
+/// A shear band of dense sand is narrower than the piece of ground that a point stands for. With
+/// the key shear_band, its width, the void ratio is that of the band from the peak on: it grows by
+/// w/shear_band times the dilation, w the width of the piece. The strength then falls over a slip
+/// that does not depend on the cell. In a continuum w is the cell (TerrainFill).
+///
 /// psi_i in D_l and H is that of P_i at the start of a step and of the void ratio at its end.
 /// Tension beyond P = 0 opens the sand. The dissipation is (M + N D) P d(eps_q) >= 0; the work
 /// against pt counts as frozen energy.
@@ -39,13 +44,14 @@ namespace furrow {
 class NorSand : public KernelLaw<NorSandParameters, NorSandKernels> {
  public:
   /// Indices of the internal variables in the state.
-  enum : std::size_t { void_ratio = field::internal, image_pressure, eps_dev_pl };
+  enum : std::size_t { void_ratio = field::internal, image_pressure, eps_dev_pl, band_width };
 
   static MaterialModel model();
   /// @param density     rho0 [kg/m^3]
   /// @param void_ratio, image_pressure  at the start; [Pa]
+  /// @param width  of a band in a point alone [m]
   NorSand(double density, const NorSandParameters& parameters, double void_ratio,
-          double image_pressure);
+          double image_pressure, double width);
 
   ElasticModuli moduli(const VectorX& state) const override;
   double largest_wave_speed(const PointBlock& block) const override;

@@ -13,6 +13,10 @@
 /// If R <= 0 at D_l, the point is on the cone of the limit. If R > 0 at M/(1 - N), it is at the tip
 /// of the surface, where t = 0 and P solves a linear or quadratic equation. If P(D_l) <= 0, it
 /// opens. model() refuses moduli for which a denominator could vanish.
+///
+/// A shear band narrower than the point takes the whole dilation of the point from the peak on,
+/// where P_i falls. The voids of the band then grow by the rest at the end of the step, at most to
+/// the critical state.
 
 #include "material/block_update.h"
 #include "material/deviatoric_return.h"
@@ -32,7 +36,8 @@ FURROW_INLINE Lanes power(const Lanes& a, double exponent) {
 
 template <SectionParameters::Kind kind>
 struct NorSandKernel {
-  static constexpr int internal_variables = 3;  // void_ratio, image_pressure, eps_dev_pl
+  static constexpr int internal_variables =
+      4;  // void_ratio, image_pressure, eps_dev_pl, band_width
   const NorSandParameters& parameters;
 
   /// P/P_i on the surface
@@ -169,6 +174,14 @@ struct NorSandKernel {
     points.frozen = Lanes(-pt) * compaction;
     points.dissipated = select(yielding, P * compaction + contract(s, gone) * half_compliance, 0.0);
     points.internal[0] = voids;
+    if (parameters.shear_band > 0.0) {
+      const Lanes rest =
+          max(points.internal[3] * Lanes(1.0 / parameters.shear_band) - Lanes(1.0), 0.0);
+      const Lanes loosened = voids + (Lanes(1.0) + voids) * rest * max(-compaction, 0.0);
+      points.internal[0] =
+          select(yielding && P > Lanes(0.0) && image < image_old && psi < Lanes(0.0),
+                 min(loosened, voids - psi), voids);
+    }
     // A selection keeps NaN, which stops the run. The maximum may drop it.
     const Lanes image_floor = floor / tip;
     points.internal[1] = select(image < image_floor, image_floor, image);

@@ -23,6 +23,7 @@ struct NorSandParameters {
   double pt = 10.0;         ///< hydrostatic tensile strength [Pa]
   double floor = 0.1;       ///< least P and P_i that moduli and logarithms take [Pa]
   double tip = 2.0;         ///< P/P_i at the tip of the surface
+  double shear_band = 0.0;  ///< width of a shear band of the sand [m]; 0: of the point
   SectionParameters section;
 
   /// D at the tip
