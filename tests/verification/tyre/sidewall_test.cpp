@@ -251,9 +251,9 @@ TEST(Sidewall, ChainsOfMoreSegmentsConvergeToTheInflatedBand) {
 }
 
 /// The section of [Shoop2001] Table 6 is 22.9 cm wide without load, and 24.9 cm over all when
-/// inflated. Rubber lies outside of its cords, and its sidewall turns by 97 to 101 degrees. The cords
-/// here agree within 1 % and 3 degrees, if they end at the diameter of the belts. With the diameter
-/// printed for their end, 72.5 cm, they would be nearly straight.
+/// inflated. Rubber lies outside of its cords, and its sidewall turns by 97 to 101 degrees. The
+/// cords here agree within 1 % and 3 degrees, if they end at the diameter of the belts. With the
+/// diameter printed for their end, 72.5 cm, they would be nearly straight.
 TEST(Sidewall, SectionIsThatOfTheReport) {
   const TyreParameters tyre = tr_tyre();
   const Vector2 chord = tyre.sidewall_chord();
