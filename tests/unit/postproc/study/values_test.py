@@ -225,8 +225,7 @@ class StoredTest(unittest.TestCase):
             "snow_oedometer.fresh_snow_shoop.density_100kPa",
             "tyre_table6.rolling.100.deflection_mm",
             "snow_wheel.row_220_20cm.density_under",
-            "snow_wheel.flowing_220_20cm.density_under",
-            "snow_wheel.m_1.1_220_20cm.density_under",
+            "snow_wheel.m_1.4_220_20cm.density_under",
         ):
             self.assertEqual(registry[name].label, "fitted", name)
 
