@@ -67,7 +67,7 @@ struct NorSandKernel {
     const Symmetric s_trial = s_old + strain.deviator() * (Lanes(2.0) * shear);
     const DeviatoricReturn<kind> deviator(parameters.section, s_trial);
     const Lanes P_tr = P_n + bulk * dv, t_tr = deviator.t();
-    const Lanes voids =
+    Lanes voids =
         points.internal[0] + (Lanes(1.0) + points.internal[0]) * exponential_minus_one(-dv);
     const Lanes image_old = points.internal[1];
 
@@ -75,7 +75,18 @@ struct NorSandKernel {
                            ? power(image_old * Lanes(1.0 / NorSandParameters::reference_pressure),
                                    parameters.csl_exponent)
                            : logarithm(image_old);
-    const Lanes psi = voids - Lanes(parameters.gamma) + Lanes(parameters.lambda) * fall;
+    Lanes psi = voids - Lanes(parameters.gamma) + Lanes(parameters.lambda) * fall;
+    if (parameters.shear_band > 0.0) {
+      const Lanes D_l = max(Lanes(parameters.chi_i) * psi, -parameters.M);
+      const Mask softens = psi < Lanes(0.0) && P_tr > Lanes(0.0) && P_tr < ratio(D_l) * image_old &&
+                           t_tr > stress_ratio(D_l) * P_tr;
+      const Lanes rest =
+          max(points.internal[3] * Lanes(1.0 / parameters.shear_band) - Lanes(1.0), 0.0);
+      const Lanes loosening = (Lanes(1.0) + voids) * rest * max(-dv, 0.0);
+      const Lanes more = select(softens, min(loosening, -psi), 0.0);
+      voids = voids + more;
+      psi = psi + more;
+    }
     const Lanes limit = min(max(Lanes(parameters.chi_i) * psi, -parameters.M),
                             NorSandParameters::loosest * largest);
     const Lanes x_l = ratio(limit), lowest = min(limit, largest), x_low = min(x_l, tip);
@@ -174,14 +185,6 @@ struct NorSandKernel {
     points.frozen = Lanes(-pt) * compaction;
     points.dissipated = select(yielding, P * compaction + contract(s, gone) * half_compliance, 0.0);
     points.internal[0] = voids;
-    if (parameters.shear_band > 0.0) {
-      const Lanes rest =
-          max(points.internal[3] * Lanes(1.0 / parameters.shear_band) - Lanes(1.0), 0.0);
-      const Lanes loosened = voids + (Lanes(1.0) + voids) * rest * max(-compaction, 0.0);
-      points.internal[0] =
-          select(yielding && P > Lanes(0.0) && image < image_old && psi < Lanes(0.0),
-                 min(loosened, voids - psi), voids);
-    }
     // A selection keeps NaN, which stops the run. The maximum may drop it.
     const Lanes image_floor = floor / tip;
     points.internal[1] = select(image < image_floor, image_floor, image);
