@@ -3,7 +3,7 @@
 /// NorSand, a critical state law of sand: strength and dilatancy depend on density and pressure,
 /// and dense sand peaks and falls to the critical state. Surface and flow are those of
 /// [Jefferies1993], the hardening is that of [Jefferies2005]. Equations: theory: sand, eqs. 1
-/// to 6.
+/// to 7.
 ///
 /// Pressures count from the tensile strength, P = p + pt. The size of the surface is the image
 /// pressure P_i, and x = P/P_i. The section gives the yield measure t (section.h). D is the

@@ -64,7 +64,7 @@ class CompareCommandTest(SharedFolderTest):
         done = self.run_post("compare", "one=a", "two=b", "-o", "both")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("Inconclusive in hub drop and resistance coefficient; unknown: size of", done.stdout)
-        self.assertIn("two - one = +1 mm (+2 %), 17 allowed by the known parts", done.stdout)
+        self.assertIn("two - one = +1 mm (+2 %), 19 allowed by the known parts", done.stdout)
         self.assertIn("To find what is unknown\n  - size of cells or grains (one, two): ", done.stdout)
         lines = read_rows(self.folder / "both" / "compare.csv")
         self.assertEqual(

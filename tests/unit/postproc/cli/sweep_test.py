@@ -15,7 +15,7 @@ class SweepCommandTest(FolderTest):
                 write_run(self.folder / ground / f"load_{load:g}", load, sinkage)
         done = run_post("sweep", "soil=soft", "hard", "-o", "out", folder=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout, r"soil +1 +0.20 ± 0.18 +50 ± 6 +yes")
+        self.assertRegex(done.stdout, r"soil +1 +0.20 ± 0.18 +50 ± 7 +yes")
         self.assertRegex(done.stdout, r"hard +2 +0.200 ± 0.010 +20.0 ± 1.0 +yes")
         self.assertTrue((self.folder / "out" / "report.html").is_file())
         for words, message in (

@@ -189,7 +189,7 @@ class ViewTest(SharedFolderTest):
         label = self.browser.evaluate("document.querySelector('.furrow-label').textContent")
         self.assertEqual(
             label.partition(";")[0],
-            "grainshub drop 50 ± 6 mm, resistance coefficient 0.20 ± 0.18 (+ mesh, step, contact, material unknown)",
+            "grainshub drop 50 ± 7 mm, resistance coefficient 0.20 ± 0.18 (+ mesh, step, contact, material unknown)",
         )
         text, pixels = self.browser.evaluate(
             "(() => { const { view } = document.querySelector('.furrow-view');"
