@@ -147,8 +147,8 @@ TEST(NorSandClosedForm, PeakAndDilatancyFollowTheStateParameter) {
   }
 }
 
-/// With a shear band the peak stays, and the strength falls to critical over the same slip in
-/// points of any width: psi falls by 1/e over the slip of a band, shear_band/((1 + e) chi).
+/// The peak and the fall of the strength over the slip are the same in points of any width. The
+/// state parameter falls to 1/e over a slip of shear_band/((1 + e) chi).
 TEST(NorSandShearBand, StrengthFallsOverTheSameSlipInAllWidths) {
   const double lateral = 2e4, band = 0.005, void_ratio = 0.6;
   const auto fall = [&](double width) {

@@ -9,14 +9,15 @@
 /// pressure P_i, and x = P/P_i. The section gives the yield measure t (section.h). D is the
 /// dilatancy d(eps_v)/d(eps_q) of plastic flow, compaction positive.
 ///
-/// Yield is at t = eta P.
+/// Yield is at t = eta P, with the stress ratio eta.
 ///   eta = M - (1 - N) D,  x = (1 + N D/M)^((1 - N)/N)
 /// Flow is associated. D falls from M/(1 - N) at the tip, where t = 0, through 0 at the image.
-/// D is at least D_l, so that eta <= M - (1 - N) chi psi.
+/// D is at least D_l: the void ratio e decides how fast sand can dilate.
 ///   D_l = chi_i psi_i,  psi_i = e - e_c(P_i)
-/// The surface hardens with plastic shear; x_l is the x of D_l.
+/// So eta is at most M - (1 - N) chi psi. Plastic shear hardens the surface until x falls to x_l,
+/// the x of D_l.
 ///   d(ln P_i) = (H - H_psi psi_i) (x^2/x_l - x) d(eps_q)
-/// Elasticity depends on the pressure.
+/// The shear modulus grows with the pressure, and the bulk modulus in proportion.
 ///   G = G_ref (P/100 kPa)^n,  K = G 2 (1 + nu)/(3 (1 - 2 nu))
 ///
 /// At the limit, x < x_l, the surface is a cone. P_i then falls by d(ln P_i) = -(H - H_psi psi_i)

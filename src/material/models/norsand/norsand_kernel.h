@@ -15,8 +15,8 @@
 /// opens. model() refuses moduli for which a denominator could vanish.
 ///
 /// A shear band narrower than the point takes the whole dilation of the point from the peak on,
-/// where P_i falls. The voids of the band then grow by the rest at the end of the step, at most to
-/// the critical state.
+/// where P_i falls. Its voids then grow by more than those of the point, at most to the critical
+/// state.
 
 #include "material/block_update.h"
 #include "material/deviatoric_return.h"
@@ -36,8 +36,7 @@ FURROW_INLINE Lanes power(const Lanes& a, double exponent) {
 
 template <SectionParameters::Kind kind>
 struct NorSandKernel {
-  static constexpr int internal_variables =
-      4;  // void_ratio, image_pressure, eps_dev_pl, band_width
+  static constexpr int internal_variables = 4;  // in the order of NorSand's
   const NorSandParameters& parameters;
 
   /// P/P_i on the surface
@@ -49,6 +48,11 @@ struct NorSandKernel {
   FURROW_INLINE Lanes dilatancy(const Lanes& x) const {
     const double N = parameters.N;
     return (power(min(x, parameters.tip), N / (1.0 - N)) - Lanes(1.0)) * Lanes(parameters.M / N);
+  }
+  /// D_l
+  FURROW_INLINE Lanes least_dilatancy(const Lanes& psi) const {
+    return min(max(Lanes(parameters.chi_i) * psi, -parameters.M),
+               NorSandParameters::loosest * parameters.largest_D());
   }
   FURROW_INLINE Lanes stress_ratio(const Lanes& D) const {
     return Lanes(parameters.M) - Lanes(1.0 - parameters.N) * D;
@@ -77,7 +81,7 @@ struct NorSandKernel {
                            : logarithm(image_old);
     Lanes psi = voids - Lanes(parameters.gamma) + Lanes(parameters.lambda) * fall;
     if (parameters.shear_band > 0.0) {
-      const Lanes D_l = max(Lanes(parameters.chi_i) * psi, -parameters.M);
+      const Lanes D_l = least_dilatancy(psi);
       const Mask softens = psi < Lanes(0.0) && P_tr > Lanes(0.0) && P_tr < ratio(D_l) * image_old &&
                            t_tr > stress_ratio(D_l) * P_tr;
       const Lanes rest =
@@ -87,8 +91,7 @@ struct NorSandKernel {
       voids = voids + more;
       psi = psi + more;
     }
-    const Lanes limit = min(max(Lanes(parameters.chi_i) * psi, -parameters.M),
-                            NorSandParameters::loosest * largest);
+    const Lanes limit = least_dilatancy(psi);
     const Lanes x_l = ratio(limit), lowest = min(limit, largest), x_low = min(x_l, tip);
 
     // The trial against the surface; the slack is rounding.
