@@ -316,7 +316,7 @@ def answer(results):
         sys.exit(f"the tyre has another slip or load: {summary}")
     pull, error = summary["net_traction_coefficient"]["mean"], json.loads((folder / "answer" / "run" / "budget.json").read_text())[
         "net_traction_coefficient"]["error"]
-    found = re.search(r"net traction coefficient (\S+) ± (\S+); formulas (\S+) to (\S+): (inside|outside by|OUTSIDE by)", said)
+    found = re.search(r"net traction coefficient (\S+) ± (\S+) \(\+ material unknown\); formulas (\S+) to (\S+): (inside|outside by|OUTSIDE by)", said)
     if not found or abs(float(found[1]) - pull) > 0.006 * abs(pull) or abs(float(found[2]) / error - 1) > 0.06:
         sys.exit(f"the pull {pull} ± {error} is not compared:\n{said}")
     if (found[5] == "inside") != (float(found[3]) <= pull <= float(found[4])):

@@ -1,25 +1,27 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post answer: pull, resistance and rut of a tyre on soil, from its size and a cone index."""
 
-import importlib
 from pathlib import Path
 
 from ..analyse.cone_formulas import Formulas, Tyre, formulas_for
 from ..analyse.tyre_estimate import Catalogue
 from ..analyse.tyre_fit import PlateTest, fit_tyre, press
 from ..analyse.tyre_size import read_size
+from ..analyse.whole_error import budgets_of
 from ..arguments import between, fraction, path, positive, seconds
-from ..programs import source_tree
-from ..run.summary import Summary, whole_errors
+from ..programs import results_folder
+from ..run.summary import Summary
 from ..soil.make import from_cone
+from ..soil.material import find_ground
 from .fit_tyre_command import inflation
 from .parameters import Given, argument, command, flag, option
+from .run_command import post
 
 SCENE = "tyre_on_soil"
 SAND, CLAY = "sand", "clay"
 CLASS = "SP"  # of the sand between the classes of the USCS: clean, of one size
 INDEX_OVER_STRENGTH = 12.5  # cone index over undrained strength; 9 to 15 are measured
-USUAL_SLIP = 0.2  # of the driven columns of the formulas beside a towed tyre
+USUAL_SLIP = 0.2  # of the driven columns of the formulas next to a towed tyre
 STIFFNESS = 150.0  # Young's modulus over strength; 50 to 500 are measured
 ADHESION = 0.9  # of rubber, over strength; 0.5 to 1 are measured, 0.3 to 0.6 with a film of water
 # Quantity of the run -> that of the formulas when towed, and when driven
@@ -43,7 +45,7 @@ COMPARED = {
     flag("--quick", help="a small, coarse run, done within a minute"),
 )
 def answer(given: Given) -> int:
-    folder: Path = given.folder or (source_tree() or Path.cwd()) / "results" / "answer"
+    folder: Path = given.folder or results_folder("answer")
     folder.mkdir(parents=True, exist_ok=True)
     tyre_file, soil_file, run = folder / "tyre.yaml", folder / "soil.yaml", folder / "run"
     tyre, radius = _tyre(given, tyre_file)
@@ -52,13 +54,12 @@ def answer(given: Given) -> int:
     motion = "mode towed" if given.slip is None else f"mode slip slip {given.slip:g}"
     values = {"tyre": tyre_file.resolve(), "material": soil_file.resolve(), "radius": f"{radius:.4f}",
               "pressure": f"{1e3 * given.pressure:g}", "load": f"{given.load:g}", "motion": motion}
-    words = [word for name, value in values.items() for word in ("-v", name, str(value))]
+    words = [word for name, value in values.items() for word in ("-v", name, value)]
     for name in ("error", "time"):
         if (wanted := getattr(given, name)) is not None:
             words += [f"--{name}", f"{100 * wanted:g}%" if name == "error" else f"{wanted:g}s"]
     words += ["--quick"] if given.quick else []
-    main = importlib.import_module(".main", __package__)
-    status: int = main.root.main(["run", SCENE, "-o", str(run), *words], prog_name=main.NAME, standalone_mode=False) or 0
+    status = post("run", SCENE, "-o", run, *words)
     if status == 0:
         formulas = formulas_for(given.soil, 1e3 * given.cone_index, tyre, given.slip or USUAL_SLIP, "R" in given.size.upper())
         print("\n".join(compared(run, formulas, given.slip is None)))
@@ -78,15 +79,15 @@ def _tyre(given: Given, file: Path) -> tuple[Tyre, float]:
 def _soil(given: Given) -> str:
     """Text of a material file with this cone index."""
     index = 1e3 * given.cone_index
-    materials = (source_tree() or Path.cwd()) / "inputs" / "materials"
+    clay = find_ground("clay_medium")
     if given.soil == SAND:
         sand = from_cone(f"Sand of cone index {given.cone_index:g} kPa", index, CLASS, None)
-        return f"{sand.text()}contact: {materials / 'contact' / 'sand.yaml'}\n"
+        return f"{sand.text()}contact: {clay.parent / 'contact' / 'sand.yaml'}\n"
     strength = index / INDEX_OVER_STRENGTH
     return (
         f"title: Clay of cone index {given.cone_index:g} kPa\n"
         f"# Strength: cone index over {INDEX_OVER_STRENGTH:g}. Modulus: {STIFFNESS:g} times the strength.\n"
-        f"base: {materials / 'clay_medium.yaml'}\n"
+        f"base: {clay}\n"
         f"law: {{su: {strength:g}}}\nelasticity: {{E: {STIFFNESS * strength:g}}}\n"
         "contact:\n  rubber:\n    friction: 1\n    friction_range: [0.5, 1.5]\n    slip_length: 0.006\n"
         f"    slip_length_range: [0.003, 0.009]\n    shear_limit: {ADHESION * strength:g}\n"
@@ -97,18 +98,19 @@ def _soil(given: Given) -> str:
 
 def compared(run: Path, formulas: Formulas, towed: bool) -> list[str]:
     """The table of the formulas, then a line for each value of the run with its whole error and the band."""
-    found, errors = Summary(run).quantities, whole_errors(run)
+    found, errors = Summary(run).quantities, budgets_of(run)
     lines = ["", "Formulas of this cone index", formulas.report(), ""]
     for name, of_formulas in COMPARED.items():
         quantity = of_formulas[0 if towed else 1]
         band = formulas.band(quantity) if quantity else None
         if name not in found or band is None:
             continue
-        value, error = float(found[name]["mean"]), errors.get(name, float(found[name]["standard_error"]))
+        value, error, missing = float(found[name]["mean"]), errors[name].total, errors[name].missing_text()
         _, low, high = band
         known = f"formulas {low:.3g} to {high:.3g}" if low < high else f"formula {low:.3g}, of unknown scatter"
         apart = max(low - value, value - high, 0.0) / error if error > 0.0 else 0.0
-        lines.append(f"{name.replace('_', ' ')} {value:.3g} ± {error:.2g}; {known}: {_place(apart)}")
+        lacks = f" ({missing})" if missing else ""
+        lines.append(f"{name.replace('_', ' ')} {value:.3g} ± {error:.2g}{lacks}; {known}: {_place(apart)}")
     return lines
 
 

@@ -4,7 +4,7 @@
 from pathlib import Path
 
 from ..arguments import at_least, between, path
-from ..programs import source_tree
+from ..programs import results_folder
 from ..scene.converging import converge, convergence_table, material_table, vary_material
 from .parameters import Given, argument, command, flag, option
 
@@ -19,7 +19,7 @@ from .parameters import Given, argument, command, flag, option
     option("-o", "--output", parse=path, help="folder of the runs (default: results/SCENE_convergence)"),
 )
 def converge_(given: Given) -> None:
-    folder: Path = given.output or (source_tree() or Path.cwd()) / "results" / f"{Path(given.scene).stem}_convergence"
+    folder: Path = given.output or results_folder(f"{Path(given.scene).stem}_convergence")
     if given.material:
         made = vary_material(given.scene, list(given.given), folder, given.jobs)
         print(material_table(made))

@@ -138,10 +138,10 @@ def _of_sweep(*names: str, help: str, **more: Any) -> Any:
     closing=lambda: f"Scenes:\n{listing()}",
 )
 def run(given: Given) -> int:
-    return run_scene(given, _post)
+    return run_scene(given, post)
 
 
-def _post(*words: object) -> int:
+def post(*words: object) -> int:
     """Another command of furrow-post in this process. @raises ResultsError"""
     main = importlib.import_module(".main", __package__)
     status = main.root.main(list(map(str, words)), prog_name=main.NAME, standalone_mode=False)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import Interrupted, ResultsError
-from ..programs import source_tree
+from ..programs import results_folder
 from ..run.script import RESERVED, check_variables, script_variables
 from ..run.executor import Failed
 from ..run.process import CHECKPOINT
@@ -110,7 +110,7 @@ def _sweeps() -> Any:
 def _default_folder(options: Any) -> Path:
     name = Path(options.scene).stem if options.scene else "two_grounds"
     ending = ("_sweep" if options.sweep else "") + ("_quick" if options.quick else "")
-    return (source_tree() or Path.cwd()) / "results" / (name + ending)
+    return results_folder(name + ending)
 
 
 def _run(request: Request, post: Post) -> int:
