@@ -38,7 +38,6 @@ class ChoiceTest(unittest.TestCase):
         self.assertAlmostEqual(by_model[0].error, math.hypot(1e-4, 0.005, 0.01) / 0.1)
         self.assertIs(wanted_error._chosen([forecast(0.003, 100.0), forecast(0.0025, 1e4)], 0.05, math.inf).cpu_time, 100.0)
 
-
     def test_an_error_out_of_reach_keeps_the_sizes_of_the_scene(self) -> None:
         found = [forecast(0.001, 10.0, 0.1, 2.0), forecast(0.0005, 100.0, 0.1), forecast(0.0002, 1e4, 0.1, 0.5)]
         self.assertIs(wanted_error._chosen(found, 0.05, math.inf), found[1])
