@@ -78,9 +78,9 @@ void TerrainContact::select_active() {
   }
 }
 
-/// Mean slip of the touching ones among the active particles, from number n on, of one cell [m].
+/// Contact of the active particles of one cell, from number n on.
 /// @param end  of these active particles
-double TerrainContact::mean_slip_in_cell(std::size_t n, std::size_t& end) {
+TerrainContact::CellContact TerrainContact::contact_in_cell(std::size_t n, std::size_t& end) {
   const auto cell = [&](std::size_t m) {
     const ParticleIndex& particle = active_particles_[m];
     return std::pair(particle.group,
@@ -88,21 +88,25 @@ double TerrainContact::mean_slip_in_cell(std::size_t n, std::size_t& end) {
   };
   const auto this_cell = cell(n);
   double sum = 0.0;
-  int touching = 0;
+  int touching = 0, bouncing = 0;
   for (end = n; end < active_particles_.size() && cell(end) == this_cell; ++end) {
     const ContactHistory& history = history_of(active_particles_[end]);
-    if (!history.touches()) continue;
-    sum += history.slip;
-    ++touching;
+    if (history.touches()) {
+      sum += history.slip;
+      ++touching;
+    } else if (history.slip > 0.0) {
+      ++bouncing;
+    }
   }
-  return touching > 0 ? sum / touching : 0.0;
+  if (touching == 0) return {};
+  return {sum / touching, 1.0 + static_cast<double>(bouncing) / touching};
 }
 
 template <class Law>
 void TerrainContact::add_forces(const Law& law, double dt) {
-  double slip_in_cell = 0.0;
+  CellContact cell;
   for (std::size_t n = 0, end_of_cell = 0; n < active_.size(); ++n) {
-    if (n == end_of_cell) slip_in_cell = mean_slip_in_cell(n, end_of_cell);
+    if (n == end_of_cell) cell = contact_in_cell(n, end_of_cell);
     const ParticleIndex& particle = active_particles_[n];
     const ParticleGroup& group = group_of(particle);
     ContactHistory& history = history_of(particle);
@@ -116,14 +120,14 @@ void TerrainContact::add_forces(const Law& law, double dt) {
         history.lift(last_dt_ * velocity.cross(contact.normal).norm());
       continue;
     }
-    if (history.slip == 0.0) history.slip = slip_in_cell;
+    if (history.slip == 0.0) history.slip = cell.slip;
     law.update_stiffness(group, particle.particle, history, step_.losses);
     history.gap = contact.gap;
     history.normal = contact.normal;
     history.triangle = static_cast<double>(contact.triangle);
     history.barycentric = contact.barycentric;
     const double length = std::cbrt(group.particles.data(column::volume)[particle.particle]);
-    const double area = length * length;
+    const double area = length * length * cell.area_share;
     const Vector3 force =
         law.force({contact, velocity, group.mass(particle.particle), area, last_dt_}, dt, history,
                   step_.losses);

@@ -72,7 +72,13 @@ class TerrainContact : public Contact {
   ContactHistory& history_of(const ParticleIndex& particle);
   void search();
   void select_active();
-  double mean_slip_in_cell(std::size_t n, std::size_t& end);
+  /// Contact in a cell of the ground. Of particles that press unequally some bounce in each step;
+  /// the others carry their share of the surface too.
+  struct CellContact {
+    double slip = 0.0;        // mean of the touching particles [m]
+    double area_share = 1.0;  // surface of touching and bouncing particles over that of the first
+  };
+  CellContact contact_in_cell(std::size_t n, std::size_t& end);
   template <class Law>
   void add_forces(const Law& law, double dt);
   ContactPoint find_contact(std::size_t n, ContactHistory& history, Vector3& velocity);

@@ -263,6 +263,29 @@ TEST(TerrainContact, RoughPlateDragsWithTheShearLimit) {
   }
 }
 
+/// Every second row of particles is lower, and bounces after all have slid. The others drag with
+/// the shear limit of the whole surface, 0.2 m x 0.2 m.
+TEST(TerrainContact, BouncingParticlesLeaveTheirShareOfTheShearLimitToTheOthers) {
+  SlidingPlate sliding;
+  sliding.law.friction = std::numeric_limits<double>::infinity();
+  sliding.law.slip_length = 0.0;
+  sliding.law.shear_limit = 50.0;
+  for_particles(*sliding.ground, [](Particles& particles, std::size_t p) {
+    const double row = std::floor((particles.position(p).x() + 0.1) / (2.0 * SlidingPlate::reach));
+    if (std::fmod(row, 2.0) > 0.5) particles.data(column::z)[p] -= 1.5e-4;
+  });
+  sliding.touch();
+  const double contacts = sliding.contact->contacts();
+  sliding.move({0, 0, -2e-4}, 10);
+  sliding.move({9e-3, 0, 0}, 1000);
+  EXPECT_EQ(sliding.contact->contacts(), 2.0 * contacts);
+  sliding.move({0, 0, 2e-4}, 10);
+  sliding.move({9e-3, 0, 0}, 1000);
+  EXPECT_EQ(sliding.contact->contacts(), contacts);
+  EXPECT_NEAR(sliding.contact->force().x(), -50.0 * 0.2 * 0.2, 1e-9);
+  EXPECT_NEAR(sliding.contact->area(), 0.2 * 0.2, 1e-12);
+}
+
 /// Undersides of two ribs, with a groove between them.
 class TwoRibs : public Body {
  public:
