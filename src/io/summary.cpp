@@ -224,7 +224,7 @@ std::string summary_text(const Summary& s) {
   if (!s.closed)
     text += "THE RUN DID NOT COME TO ITS END: what follows is what there was when it stopped.\n\n";
   text += verdict_head + verdict_of(s) + "\n";
-  if (s.trouble.empty()) text += error_note("FOLDER");
+  if (s.trouble.empty()) text += error_note("<folder of this file>");
   text += "\n";
   text += s.trouble.empty() ? answer_table(s.resistance) + "\n" + steady_table(s.resistance) +
                                   passes_table(s.passes) + parts_table(s.resistance.parts)

@@ -72,8 +72,8 @@ class TerrainContact : public Contact {
   ContactHistory& history_of(const ParticleIndex& particle);
   void search();
   void select_active();
-  /// Contact in a cell of the ground. Of particles that press unequally some bounce in each step;
-  /// the others carry their share of the surface too.
+  /// Contact in a cell of the ground. Some of its particles bounce in each step, because they press
+  /// unequally. The others carry their share of the surface too.
   struct CellContact {
     double slip = 0.0;        // mean of the touching particles [m]
     double area_share = 1.0;  // surface of touching and bouncing particles over that of the first

@@ -54,7 +54,7 @@ TEST(Summary, ErrorOverTimeNamesWhatItLeavesOut) {
   EXPECT_THAT(note, HasSubstr("without cells or grains, ground, packing, material and model"));
   EXPECT_THAT(note, HasSubstr("furrow-post budget results/a\n"));
   const std::string text = summary_text(summary());
-  EXPECT_LT(text.find(error_note("FOLDER")), text.find("Window: "));
+  EXPECT_LT(text.find(error_note("<folder of this file>")), text.find("Window: "));
   Summary none;
   none.trouble = "the wheel digs in";
   EXPECT_EQ(summary_text(none).find("over time"), std::string::npos);
