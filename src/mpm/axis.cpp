@@ -15,25 +15,65 @@ namespace {
 // ratio of neighbouring cells: a coarser grading reflects waves
 constexpr double max_growth = 1.5;
 
-/// Ends of the cells from `start` outwards over `distance` in the direction `sign`, each longer
-/// than the last by `growth`; all are stretched by one factor so that the last ends there.
-std::vector<double> growing_cells(double start, double distance, double cell, double growth,
-                                  double sign) {
+/// Lengths of cells from the fine stretch outwards in any unit, and their sum.
+struct Tail {
   std::vector<double> lengths;
   double sum = 0.0;
-  for (double length = cell * growth; sum < distance * (1.0 - 1e-9); length *= growth) {
-    lengths.push_back(length);
-    sum += length;
+};
+
+/// Cells over a distance, each longer than the last by `growth`.
+Tail growing_cells(double distance, double cell, double growth) {
+  Tail tail;
+  for (double length = cell * growth; tail.sum < distance * (1.0 - 1e-9); length *= growth) {
+    tail.lengths.push_back(length);
+    tail.sum += length;
   }
   // One cell less where that is nearer: the cells are then stretched instead of shrunk.
-  if (lengths.size() > 1 && distance - (sum - lengths.back()) < sum - distance) {
-    sum -= lengths.back();
-    lengths.pop_back();
+  if (tail.lengths.size() > 1 &&
+      distance - (tail.sum - tail.lengths.back()) < tail.sum - distance) {
+    tail.sum -= tail.lengths.back();
+    tail.lengths.pop_back();
   }
+  return tail;
+}
+
+/// AxisLayout::stepped over a number of fine cells, from the longest inwards: each cell has the
+/// length of the one before or the next shorter one. Cells of 3/2 come in pairs.
+Tail stepped_cells(double distance, double growth) {
+  std::vector<double> steps = {1.0, 1.5, 2.0};    // lengths
+  std::vector<double> shorter = {0.0, 0.0, 3.0};  // distance for one of each shorter length
+  while (steps.back() < distance) {
+    shorter.push_back(shorter.back() + steps.back());
+    steps.push_back(2.0 * steps[steps.size() - 2]);
+  }
+  const auto cells_of = [](std::size_t step) { return step == 1 ? 2.0 : 1.0; };
+  Tail tail;
+  std::size_t step = steps.size() - 1, shortest = 0;
+  while (tail.sum < distance - 0.5) {
+    const double left = distance - tail.sum;
+    const auto fits = [&](std::size_t n) {
+      return steps[n] <= 1.0 + std::log(growth) * (left - 0.5 * steps[n]) &&
+             cells_of(n) * steps[n] + shorter[n] <= left;
+    };
+    while (step > shortest && !fits(step)) --step;
+    tail.lengths.insert(tail.lengths.begin(), static_cast<std::size_t>(cells_of(step)),
+                        steps[step]);
+    tail.sum += cells_of(step) * steps[step];
+    shortest = step == 0 ? 0 : step - 1;
+  }
+  return tail;
+}
+
+/// Ends of the cells from `start` outwards over `distance` in the direction `sign`; all are
+/// stretched by one factor so that the last ends there.
+std::vector<double> ends_of_tail(const AxisLayout& layout, double start, double distance,
+                                 double cell, double sign) {
+  const Tail tail = layout.stepped ? stepped_cells(std::round(distance / cell), layout.growth)
+                                   : growing_cells(distance, cell, layout.growth);
   std::vector<double> ends;
   double end = 0.0;
-  for (const double length : lengths)
-    ends.push_back(start + sign * (end += length) * (distance / sum));
+  for (const double length : tail.lengths)
+    ends.push_back(start + sign * (end += length) * (distance / tail.sum));
   return ends;
 }
 
@@ -106,10 +146,10 @@ Axis::Axis(const AxisLayout& layout, const std::string& where) {
                      fmt::format("1 to {}", max_growth), "coarser steps reflect waves");
   const int fine = std::max(1, static_cast<int>(std::lround((upper - lower) / layout.cell)));
   const double cell = (upper - lower) / fine;
-  for (const double end : growing_cells(lower, lower - layout.lower, cell, layout.growth, -1.0))
+  for (const double end : ends_of_tail(layout, lower, lower - layout.lower, cell, -1.0))
     knot_.insert(knot_.begin(), end);
   for (int i = 0; i <= fine; ++i) knot_.push_back(lower + i * cell);
-  for (const double end : growing_cells(upper, layout.upper - upper, cell, layout.growth, 1.0))
+  for (const double end : ends_of_tail(layout, upper, layout.upper - upper, cell, 1.0))
     knot_.push_back(end);
   knot_.front() = layout.lower;
   knot_.back() = layout.upper;
@@ -117,6 +157,7 @@ Axis::Axis(const AxisLayout& layout, const std::string& where) {
   initial_knot_ = knot_;
   tabulate();
   shortest_at_start_ = shortest_;
+  fine_cell_ = uniform_ ? (knot_.back() - knot_.front()) / cells() : cell;
 }
 
 double Axis::cell_count(const AxisLayout& layout) {
@@ -128,6 +169,11 @@ double Axis::cell_count(const AxisLayout& layout) {
   double count = fine;
   for (const double distance : {lower - layout.lower, layout.upper - upper}) {
     if (!(distance > 0.0)) continue;
+    if (layout.stepped) {
+      count +=
+          static_cast<double>(stepped_cells(std::round(distance / cell), growth).lengths.size());
+      continue;
+    }
     // cell (growth + growth^2 + ... + growth^n) = distance
     const double cells = distance / cell;
     count += growth > 1.0 ? std::log1p(cells * (growth - 1.0) / growth) / std::log(growth) : cells;
@@ -213,9 +259,8 @@ AxisView Axis::view() const {
 
 void Axis::shift(int count) {
   if (count == 0) return;
-  if (!uniform_) throw Error("a graded axis cannot move by whole cells");
   shifted_ += count;
-  const double distance = shifted_ * ((initial_knot_.back() - initial_knot_.front()) / cells());
+  const double distance = shifted_ * fine_cell_;
   for (std::size_t i = 0; i < knot_.size(); ++i) knot_[i] = initial_knot_[i] + distance;
   tabulate();
 }

@@ -25,6 +25,10 @@ struct AxisLayout {
   double fine_upper = 1.0;  ///< its end [m]
   /// ratio of the lengths of neighbouring cells outside the fine stretch, >= 1
   double growth = 1.0;
+  /// Cells outside have 1, 3/2, 2, 3, 4, 6, 8 ... times the length, each as often as `growth` asks
+  /// for. From an end of the axis to the fine stretch is a whole number of fine cells. Particles
+  /// of 1, 2, 4, 8 ... times the length then fill such cells, two or three of them a cell.
+  bool stepped = false;
   /// places where a body ends across the axis: a knot lies there, between short cells [m]
   std::vector<double> edges = {};
   /// length of the shortest cells at an edge [m]; they grow by a factor of at most 1.4
@@ -82,8 +86,9 @@ class Axis {
   int cell_of(double x) const;
   AxisView view() const;
 
-  /// Moves the whole axis by a number of cells of a uniform axis.
-  /// @throws Error for a graded axis
+  /// Length of a cell of the fine stretch before any shift [m].
+  double fine_cell() const { return fine_cell_; }
+  /// Moves the whole axis by a number of fine cells.
   void shift(int cells);
 
  private:
@@ -95,7 +100,8 @@ class Axis {
   std::vector<double> node_;
   // Knots before any shift: a position then has the same bits after any series of shifts.
   std::vector<double> initial_knot_;
-  int shifted_ = 0;  // in cells
+  int shifted_ = 0;         // in fine cells
+  double fine_cell_ = 0.0;  // [m]
   std::vector<int> cell_of_bin_;
   std::vector<int> irregular_;
   int regular_from_ = 0;

@@ -102,7 +102,8 @@ class Grid {
   NodeTotals move(const NodeBlock& block, const NodeBlock& owned, double dt);
   void clear_displacement(const NodeBlock& block);
 
-  /// The axis moves along x by whole cells; the numbers of the nodes stay where they are in memory.
+  /// The axis moves along x by whole fine cells; the numbers of the nodes stay where they are in
+  /// memory.
   void shift_x(int cells) { axes_[0].shift(cells); }
   /// View for kernels, valid until the grid is shifted or stores other columns.
   GridView view(int field = 0);
