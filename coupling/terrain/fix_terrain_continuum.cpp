@@ -86,9 +86,22 @@ void refine_edges(LAMMPS_NS::LAMMPS& lammps, const Options& options,
   refine(parameters.z, {std::min(lower.z(), parameters.surface), parameters.surface});
 }
 
+/// x of the middle of bodies [m].
+double middle_of(const std::vector<const Body*>& bodies) {
+  double middle = 0.0;
+  for (const Body* body : bodies) middle += body->surface().x.row(0).mean();
+  return middle / static_cast<double>(bodies.size());
+}
+
 std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   TerrainParameters parameters = read_terrain(options, script_folder(lammps));
   refine_edges(lammps, options, parameters);
+  parameters.window = options.given("follow");
+  if (parameters.window && options.given("fine_length") && parameters.x.edges.empty()) {
+    const FollowingAxis axis = following_axis(parameters.x, options.where("fine_length"));
+    parameters.x = axis.layout;
+    parameters.halvings = axis.halvings;
+  }
   for (const TerrainLayer& layer : parameters.layers)
     for (const std::string& warning : layer.warnings) warn(lammps, warning);
   for (const std::string& doubt : parameters.relief.doubts(
@@ -102,7 +115,6 @@ std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& opt
                      "length {:.4g} m, width {:.4g} m or depth {:.4g} m is in another unit, give m",
                      options.subject(), particles, seconds_of_particle * particles,
                      options.number("length"), options.number("width"), options.number("depth")));
-  parameters.window = options.given("follow");
   if (options.given("slabs")) parameters.slabs = static_cast<std::size_t>(options.integer("slabs"));
   return std::make_unique<ContinuumTerrain>(parameters, Communicator(&lammps.world),
                                             options.subject());
@@ -223,7 +235,7 @@ void FixTerrainContinuum::report() {
     fmt::print(screen,
                "Continuum terrain: {:.4g} m long{}, {:.4g} m wide{}, {} x {} x {} cells, shortest "
                "{:.4g} m, {:.0f} particles; stable step {:.3g} s{}\n",
-               options().number("length"),
+               grid.axis(0).upper() - grid.axis(0).lower(),
                options().given("length") ? "" : " by the wheel's radius and the depth",
                options().number("width"),
                options().given("width") ? "" : " by the wheel's width and the depth",
@@ -266,11 +278,27 @@ void FixTerrainContinuum::warn_of_extremes() {
        {std::pair("fine_length", "length"), std::pair("fine_width", "width"),
         std::pair("fine_depth", "depth")})
     if (options().has(part) && options().has(whole) &&
-        options().number(part) > options().number(whole))
+        options().number(part) > options().number(whole) &&
+        !(options().given("follow") && part == std::string("fine_length")))
       warn(*lmp, fmt::format("{} is {:g} m, and '{}' {:g} m: all cells are as fine as 'cell'; "
                              "remove it, or give m, not cm",
                              options().where(part), options().number(part), whole,
                              options().number(whole)));
+  if (options().given("follow") && options().given("fine_length") &&
+      terrain().grid().axis(0).uniform())
+    warn(*lmp,
+         fmt::format("{} is {:g} m: 'length', {:.4g} m, has no room for longer cells outside "
+                     "of it, and all cells are as fine as 'cell'; make it shorter, or remove it",
+                     options().where("fine_length"), options().number("fine_length"),
+                     options().number("length")));
+  const Axis& x = terrain().grid().axis(0);
+  if (!followed_.empty() && !x.uniform() &&
+      middle_of(followed_) < 0.5 * (x.lower() + x.upper()) - x.length(0))
+    warn(*lmp,
+         fmt::format("{}: the body starts {:.3g} m behind the middle of the fine cells, which "
+                     "do not move back; put 'centre' below the body",
+                     options().where("follow"),
+                     0.5 * (x.lower() + x.upper()) - middle_of(followed_)));
   if (options().number("surcharge") > 0.0 && !options().flag("surface_mesh"))
     warn(*lmp, fmt::format("{} is given without 'surface_mesh yes': no grains can lie on the "
                            "terrain, whose stress starts as if they did; remove it",
@@ -283,9 +311,7 @@ void FixTerrainContinuum::warn_of_extremes() {
 
 void FixTerrainContinuum::apply(double, double) {
   if (followed_.empty()) return;
-  double middle = 0.0;
-  for (const Body* body : followed_) middle += body->surface().x.row(0).mean();
-  middle /= static_cast<double>(followed_.size());
+  const double middle = middle_of(followed_);
   if (options().given("slabs"))
     refuse_to_be_left(middle);
   else

@@ -294,7 +294,8 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
       .optional();
   schema
       .number("fine_length", "m", Range::positive(),
-              "length along x, around the middle, with cells of size `cell`; by default all")
+              "length along x, around the middle or the body of `follow`, with cells of size "
+              "`cell`; by default all")
       .optional();
   schema
       .number("fine_width", "m", Range::positive(),

@@ -87,6 +87,12 @@ std::optional<DividedGround> make_divided(const TerrainParameters& parameters,
   return DividedGround(discretisation, parameters.boundary);
 }
 
+std::optional<ParticleRefinement> make_refinement(const TerrainParameters& parameters,
+                                                  const Grid& grid, const std::string& where) {
+  if (parameters.halvings == 0) return {};
+  return ParticleRefinement(parameters, grid, where);
+}
+
 }  // namespace
 
 ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Communicator& ranks,
@@ -103,6 +109,7 @@ ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Co
       slide_(parameters.slide),
       active_(make_active(parameters, discretisation_, boundary_, energy_, where)),
       divided_(make_divided(parameters, discretisation_, where)),
+      refinement_(make_refinement(parameters, discretisation_.grid, where)),
       step_(discretisation_, boundary_, distribution_, remap_, loads_, energy_, parameters.gravity,
             parameters.scheme, slide_ ? &*slide_ : nullptr, active_ ? &*active_ : nullptr,
             divided_ ? &*divided_ : nullptr),
@@ -112,12 +119,12 @@ ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Co
 }
 
 void ContinuumTerrain::fill(const std::string& where) {
-  const Grid& grid = discretisation_.grid;
-  for (int cell = 0; cell < grid.axis(0).cells(); ++cell) fill_.add_cells(cell, discretisation_);
+  fill_.fill(discretisation_);
+  if (refinement_) refinement_->refine(discretisation_.groups);
   if (slide_) check_both_sides(discretisation_, where);
   energy_.add_initial(internal_energy(discretisation_.groups));
   if (parameters_.surface_mesh)
-    free_surface_ = FreeSurfaceMesh(fill_, grid, parameters_.surface_mesh_every,
+    free_surface_ = FreeSurfaceMesh(fill_, grid(), parameters_.surface_mesh_every,
                                     std::max<std::size_t>(1, parameters_.slabs));
   sort_particles();
   if (free_surface_.exists()) free_surface_.update(discretisation_.groups, loads_, ranks());
@@ -173,6 +180,7 @@ void ContinuumTerrain::step(double dt, const Matrix3X& surface_forces) {
   if (!remap_.interval_running()) {
     const bool moved = window_.move();
     if (moved) place_surface_mesh();
+    if (moved && refinement_) refinement_->refine(discretisation_.groups);
     const bool decided = active_ && active_->decide();
     if (moved || decided || distribution_.sorting_due() || (divided_ && divided_->sorting_due()))
       sort_particles();

@@ -18,6 +18,7 @@
 #include "mpm/moving_window.h"
 #include "mpm/multirate.h"
 #include "mpm/particle_distribution.h"
+#include "mpm/particle_refinement.h"
 #include "mpm/point_loads.h"
 #include "mpm/remap_control.h"
 #include "mpm/terrain_energy.h"
@@ -38,6 +39,7 @@ namespace furrow {
 ///   ActiveGround          ground at rest that is not computed
 ///   DividedGround         ground on both sides of thin parts
 ///   MovingWindow          ground that moves along with a body, and the rut behind it
+///   ParticleRefinement    particles of this window that suit their cells
 ///   FreeSurfaceMesh       triangles for grains that lie on the terrain
 ///   Multirate             one step of the terrain for several of these grains
 ///   TerrainEnergy         energies and works
@@ -128,7 +130,8 @@ class ContinuumTerrain : public Body {
 
   // ---- moving window; not collective ------------------------------------------------------------
 
-  /// The middle of the terrain follows this x [m], by whole cells or slabs, from the next remap on.
+  /// The middle of the terrain follows this x [m], by whole cells, slabs or strides, from the next
+  /// remap on.
   void follow(double x) { window_.follow(x); }
   const RutRecord& rut() const { return window_.rut(); }
   double travelled() const { return window_.travelled(); }  ///< of the grid since the start [m]
@@ -155,6 +158,7 @@ class ContinuumTerrain : public Body {
   std::optional<SlideContact> slide_;
   std::optional<ActiveGround> active_;
   std::optional<DividedGround> divided_;
+  std::optional<ParticleRefinement> refinement_;
   TerrainStep step_;
   MovingWindow window_;
   FreeSurfaceMesh free_surface_;

@@ -14,6 +14,7 @@ MovingWindow::MovingWindow(const TerrainParameters& parameters, Discretisation& 
                            const ParticleDistribution& distribution, Boundary& boundary,
                            TerrainFill& fill, TerrainEnergy& energy, const std::string& where)
     : enabled_(parameters.window),
+      cells_(1 << parameters.halvings),
       per_cell_(static_cast<std::size_t>(parameters.particles_per_cell[0])),
       has_surface_mesh_(parameters.surface_mesh),
       discretisation_(discretisation),
@@ -31,9 +32,10 @@ MovingWindow::MovingWindow(const TerrainParameters& parameters, Discretisation& 
 
 void MovingWindow::check(const TerrainParameters& parameters, const std::string& where) const {
   const Axis& x = discretisation_.grid.axis(0);
-  if (!x.uniform())
+  if (!x.uniform() && cells_ == 1)
     throw InputError(where, "moves along a graded x axis",
-                     "a uniform x axis for ground that moves");
+                     "a uniform x axis for ground that moves, or one of 'fine_length'",
+                     "'edges' of a body that is no wheel need ground that stays");
   const int slabs = static_cast<int>(parameters.slabs);
   if (has_surface_mesh_ && slabs == 0)
     throw InputError(where, "follows a body and has a surface mesh",
@@ -58,32 +60,43 @@ bool MovingWindow::move() {
   if (!enabled_) return false;
   const Axis& x = discretisation_.grid.axis(0);
   bool moved = false;
-  while (followed_x_ > 0.5 * (x.lower() + x.upper()) + stride_ * x.length(0)) {
+  while (followed_x_ > 0.5 * (x.lower() + x.upper()) + lead()) {
     // Rows of the far field pass from rank to rank when the grid moves.
     if (!moved)
       boundary_.synchronise(discretisation_.ranks(), discretisation_.partition.owned_nodes());
-    for (int cell = 0; cell < stride_; ++cell) move_by_cell();
+    for (int layer = 0; layer < stride_; ++layer) move_by_layer();
     moved = true;
   }
   return moved;
 }
 
-void MovingWindow::move_by_cell() {
-  remove_first_cells();
-  discretisation_.grid.shift_x(1);
-  boundary_.shift_x(1);
-  ++shifts_;
+/// How far the middle stays behind what it follows, at most [m].
+double MovingWindow::lead() const {
+  const Axis& x = discretisation_.grid.axis(0);
+  return cells_ == 1 ? stride_ * x.length(0) : 0.5 * cells_ * x.fine_cell();
+}
+
+double MovingWindow::first_layer_end() const {
+  const Axis& x = discretisation_.grid.axis(0);
+  return cells_ == 1 ? x.knot(1) : x.lower() + cells_ * x.fine_cell();
+}
+
+void MovingWindow::move_by_layer() {
+  remove_first_layer();
+  discretisation_.grid.shift_x(cells_);
+  boundary_.shift_x(cells_);
+  shifts_ += cells_;
   const double before = internal_energy(discretisation_.groups);
-  fill_.add_cells(discretisation_.grid.axis(0).cells() - 1, discretisation_);
+  fill_.add_ahead(discretisation_);
   energy_.add_initial(internal_energy(discretisation_.groups) - before);
 }
 
-/// Removes this rank's particles in the first layer of cells across x. Particles of a surface mesh
+/// Removes this rank's particles in the first layer across x. Particles of a surface mesh
 /// that came there from further ahead, against the travel, are kept: they go to the new end of the
 /// ground, where undisturbed ones would be. Collective.
-void MovingWindow::remove_first_cells() {
+void MovingWindow::remove_first_layer() {
   const Axis& y = discretisation_.grid.axis(1);
-  const double edge = discretisation_.grid.axis(0).knot(1);
+  const double edge = first_layer_end();
   // Top, mass and volume of the removed particles, by row of cells along y
   std::vector<double> top(static_cast<std::size_t>(y.cells()),
                           -std::numeric_limits<double>::infinity());
@@ -136,7 +149,7 @@ void MovingWindow::record_rut(const std::vector<double>& top, const std::vector<
   for (std::size_t row = 0; row < top.size(); ++row) {
     if (!(volume[row] > 0.0)) continue;
     const int cell = static_cast<int>(row);
-    rut_.add({0.5 * (x.lower() + x.knot(1)), y.knot(cell) + 0.5 * y.length(cell), top[row],
+    rut_.add({0.5 * (x.lower() + first_layer_end()), y.knot(cell) + 0.5 * y.length(cell), top[row],
               mass[row] / volume[row]});
   }
 }

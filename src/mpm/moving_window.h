@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Ground that moves along with a body: removed behind, added ahead, one layer of cells at a time;
-/// or one slab of some at a time, where it carries a surface mesh.
+/// or one slab of some at a time, where it carries a surface mesh; or one stride of fine cells at a
+/// time, where the x axis is graded.
 
 #include <string>
 #include <vector>
@@ -20,16 +21,17 @@ namespace furrow {
 class MovingWindow {
  public:
   /// All parts must outlive the window. @param where  names the terrain in errors
-  /// @throws InputError for a window with a graded x axis, with a surface mesh and no slabs, or
-  /// with slabs of no whole number of cells
+  /// @throws InputError for a window with a graded x axis that following_axis() did not make, with
+  /// a surface mesh and no slabs, or with slabs of no whole number of cells
   MovingWindow(const TerrainParameters& parameters, Discretisation& discretisation,
                const ParticleDistribution& distribution, Boundary& boundary, TerrainFill& fill,
                TerrainEnergy& energy, const std::string& where);
 
   /// The middle of the window is to follow this x [m].
   void follow(double x) { followed_x_ = x; }
-  /// Moves until the middle is within a cell (a slab) of what it follows. Particles must be up to
-  /// date with the grid. Collective. @return whether it moved: particles must then be sorted
+  /// Moves until the middle is within a cell (a slab, half a stride) of what it follows. Particles
+  /// must be up to date with the grid. Collective. @return whether it moved: particles must then be
+  /// sorted
   /// @throws StateError when a particle to be removed is outside of the grid
   bool move();
 
@@ -42,14 +44,17 @@ class MovingWindow {
   void checkpoint_rut(Checkpoint& state);  ///< collective
 
  private:
-  void move_by_cell();
-  void remove_first_cells();
+  double lead() const;
+  double first_layer_end() const;
+  void move_by_layer();
+  void remove_first_layer();
   void check(const TerrainParameters& parameters, const std::string& where) const;
   void record_rut(const std::vector<double>& top, const std::vector<double>& mass,
                   const std::vector<double>& volume);
 
   bool enabled_;
-  int stride_ = 1;         // cells that it moves by at a time
+  int stride_ = 1;         // layers that it moves by at a time
+  int cells_;              // fine cells of a layer
   std::size_t per_cell_;   // columns of particles
   bool has_surface_mesh_;  // whose nodes are attached to particles
   Discretisation& discretisation_;
@@ -59,7 +64,7 @@ class MovingWindow {
   TerrainEnergy& energy_;
   double followed_x_;  // [m]
   double start_;       // lower end of the grid at the start [m]
-  int shifts_ = 0;     // in cells
+  int shifts_ = 0;     // in fine cells
   RutRecord rut_;
 };
 

@@ -44,21 +44,23 @@ Particles::Particles(const Material& material) : state_fields_(material.state_fi
   }
 }
 
-Particles::AddedValues Particles::add_column(const std::string& owner, int components) {
+Particles::AddedValues Particles::add_column(const std::string& owner, int components,
+                                             bool (*idle)(const double* values)) {
   remove_released_columns();
   const auto found = std::find_if(added_.begin(), added_.end(),
                                   [&](const auto& column) { return column->name == owner; });
   if (found == added_.end()) {
     added_.push_back(std::make_shared<AddedColumn>(
-        AddedColumn{{components, zeros(components)}, owner, AddedColumn::Owner::present}));
+        AddedColumn{{components, zeros(components)}, owner, AddedColumn::Owner::present, idle}));
     return AddedValues(added_.back());
   }
-  const AddedColumn& column = **found;
+  AddedColumn& column = **found;
   if (column.owner == AddedColumn::Owner::present)
     throw Error(fmt::format("{} keeps values with these particles already", owner));
   if (column.components != components)
     throw Error(fmt::format("{} keeps {} values with a particle, the checkpoint has {}", owner,
                             components, column.components));
+  column.idle = idle;
   return AddedValues(*found);
 }
 
@@ -85,8 +87,8 @@ void Particles::checkpoint_columns(Checkpoint& state) {
     state.value("values_kept_by", owner);
     state.value("their_number", components);
     if (!exists)
-      added_.push_back(std::make_shared<AddedColumn>(
-          AddedColumn{{components, zeros(components)}, owner, AddedColumn::Owner::absent}));
+      added_.push_back(std::make_shared<AddedColumn>(AddedColumn{
+          {components, zeros(components)}, owner, AddedColumn::Owner::absent, nullptr}));
     else if (owner != added_[n]->name || components != added_[n]->components)
       throw Error(fmt::format(
           "{}: {} keeps values with its particles, {} did when the checkpoint was written",
@@ -128,6 +130,30 @@ VectorX Particles::state(std::size_t i) const {
   for (std::size_t f = 0; f < state_fields_; ++f)
     state[static_cast<Eigen::Index>(f)] = data(column::state + f)[i];
   return state;
+}
+
+bool Particles::is_idle(std::size_t i) const {
+  return std::all_of(added_.begin(), added_.end(), [i](const auto& column) {
+    return !column->idle ||
+           column->idle(column->values.data() + static_cast<std::size_t>(column->components) * i);
+  });
+}
+
+std::size_t Particles::duplicate(std::size_t i) {
+  std::vector<double> record;
+  pack(i, record);
+  unpack(record.data());
+  return size_ - 1;
+}
+
+void Particles::average(std::size_t i, std::size_t other) {
+  for (Column& column : columns_) {
+    const auto n = static_cast<std::size_t>(column.components);
+    for (std::size_t c = 0; c < n; ++c) {
+      double& value = column.values[n * i + c];
+      value = 0.5 * (value + column.values[n * other + c]);
+    }
+  }
 }
 
 /// Particles that stay where they are, at both ends, are not touched if they are many: those of

@@ -53,6 +53,7 @@ class Particles {
     enum class Owner { absent, present, gone };  // absent: a checkpoint brought the values
     std::string name;                            // of the owner
     Owner owner;
+    bool (*idle)(const double* values);
   };
 
  public:
@@ -80,7 +81,10 @@ class Particles {
   /// @param owner  names who adds the column: "fix contact/continuum 'touch'"
   /// @param components  values of one particle
   /// @throws Error when the owner has a column already, or the checkpoint's has another length
-  AddedValues add_column(const std::string& owner, int components);
+  /// @param idle  whether a particle with these values may be divided or united with another;
+  /// null: always
+  AddedValues add_column(const std::string& owner, int components,
+                         bool (*idle)(const double* values) = nullptr);
   /// Removes the columns whose handles are gone; on every rank at the same time, because ranks
   /// exchange records of record_length().
   void remove_released_columns();
@@ -114,6 +118,13 @@ class Particles {
   std::size_t append(std::size_t count);
   void set_state(std::size_t i, const VectorX& state);
   VectorX state(std::size_t i) const;
+
+  /// False if the owner of an added column needs the particle as it is.
+  bool is_idle(std::size_t i) const;
+  /// Appends a copy of a particle. @return its index
+  std::size_t duplicate(std::size_t i);
+  /// A particle gets the means of its values and another one's; added columns stay.
+  void average(std::size_t i, std::size_t other);
 
   /// Particle i becomes what particle order[i] was; those not named are removed.
   void reorder(const std::vector<std::size_t>& order);

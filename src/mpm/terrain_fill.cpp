@@ -97,6 +97,11 @@ void check_layers(const TerrainParameters& parameters, const std::vector<Particl
 
 }  // namespace
 
+double band_width(const std::array<int, 3>& particles_per_cell, const Vector3& half) {
+  return 2.0 * std::cbrt(particles_per_cell[0] * particles_per_cell[1] * particles_per_cell[2] *
+                         half[0] * half[1] * half[2]);
+}
+
 Grid make_grid(const TerrainParameters& parameters, const std::string& where) {
   Grid grid(Axis(parameters.x, where + ", x axis"), Axis(parameters.y, where + ", y axis"),
             Axis(parameters.z, where + ", z axis"), parameters.velocity_fields());
@@ -132,7 +137,8 @@ TerrainFill::TerrainFill(const TerrainParameters& parameters, const Grid& grid,
       patch_begins_(begins_of(parameters.patches)),
       patch_levels_(make_patch_levels(parameters, levels_)),
       trough_(place_trough(parameters, grid.axis(1), levels_, where)),
-      levels_below_trough_(make_levels_below(trough_, parameters, levels_)) {
+      levels_below_trough_(make_levels_below(trough_, parameters, levels_)),
+      ids_per_particle_(1 << parameters.halvings) {
   check_layers(parameters, levels_, 0, where);
   for (std::size_t patch = 0; patch < patch_levels_.size(); ++patch)
     check_layers(parameters, patch_levels_[patch], patch + 1, where);
@@ -169,19 +175,42 @@ double TerrainFill::slowest_wave_speed() const {
   return *std::min_element(largest.begin(), largest.end());
 }
 
-void TerrainFill::add_cells(int x_cell, Discretisation& discretisation) {
+void TerrainFill::fill(Discretisation& discretisation) {
+  const Axis& x = discretisation.grid.axis(0);
+  if (ids_per_particle_ == 1) {
+    for (int cell = 0; cell < x.cells(); ++cell)
+      add_layer(x.knot(cell), x.length(cell), discretisation);
+    return;
+  }
+  const double thickness = stride(discretisation.grid);
+  const long layers = std::lround((x.upper() - x.lower()) / thickness);
+  for (long n = 0; n < layers; ++n)
+    add_layer(x.lower() + static_cast<double>(n) * thickness, thickness, discretisation);
+}
+
+void TerrainFill::add_ahead(Discretisation& discretisation) {
+  const Axis& x = discretisation.grid.axis(0);
+  const int last = x.cells() - 1;
+  if (ids_per_particle_ == 1)
+    add_layer(x.knot(last), x.length(last), discretisation);
+  else
+    add_layer(x.upper() - stride(discretisation.grid), stride(discretisation.grid), discretisation);
+}
+
+void TerrainFill::add_layer(double lower, double thickness, Discretisation& discretisation) {
   const Axis& x = discretisation.grid.axis(0);
   const Axis& y = discretisation.grid.axis(1);
   const Partition& partition = discretisation.partition;
   const int rows = particles_per_cell_[1];
-  for (int i = 0; i < particles_per_cell_[0]; ++i)
+  const double half_x = 0.5 * thickness / particles_per_cell_[0];
+  for (int i = 0; i < particles_per_cell_[0]; ++i) {
+    const double x_place = lower + (2 * i + 1) * half_x;
+    const int x_cell = x.cell_of(x_place);
     for (int y_cell = 0; y_cell < y.cells(); ++y_cell) {
       const bool mine = partition.owner(x_cell, y_cell) == partition.ranks().rank();
-      const double half_x = 0.5 * x.length(x_cell) / particles_per_cell_[0],
-                   half_y = 0.5 * y.length(y_cell) / rows;
+      const double half_y = 0.5 * y.length(y_cell) / rows;
       for (int j = 0; j < rows; ++j) {
-        const std::array<double, 2> place = {x.knot(x_cell) + (2 * i + 1) * half_x,
-                                             y.knot(y_cell) + (2 * j + 1) * half_y};
+        const std::array<double, 2> place = {x_place, y.knot(y_cell) + (2 * j + 1) * half_y};
         const double height = height_at(place);
         if (mine)
           add_stack(place, {half_x, half_y}, height, static_cast<std::size_t>(y_cell * rows + j),
@@ -189,6 +218,7 @@ void TerrainFill::add_cells(int x_cell, Discretisation& discretisation) {
         next_id_ += static_cast<double>(levels_.size());
       }
     }
+  }
 }
 
 const std::vector<ParticleLevel>& TerrainFill::levels_at(const std::array<double, 2>& place) const {
@@ -241,12 +271,11 @@ void TerrainFill::add_stack(const std::array<double, 2>& place,
     }
     particles.data(column::volume)[p] =
         8.0 * half[0] * half[1] * half[2] / level.state[field::volume_ratio];
-    particles.data(column::id)[p] = next_id_ + static_cast<double>(first + n);
+    particles.data(column::id)[p] = ids_per_particle_ * (next_id_ + static_cast<double>(first + n));
     particles.set_state(p, level.state);
     if (const auto width = band_widths_[level.layer])
       particles.data(column::state + *width)[p] =
-          2.0 * std::cbrt(particles_per_cell_[0] * particles_per_cell_[1] * particles_per_cell_[2] *
-                          half[0] * half[1] * half[2]);
+          band_width(particles_per_cell_, {half[0], half[1], half[2]});
   }
 }
 
@@ -262,7 +291,7 @@ std::size_t TerrainFill::first_level(std::size_t row) const {
   return trough_.contains(row) ? trough_.levels : 0;
 }
 
-/// Id of a particle as add_cells() counts: the levels of a place follow one another, those that a
+/// Id of a particle as add_layer() counts: the levels of a place follow one another, those that a
 /// trough leaves out too.
 double TerrainFill::id(const Grid& grid, std::size_t column, std::size_t row,
                        std::size_t level) const {

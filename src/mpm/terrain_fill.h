@@ -21,6 +21,10 @@ namespace furrow {
 /// @throws InputError for axes that cannot be, or a surface inside a cell
 Grid make_grid(const TerrainParameters& parameters, const std::string& where);
 
+/// Width of the shear band that a particle stands for: its cell [m].
+/// @param half  its half spacings [m]
+double band_width(const std::array<int, 3>& particles_per_cell, const Vector3& half);
+
 class TerrainFill {
  public:
   /// @param where  names the terrain in errors
@@ -32,9 +36,12 @@ class TerrainFill {
   /// Speed of pressure waves in the slowest layer, the largest one there [m/s].
   double slowest_wave_speed() const;
 
-  /// Appends the particles of a layer of cells across x that this rank owns. Ids are counted on
-  /// all ranks; every rank calls it for every layer. A slide surface gives each particle its side.
-  void add_cells(int x_cell, Discretisation& discretisation);
+  /// Fills the whole grid, layer by layer across x: one for each cell, or one for each stride of a
+  /// window with a graded axis. Appends the particles that this rank owns; ids are counted on all
+  /// ranks. A slide surface gives each particle its side.
+  void fill(Discretisation& discretisation);
+  /// Appends the last layer again, after a move of the window.
+  void add_ahead(Discretisation& discretisation);
 
   // Columns count along x, rows along y, levels from the surface down; how many, in the grid.
   std::size_t columns(const Grid& grid) const;
@@ -48,8 +55,10 @@ class TerrainFill {
   void checkpoint(Checkpoint& state);
 
  private:
+  double stride(const Grid& grid) const { return ids_per_particle_ * grid.axis(0).fine_cell(); }
   const std::vector<ParticleLevel>& levels_at(const std::array<double, 2>& place) const;
   double height_at(const std::array<double, 2>& place) const;
+  void add_layer(double lower, double thickness, Discretisation& discretisation);
   void add_stack(const std::array<double, 2>& place, const std::array<double, 2>& half_spacing,
                  double height, std::size_t row, Discretisation& discretisation);
 
@@ -69,6 +78,7 @@ class TerrainFill {
   std::vector<std::vector<ParticleLevel>> patch_levels_;  // of each patch, as many
   TroughPlace trough_;
   std::vector<ParticleLevel> levels_below_trough_;  // from its bottom down
+  int ids_per_particle_;  // for the parts into which ParticleRefinement divides it
   double next_id_ = 0.0;
 };
 

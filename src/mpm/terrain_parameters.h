@@ -87,6 +87,9 @@ struct TerrainParameters {
   bool window = false;  ///< moves along x with what ContinuumTerrain::follow() names
   /// parts of its length: with a surface mesh it moves on by one at a time; else 0, by cells
   std::size_t slabs = 0;
+  /// how often particles are halved along x on their way to the fine cells (following_axis());
+  /// the window then moves on by 2^halvings of these at a time
+  int halvings = 0;
   /// blocks of the ranks; without them choose_layout()
   std::optional<BlockLayout> blocks = {};
 

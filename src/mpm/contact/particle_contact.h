@@ -41,6 +41,11 @@ struct ContactLosses {
 struct ContactHistory {
   /// True if the particle touched in the last step.
   bool touches() const { return gap < 0.0; }
+  /// True if the particle has not touched, or has left the surface.
+  static bool is_idle(const double* record) {
+    const auto& history = *reinterpret_cast<const ContactHistory*>(record);
+    return !history.touches() && history.slip == 0.0;
+  }
   /// The particle bounces: it does not touch, but is no farther than its reach.
   /// @param path  along the surface in the last step [m]
   void lift(double path) {

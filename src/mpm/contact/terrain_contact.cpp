@@ -24,7 +24,8 @@ TerrainContact::TerrainContact(Body& body, ContinuumTerrain& terrain,
   if (terrain.parameters().thin_parts)
     thin_parts_ = DividedGround::parts_of(body.surface(), terrain.parameters().x.cell);
   for (ParticleGroup& group : terrain_.unsynchronised_groups())
-    history_columns_.push_back(group.particles.add_column(where, contact_history_numbers));
+    history_columns_.push_back(
+        group.particles.add_column(where, contact_history_numbers, ContactHistory::is_idle));
 }
 
 void TerrainContact::apply(double dt) {

@@ -104,6 +104,39 @@ TEST(TerrainRestart, ContinuesBitForBitOnAGradedGrid) {
   expect_exact_restart(parameters);
 }
 
+/// A window on a graded axis, which divides and unites particles before the restart and after it.
+TEST(TerrainRestart, ContinuesBitForBitOnAGradedWindow) {
+  TerrainParameters parameters = snow_bed(clay());
+  set_boundary(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  const FollowingAxis axis = following_axis({-0.6, 0.6, cell, -0.1, 0.1, 1.3}, "ground");
+  parameters.x = axis.layout;
+  parameters.halvings = axis.halvings;
+  parameters.window = true;
+  Scene through(parameters);
+  through.touch();
+  const auto run = [](Scene& scene, int from, int to) {
+    for (int n = from; n < to; ++n) {
+      scene.ground.follow(0.01 * n);
+      scene.run(1);
+    }
+  };
+  run(through, 0, 20);
+  Scene again(parameters);
+  test::hand_over(through.plate, again.plate);
+  test::hand_over(through.ground, again.ground);
+  again.touch();
+  test::hand_over(*through.contact, *again.contact);
+  expect_same_state(through.ground, again.ground);
+  EXPECT_GT(through.contact->contacts(), 10.0);
+  const double travelled = through.ground.travelled();
+  EXPECT_GT(travelled, 0.0);
+  run(through, 20, 50);
+  run(again, 20, 50);
+  EXPECT_GT(through.ground.travelled(), travelled);
+  expect_same_state(through.ground, again.ground);
+  expect_same_state(*through.contact, *again.contact);
+}
+
 /// Porous elasticity: the stiffness of the contact follows the modulus.
 TEST(TerrainRestart, ContinuesBitForBitWithPorousElasticity) {
   expect_exact_restart(

@@ -61,6 +61,7 @@ struct Variant {
   double upper = 0.2;   // end of the bed along x [m]
   double speed = -2.0;  // of the plate [m/s]
   bool thin = false;    // a wall in the place of the plate, which divides the ground
+  bool graded = false;  // fine cells follow the plate
 };
 
 /// A plate pressed into snow beside the middle of a bed with absorbing sides, then shaken:
@@ -98,8 +99,16 @@ struct Scene {
     p.blocks = blocks;
     p.sleep_tolerance = variant.sleep_tolerance;
     p.thin_parts = variant.thin;
+    if (variant.graded) {
+      const FollowingAxis axis =
+          following_axis({-0.5, 0.5, cell, -0.06, 0.06, 1.3}, "ground along x");
+      p.x = axis.layout;
+      p.halvings = axis.halvings;
+      p.window = true;
+    }
     if (variant.slide) p.slide = SlideSurface{SlideBox{0.03, 0.0, 0.1, 0.1}, 0.3};
-    set_boundary(p, {variant.ends, variant.ends, "smooth", "absorbing", "rough", "free"});
+    set_boundary(p, {variant.ends, variant.ends, "smooth", variant.graded ? "smooth" : "absorbing",
+                     "rough", "free"});
     return p;
   }
   void run(int intervals) {
@@ -342,6 +351,32 @@ TEST(Blocks, ContinueInAnotherLayout) {
   first.run(7);
   turned.run(7);
   expect_alike(Answer(turned), Answer(first));
+}
+
+/// Halves of a particle on two ranks are not united. The border of two blocks along x lies in the
+/// fine cells: all halves behind the plate are on one rank.
+TEST(GradedWindow, GivesTheAnswerOfOneRank) {
+  Variant variant = {"graded", false, false, false, "smooth"};
+  variant.graded = true;
+  const std::unique_ptr<Scene> one = scene_of_one(variant);
+  if (one) {
+    one->run(60);
+    EXPECT_GT(one->contact.contacts(), 20.0);
+    EXPECT_GT(one->ground.travelled(), 0.07);
+  }
+  for (const BlockLayout& layout : layouts()) {
+    SCOPED_TRACE(::testing::Message() << layout.x << " x " << layout.y << " blocks");
+    Scene many(world_ranks(), variant, layout);
+    many.run(60);
+    if (layout.x <= 2) {
+      expect_alike(many, one.get());
+      continue;
+    }
+    const Vector3 force = many.contact.force();
+    if (one) {
+      EXPECT_LT((force - one->contact.force()).norm(), 0.01 * force.norm());
+    }
+  }
 }
 
 const Variant sleeping = {"sleeping", false, false, false, "absorbing", snow(), 0.1, 1.0, -0.2};
