@@ -62,7 +62,7 @@ def rut_place(terrain: Terrain, body: Outline) -> float:
 def rut_densities(terrain: Terrain, body: Outline) -> RutDensities:
     x = terrain.x[:, 0] - body.centre[0]
     y = np.abs(terrain.x[:, 1] - body.centre[1])
-    behind = np.abs(x - rut_place(terrain, body)) < UNDER
+    behind = _at(x - rut_place(terrain, body))
     middle = y < 0.5 * body.half_width
     shoulder = (y > body.half_width) & (y < body.half_width + SHOULDER)
     under = (np.abs(x) < UNDER) & middle
@@ -81,8 +81,14 @@ def rut_depth(terrain: Terrain, body: Outline) -> float:
     In the middle half of the wheel's width.
     """
     x = terrain.x[:, 0] - body.centre[0] - rut_place(terrain, body)
-    inside = (np.abs(x) < UNDER) & (np.abs(terrain.x[:, 1]) < 0.5 * body.half_width)
+    inside = _at(x) & (np.abs(terrain.x[:, 1]) < 0.5 * body.half_width)
     return float(terrain.level - _tops(terrain, inside).max())
+
+
+def _at(distance: Floats) -> Booleans:
+    """Particles (n) at a section across the track, with long cells those that are nearest."""
+    near: Booleans = np.abs(distance) < max(UNDER, 1.2 * float(np.abs(distance).min()))
+    return near
 
 
 def bow_wave(terrain: Terrain, body: Outline) -> float:

@@ -82,10 +82,11 @@ class Terrain:
         if fields.require_rows() == 0:
             raise ResultsError(f"{fields.file}: has no particles; {fields.remedy}")
         x, initial, density, volume = (fields[name] for name in names)
-        spacing = [_lattice_spacing(initial[:, axis]) for axis in range(3)]
-        level = float(initial[:, 2].max() + 0.5 * spacing[2])
         mass = density * volume
         fine = mass < 1.1 * mass.min()  # cells that are fine along all three axes
+        # Particles of two lengths along x may have stood in one place (fix terrain/continuum, fine_length).
+        spacing = [_lattice_spacing(initial[fine, 0]), *(_lattice_spacing(initial[:, axis]) for axis in (1, 2))]
+        level = float(initial[:, 2].max() + 0.5 * spacing[2])
         undisturbed = float(np.median(mass[fine]) / np.prod(spacing))
         terrain = cls(x, initial, density, volume, level, undisturbed)
         return terrain.mirrored() if is_half(initial) else terrain

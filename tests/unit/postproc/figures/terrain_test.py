@@ -84,6 +84,28 @@ class TerrainTest(FolderTest):
         self.assertAlmostEqual(share_left(terrain, body), 1.0)
         self.assertAlmostEqual(bow_wave(terrain, body), 0.0)
 
+    def test_long_particles_behind_the_wheel_change_nothing(self) -> None:
+        """One of eight particles of the track is left, as a grid with fine cells around the wheel leaves them."""
+        with h5py.File(self.folder / "terrain.h5", "r+") as content:
+            group = content["terrain"]
+            fields = {name: group[name][()] for name in group}
+            initial = fields["initial_position"]
+            behind = (initial[:, 0] < 0.48) & (initial[:, 1] < 0.5 * WIDTH)
+            eighth = np.round(initial[:, 0] / SPACING - 0.5).astype(int) % 8
+            for name in ("x", "initial_position"):
+                fields[name][behind, 0] += 3.5 * SPACING
+            fields["volume"][behind] *= 8
+            for name, values in fields.items():
+                del group[name]
+                group[name] = values[~behind | (eighth == 0)]
+        terrain = Terrain.read(self.folder)
+        body = Outline(self.folder, terrain)
+        self.assertAlmostEqual(terrain.spacing, SPACING)
+        densities = rut_densities(terrain, body)
+        self.assertAlmostEqual(densities.undisturbed, DENSITY)
+        self.assertAlmostEqual(densities.in_rut, 2 * DENSITY)
+        self.assertAlmostEqual(rut_depth(terrain, body), 0.5 * DEPTH)
+
     def test_half_a_tyre_is_as_a_whole_one(self) -> None:
         """Its surface is kept for y >= 0 alone: sections, shoulder and rut are those of both."""
         terrain = Terrain.read(self.folder)
