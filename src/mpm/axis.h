@@ -3,11 +3,12 @@
 /// One direction of the background grid: quadratic B-splines on a graded knot vector with open
 /// ends.
 ///
-/// Knots t_0 = t_1 = t_2 < t_3 < ... < t_n = t_n+1 = t_n+2 bound the cells; node i carries the
-/// B-spline of the knots t_i ... t_i+3 and sits at its Greville point (t_i+1 + t_i+2)/2. Then
-/// sum N_i = 1 and sum N_i x_i = x hold on any knots, so that linear fields, force and moment are
-/// carried exactly; at both ends only the outermost node has a value, so that a wall is exactly at
-/// the end of the axis. C. de Boor, A Practical Guide to Splines (1978), ch. IX.
+/// Cells lie between knots. The first and the last knot count three times:
+///   t_0 = t_1 = t_2 < t_3 < ... < t_n = t_n+1 = t_n+2
+/// Node i has the B-spline N_i of the knots t_i to t_i+3. Its place x_i is the Greville point
+/// (t_i+1 + t_i+2)/2. On any knots sum N_i = 1 and sum N_i x_i = x: the grid carries linear fields,
+/// force and moment exactly. At an end of the axis only the outermost node has a value: walls are
+/// exactly there. C. de Boor, A Practical Guide to Splines (1978), ch. IX.
 
 #include <cstddef>
 #include <string>
@@ -25,9 +26,9 @@ struct AxisLayout {
   double fine_upper = 1.0;  ///< its end [m]
   /// ratio of the lengths of neighbouring cells outside the fine stretch, >= 1
   double growth = 1.0;
-  /// Cells outside have 1, 3/2, 2, 3, 4, 6, 8 ... times the length, each as often as `growth` asks
-  /// for. From an end of the axis to the fine stretch is a whole number of fine cells. Particles
-  /// of 1, 2, 4, 8 ... times the length then fill such cells, two or three of them a cell.
+  /// Lengths of the cells outside, in fine cells: 1, 3/2, 2, 3, 4, 6 and so on. `growth` sets how
+  /// often a length occurs. From an end of the axis to the fine stretch is a whole number of fine
+  /// cells. Each cell then holds two or three whole particles, whose lengths double from 1 on.
   bool stepped = false;
   /// places where a body ends across the axis: a knot lies there, between short cells [m]
   std::vector<double> edges = {};

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Ground that moves along with a body: removed behind, added ahead, one layer of cells at a time;
-/// or one slab of some at a time, where it carries a surface mesh; or one stride of fine cells at a
-/// time, where the x axis is graded.
+/// Ground that moves along with a body: removed behind, added ahead. It moves by a layer of cells;
+/// on a graded x axis by a stride of fine cells; and with a surface mesh by a slab of many layers.
 
 #include <string>
 #include <vector>

@@ -159,11 +159,12 @@ bool ParticleRefinement::unite(ParticleGroup& group) const {
     particles.data(column::volume)[p] *= 2.0;
     gone[other] = any = true;
   }
+  if (!any) return false;
   std::vector<std::size_t> kept;
   for (std::size_t p = 0; p < particles.size(); ++p)
     if (!gone[p]) kept.push_back(p);
-  if (any) particles.reorder(kept);
-  return any;
+  particles.reorder(kept);
+  return true;
 }
 
 bool ParticleRefinement::may_unite(const ParticleGroup& group, std::size_t a, std::size_t b) const {

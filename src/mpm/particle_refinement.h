@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Particles that are halved along x where cells become short, and united again where cells become
-/// long: ground that moves with a window whose x axis is graded (theory: continuum, eqs. 17 and
-/// 18).
+/// Division of particles along x where cells become short, and their union where cells become long.
+/// A window with a graded x axis needs both when it moves (theory: continuum, eqs. 17 to 19).
 ///
 /// Undisturbed ground is laid in particles that are 2^halvings times as long as those of the fine
 /// cells. A particle keeps as many ids as it has such parts, from its own on. Halves share them

@@ -41,12 +41,14 @@ struct ContactLosses {
 struct ContactHistory {
   /// True if the particle touched in the last step.
   bool touches() const { return gap < 0.0; }
+  /// True if the particle has slipped and does not touch, but is no farther than its reach.
+  bool bounces() const { return !touches() && slip > 0.0; }
   /// True if the particle has not touched, or has left the surface.
   static bool is_idle(const double* record) {
     const auto& history = *reinterpret_cast<const ContactHistory*>(record);
-    return !history.touches() && history.slip == 0.0;
+    return !history.touches() && !history.bounces();
   }
-  /// The particle bounces: it does not touch, but is no farther than its reach.
+  /// The particle begins to bounce, or goes on.
   /// @param path  along the surface in the last step [m]
   void lift(double path) {
     spring.setZero();

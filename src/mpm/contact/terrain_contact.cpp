@@ -95,7 +95,7 @@ TerrainContact::CellContact TerrainContact::contact_in_cell(std::size_t n, std::
     if (history.touches()) {
       sum += history.slip;
       ++touching;
-    } else if (history.slip > 0.0) {
+    } else if (history.bounces()) {
       ++bouncing;
     }
   }

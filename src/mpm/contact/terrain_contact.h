@@ -45,7 +45,7 @@ class TerrainContact : public Contact {
   // Results of the last step, of all ranks and, in a half model, of both halves; not collective.
   const Vector3& force() const { return force_; }           ///< on the body [N]
   double contacts() const { return step_.contacts; }        ///< particles that touch
-  double area() const { return step_.area; }                ///< of the touching particles [m^2]
+  double area() const { return step_.area; }                ///< of the surface in contact [m^2]
   double penetration() const { return step_.penetration; }  ///< the deepest [m]
   // Results since the start.
   double deepest_penetration() const { return deepest_penetration_; }  ///< [m]

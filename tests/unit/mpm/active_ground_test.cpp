@@ -225,10 +225,7 @@ TEST(ActiveGround, ContinuesBitForBit) {
   through.touch();
   through.run(0.05, -0.1);
   ASSERT_LT(through.ground.active()->awake_share(), 0.9);
-  test::hand_over(through.plate, again.plate);
-  test::hand_over(through.ground, again.ground);
-  again.touch();
-  test::hand_over(*through.contact, *again.contact);
+  restart(through, again);
   for (Scene* scene : {&through, &again}) scene->run(0.02, -0.1);
   EXPECT_EQ(through.force, again.force);
   EXPECT_TRUE(test::state_of(through.ground) == test::state_of(again.ground));

@@ -50,11 +50,7 @@ void expect_exact_restart(const TerrainParameters& parameters) {
   through.touch();
   through.run(40);
   Scene again(parameters);
-  test::hand_over(through.plate, again.plate);
-  test::hand_over(through.ground, again.ground);
-  // a script restores each fix where its line stands: the terrain before its contacts exist
-  again.touch();
-  test::hand_over(*through.contact, *again.contact);
+  restart(through, again);
   expect_same_state(through.ground, again.ground);
   // the first output of the continued run
   EXPECT_GT(through.contact->force().z(), 0.0);
@@ -122,10 +118,7 @@ TEST(TerrainRestart, ContinuesBitForBitOnAGradedWindow) {
   };
   run(through, 0, 20);
   Scene again(parameters);
-  test::hand_over(through.plate, again.plate);
-  test::hand_over(through.ground, again.ground);
-  again.touch();
-  test::hand_over(*through.contact, *again.contact);
+  restart(through, again);
   expect_same_state(through.ground, again.ground);
   EXPECT_GT(through.contact->contacts(), 10.0);
   const double travelled = through.ground.travelled();

@@ -13,6 +13,7 @@
 #include "bodies/rigid_plate.h"
 #include "mpm/contact/terrain_contact.h"
 #include "mpm/continuum_terrain.h"
+#include "tests/support/checkpoints.h"
 #include "tests/support/paths.h"
 
 namespace furrow::testing_terrain {
@@ -98,6 +99,15 @@ struct PressedGround {
   std::unique_ptr<TerrainContact> contact;
   CoupledSystem system;
 };
+
+/// Restores a scene as a script does, each fix where its line stands: the terrain before its
+/// contacts exist.
+inline void restart(PressedGround& from, PressedGround& to) {
+  test::hand_over(from.plate, to.plate);
+  test::hand_over(from.ground, to.ground);
+  to.touch();
+  test::hand_over(*from.contact, *to.contact);
+}
 
 /// Calls visit(particles, index) for all particles of this rank.
 template <class Visit>
