@@ -9,7 +9,7 @@ from ..arguments import at_least, path
 from ..errors import ResultsError
 from ..formatting import duration
 from ..study import pages
-from ..study.experiments import counts, experiments_text, path_of
+from ..study.experiments import counts, experiments_text, path_of, report_items
 from ..run.tools import project_root
 from ..study.repeat import known_cost, missed
 from ..study.study import carry_out
@@ -112,7 +112,7 @@ def write_pages(root: Path, check: bool) -> None:
     """@raises ResultsError with check, where a file is not what the tables of the studies give"""
     registry = Registry.of(root)
     stale = pages.stale_pages(root, registry)
-    table, text = path_of(root), experiments_text(registry)
+    table, text = path_of(root), experiments_text(registry, report_items(root))
     if not table.is_file() or table.read_text(encoding="utf-8") != text:
         stale[table] = text
     if check and stale:

@@ -2,9 +2,10 @@
 """inputs/validation/experiments.csv: every value of every study, and how many have which verdict."""
 
 from collections.abc import Iterable
+from fnmatch import fnmatchcase
 from pathlib import Path
 
-from ..csv_table import rows_text
+from ..csv_table import read_rows, rows_text
 from .provenance import read_origins
 from .values import AGREE, VERDICTS, Registry, Value
 
@@ -16,7 +17,8 @@ HEAD = (
     "# kept apart), blind (nobody here has it), scored (predicted after a score). verdict: agrees, within",
     "# 10 % or twice the error of the reference; near, within 25 %; differs; met or missed; inconclusive,",
     "# where twice the errors decide, allow more than 25 %, or are not estimated. program: commit of the",
-    "# source tree that made the runs, + with uncommitted changes. Written by furrow-post study --pages.",
+    "# source tree that made the runs, + with uncommitted changes. audit: items of report_items.csv that",
+    "# the value answers. Written by furrow-post study --pages.",
 )
 
 
@@ -33,9 +35,29 @@ def commits(value: Value) -> str:
     return " ".join(dict.fromkeys(origin.commit.split())) if origin else ""
 
 
-def experiments_text(registry: Registry) -> str:
+def report_items(root: Path) -> list[dict[str, str]]:
+    """Items of [Shoop2001]. @raises ResultsError"""
+    return read_rows(path_of(root).with_name("report_items.csv"))
+
+
+def answers(value: Value, item: dict[str, str]) -> bool:
+    """True if a pattern of the item fits the value's id."""
+    return any(fnmatchcase(value.id, pattern) for pattern in item["rows"].split())
+
+
+def experiments_text(registry: Registry, items: list[dict[str, str]]) -> str:
     """The content of the file. @raises ResultsError"""
-    return rows_text([{**value.row(), "program": commits(value)} for value in registry], HEAD)
+    return rows_text(
+        [
+            {
+                **value.row(),
+                "program": commits(value),
+                "audit": " ".join(item["item"] for item in items if answers(value, item)),
+            }
+            for value in registry
+        ],
+        HEAD,
+    )
 
 
 def counts(values: Iterable[Value]) -> str:

@@ -6,9 +6,11 @@ import re
 import unittest
 from bisect import bisect_left
 from collections.abc import Iterator
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 from furrow_post.csv_table import read_rows
+from furrow_post.study.experiments import answers, report_items
 from furrow_post.study.pages import MARK
 from furrow_post.study.values import Registry
 from support.command import SOURCE
@@ -169,6 +171,53 @@ class LabelsTest(unittest.TestCase):
             name = MARK.search(row)
             assert name
             self.assertIn(registry[name[2]].verdict(), allowed[words], row)
+
+
+class ReportItemsTest(unittest.TestCase):
+    """report_items.csv: every item of [Shoop2001] has a value, a test or a reason."""
+
+    items = report_items(SOURCE)
+
+    def test_every_item_occurs_once(self) -> None:
+        self.assertEqual([item["item"] for item in self.items], [str(n + 1) for n in range(126)])
+
+    def test_states_are_those_of_the_rows(self) -> None:
+        registry = Registry.of(SOURCE)
+        for item in self.items:
+            with self.subTest(item["item"]):
+                for pattern in item["rows"].split():
+                    self.assertTrue(any(fnmatchcase(value.id, pattern) for value in registry), pattern)
+                numbers = [value for value in registry if answers(value, item) and value.stored]
+                self.assertIn(item["state"], ("row", "test", "partly", "none"))
+                self.assertEqual(item["state"] == "row", not item["reason"])
+                if item["state"] == "row":
+                    self.assertTrue(numbers)
+                if item["state"] == "none":
+                    self.assertFalse(numbers)
+                if item["state"] == "test":
+                    self.assertTrue((SOURCE / item["reason"]).is_file())
+
+    def test_numbers_of_experiments_are_items(self) -> None:
+        known = {item["item"] for item in self.items}
+        for row in read_rows(VALIDATION / "experiments.csv"):
+            self.assertLessEqual(set(row["audit"].split()), known, row["id"])
+
+    def test_the_page_counts_them(self) -> None:
+        states = [item["state"] for item in self.items]
+        registry = Registry.of(SOURCE)
+        compared = [
+            item
+            for item in self.items
+            if item["state"] == "row"
+            and any(answers(value, item) and value.expected() is not None for value in registry)
+        ]
+        page = " ".join((VALIDATION / "report_findings.md").read_text(encoding="utf-8").split())
+        self.assertIn(
+            f"lists {len(states)} items of the report. A number answers {states.count('row')} of them, and "
+            f"{len(compared)} of these have a reference. Tests answer {states.count('test')}. Of the others "
+            f"{states.count('partly')} are answered in part, and {states.count('none')} not.",
+            page,
+        )
 
 
 if __name__ == "__main__":
