@@ -49,7 +49,12 @@ def column_of_run(path: Path) -> str:
 
 
 def merged(path: Path, rows: Sequence[Mapping[str, Any]]) -> Sequence[Mapping[str, Any]]:
-    """The stored rows with these in the place of those of the same run; new ones come last."""
+    """The stored rows with these in the place of those of the same run; new ones come last.
+
+    Without new rows a table stays, also one that does not name its runs.
+    """
+    if not rows and path.is_file():
+        return read_rows(path)
     key = column_of_run(path) if path.is_file() else ""
     if not key:
         return rows

@@ -184,6 +184,11 @@ class StudyTest(FolderTest):
         found = [row["value"] for row in merged(table, [{"change": "cells", "run": "b1", "value": 3}])]
         self.assertEqual(found, ["1", 3])
 
+    def test_a_table_without_new_rows_stays(self) -> None:
+        table = self.tree.study / "meshes.csv"
+        table.write_text("mesh,value\nfine,1\n")
+        self.assertEqual(merged(table, []), [{"mesh": "fine", "value": "1"}])
+
     def test_a_table_by_run_that_is_not_stored_yet_joins_the_others(self) -> None:
         page = self.page.read_text()
         self.run_study("a1", "--merge", a1=1, b1=2)
