@@ -42,8 +42,7 @@ const Outputs<FixContactContinuum>& FixContactContinuum::outputs() {
        [](Fix& fix) { return fix.contact_.deepest_penetration(); }},
       {"friction_loss", "J", "energy dissipated by friction since the start",
        [](Fix& fix) { return fix.friction_loss(); }},
-      {"damping_loss", "J",
-       "energy dissipated by damping and changes of the spring stiffness since the start",
+      {"damping_loss", "J", "energy dissipated by damping since the start",
        [](Fix& fix) { return fix.damping_loss(); }},
   };
   return list;

@@ -8,8 +8,7 @@
 ///   // to the step of this terrain; @throws InputError when it cannot; `where`: the contact
 ///   void fit(const TerrainParameters&, const std::string& where);
 ///   // for every touching particle in each step: the stiffness of its springs
-///   void update_stiffness(const ParticleGroup&, std::size_t particle, ContactHistory&,
-///                         ContactLosses&) const;
+///   void update_stiffness(const ParticleGroup&, std::size_t particle, ContactHistory&) const;
 ///   // for every touching particle in each step of dt: force of the surface on the ground [N]; the
 ///   // energy that the contact takes is added to the losses
 ///   Vector3 force(const ContactMotion&, double dt, ContactHistory&, ContactLosses&) const;

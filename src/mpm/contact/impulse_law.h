@@ -23,7 +23,7 @@ class ImpulseLaw {
       : friction_{parameters.friction, parameters.slip_length, parameters.shear_limit} {}
 
   void fit(const TerrainParameters&, const std::string&) const {}
-  void update_stiffness(const ParticleGroup&, std::size_t, ContactHistory&, ContactLosses&) const {}
+  void update_stiffness(const ParticleGroup&, std::size_t, ContactHistory&) const {}
   Vector3 force(const ContactMotion& contact, double dt, ContactHistory& history,
                 ContactLosses& losses) const;
 

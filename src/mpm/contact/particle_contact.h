@@ -33,7 +33,7 @@ struct ContactMotion {
 /// Energy that a contact takes [J].
 struct ContactLosses {
   double friction = 0.0;
-  double damping = 0.0;  ///< of the dampers, and of changes in the springs' stiffness
+  double damping = 0.0;
 };
 
 /// History of a contact: what a particle keeps from one step to the next. The contact adds a

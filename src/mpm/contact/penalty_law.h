@@ -29,8 +29,8 @@ class PenaltyLaw {
   /// Chooses the stiffness, unless it was given: the usual one, or four fifths of the largest with
   /// which the ground's step is stable.
   void fit(const TerrainParameters& terrain, const std::string& where);
-  void update_stiffness(const ParticleGroup& group, std::size_t particle, ContactHistory& history,
-                        ContactLosses& losses) const;
+  void update_stiffness(const ParticleGroup& group, std::size_t particle,
+                        ContactHistory& history) const;
   Vector3 force(const ContactMotion& contact, double dt, ContactHistory& history,
                 ContactLosses& losses) const;
 
@@ -47,19 +47,18 @@ class PenaltyLaw {
   double damping_;  // of critical
 };
 
-/// The stiffness follows the modulus of the ground upwards while the particle touches; a spring
-/// that followed a falling modulus as well would vibrate with ground whose modulus grows with
-/// pressure. A loaded spring gains the energy (k - k_old) (gap^2 + stretch^2)/2, which the losses
-/// count with a negative sign.
+/// The stiffness follows the modulus of the ground. A loaded spring keeps its energy
+/// k (gap^2 + stretch^2)/2: contact gives no energy to ground that stiffens, and the face of the
+/// ground comes back where it softens again.
 inline void PenaltyLaw::update_stiffness(const ParticleGroup& group, std::size_t particle,
-                                         ContactHistory& history, ContactLosses& losses) const {
+                                         ContactHistory& history) const {
   const double modulus = group.material->moduli(group.particles.state(particle)).wave();
   const double volume = group.particles.data(column::volume)[particle];
-  double stiffness = stiffness_.value_or(usual_stiffness) * modulus * std::cbrt(volume);
+  const double stiffness = stiffness_.value_or(usual_stiffness) * modulus * std::cbrt(volume);
   if (history.touches()) {
-    stiffness = std::max(stiffness, history.stiffness);
-    losses.damping -= 0.5 * (stiffness - history.stiffness) *
-                      (history.gap * history.gap + history.spring.squaredNorm());
+    const double scale = std::sqrt(history.stiffness / stiffness);
+    history.gap *= scale;
+    history.spring *= scale;
   }
   history.stiffness = stiffness;
 }

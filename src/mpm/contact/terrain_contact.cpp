@@ -111,6 +111,8 @@ void TerrainContact::add_forces(const Law& law, double dt) {
     const ParticleIndex& particle = active_particles_[n];
     const ParticleGroup& group = group_of(particle);
     ContactHistory& history = history_of(particle);
+    const bool touched = history.touches();
+    if (touched) law.update_stiffness(group, particle.particle, history);
     Vector3 velocity;
     const ContactPoint contact = find_contact(n, history, velocity);
     if (contact.gap >= 0.0) {
@@ -121,8 +123,8 @@ void TerrainContact::add_forces(const Law& law, double dt) {
         history.lift(last_dt_ * velocity.cross(contact.normal).norm());
       continue;
     }
+    if (!touched) law.update_stiffness(group, particle.particle, history);
     if (history.slip == 0.0) history.slip = cell.slip;
-    law.update_stiffness(group, particle.particle, history, step_.losses);
     history.gap = contact.gap;
     history.normal = contact.normal;
     history.triangle = static_cast<double>(contact.triangle);

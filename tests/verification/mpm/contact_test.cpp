@@ -255,5 +255,41 @@ TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
   EXPECT_LT(b.numerical_loss, 0.045 * b.contact_work);
 }
 
+/// A rough plate presses sand whose modulus grows with the root of pressure, slides and lifts off.
+/// Its work goes to ground and friction, since its springs are empty at the end.
+TEST(Contact, SpringsOnGroundThatStiffensReturnWhatTheyTake) {
+  const auto sand = material_of(
+      "norsand density 1500 e0 0.75 M 1.25 gamma 0.93 lambda 0.02 csl_exponent 0.7 chi 5 N 0.5 H "
+      "150 G 40e6 n 0.5 nu 0.2 pt 100");
+  TerrainParameters p = box(sand, {-0.15, 0, 0}, {0.15, 0.15, 0.1}, 0.025);
+  p.z = even(0, 0.15, 0.025);
+  p.gravity = {0, 0, -standard_gravity};
+  p.initial_stress = true;
+  set_boundary(p, {"rough", "rough", "smooth", "rough", "rough", "free"});
+  ContinuumTerrain ground(p, Communicator());
+  RigidPlate plate({PlateShape::square, 0.15, 0.05, 4}, {0.02, 0, 0.1 + 1e-4});
+  ContactParameters parameters;
+  parameters.friction = 0.5;
+  parameters.damping = 0.0;
+  TerrainContact contact(plate, ground, parameters, false, "plate");
+  double time = 0.0, spent = 0.0, most = 0.0;
+  while (time < 0.06) {
+    const double dt = 0.25 * ground.stable_time_step();
+    const Vector3 velocity(0.2, 0, time < 0.03 ? -0.1 : 0.15);
+    plate.surface().clear_forces();
+    plate.prescribe(velocity);
+    contact.apply(dt);
+    spent -= dt * contact.force().dot(velocity);
+    most = std::max(most, spent);
+    plate.advance(dt);
+    ground.advance(dt);
+    time += dt;
+  }
+  EXPECT_EQ(contact.force(), Vector3::Zero());
+  EXPECT_EQ(contact.damping_loss(), 0.0);
+  EXPECT_NEAR((contact.terrain_work() + contact.friction_loss()) / spent, 1.0, 2e-3);
+  EXPECT_GT(most, 1.0);
+}
+
 }  // namespace
 }  // namespace furrow::contact_test
