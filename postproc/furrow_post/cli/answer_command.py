@@ -13,6 +13,7 @@ from ..programs import results_folder
 from ..run.summary import Summary
 from ..soil.make import from_cone
 from ..soil.material import find_ground
+from ..soil.sand import quartz_sand
 from .fit_tyre_command import inflation
 from .parameters import Given, argument, command, flag, option
 from .run_command import post
@@ -79,13 +80,16 @@ def _tyre(given: Given, file: Path) -> tuple[Tyre, float]:
 def _soil(given: Given) -> str:
     """Text of a material file with this cone index."""
     index = 1e3 * given.cone_index
+    title = f"{given.soil.capitalize()} of cone index {given.cone_index:g} kPa"
     clay = find_ground("clay_medium")
     if given.soil == SAND:
-        sand = from_cone(f"Sand of cone index {given.cone_index:g} kPa", index, CLASS, None)
-        return f"{sand.text()}contact: {clay.parent / 'contact' / 'sand.yaml'}\n"
+        if text := quartz_sand(title, index):
+            return text
+        # softer or harder than quartz sand: the cap law by a formula
+        return f"{from_cone(title, index, CLASS, None).text()}contact: {clay.parent / 'contact' / 'sand.yaml'}\n"
     strength = index / INDEX_OVER_STRENGTH
     return (
-        f"title: Clay of cone index {given.cone_index:g} kPa\n"
+        f"title: {title}\n"
         f"# Strength: cone index over {INDEX_OVER_STRENGTH:g}. Modulus: {STIFFNESS:g} times the strength.\n"
         f"base: {clay}\n"
         f"law: {{su: {strength:g}}}\nelasticity: {{E: {STIFFNESS * strength:g}}}\n"
