@@ -11,9 +11,11 @@ furrow-resistance, never from here.
 import sys
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    import pandas
+
     from .read.results import Results
 
 __version__ = "0.2.0"  # of the whole project: pyproject.toml and CMakeLists.txt read this line
@@ -36,3 +38,30 @@ def load(where: "Path | str") -> "Results":
     from .read.results import Results  # a command that reads nothing does not wait for h5py
 
     return Results(where)
+
+
+def answer(size: str, **options: Any) -> "pandas.DataFrame":
+    """The command 'furrow-post answer' and its table: value, whole error and the band of the formulas by quantity.
+
+    answer("265/70R17", load=6000, pressure=200, soil="sand", cone_index=150, slip=0.2): options are those of the command,
+    in N and kPa; quick=True is --quick. Forces are over the load, depths in m.
+    @raises ResultsError where an option is wrong or the run fails
+    """
+    import pandas
+
+    from .cli.answer_command import TABLE
+    from .cli.run_command import post
+    from .errors import ResultsError
+    from .programs import results_folder
+
+    folder = Path(options.setdefault("output", results_folder("answer")))
+    words = [
+        word
+        for name, value in options.items()
+        if value is not False
+        for word in (f"--{name.replace('_', '-')}", value)
+        if word is not True
+    ]
+    if status := post("answer", size, *words):
+        raise ResultsError(f"furrow-post answer ended with status {status}; its error is above")
+    return pandas.read_csv(folder / TABLE, index_col="quantity")

@@ -306,8 +306,9 @@ def material(results):
 def answer(results):
     """The command makes tyre and soil, runs them, and compares each value with the band of the formulas."""
     folder = empty(results)
-    said = run([sys.executable, PROJECT / "postproc" / "furrow-post", "answer", "235/75R15", "--load", "6227", "--pressure", "179",
-                "--soil", "clay", "--cone-index", "270", "--slip", "0.2", "--quick", "-o", folder / "answer"], folder=folder)
+    call = f"furrow_post.answer('235/75R15', load=6227, pressure=179, soil='clay', cone_index=270, slip=0.2, quick=True, output='{folder}/answer')"
+    said = run([sys.executable, "-c", f"import furrow_post; print({call}.value.net_traction_coefficient)"], folder=folder,
+               PYTHONPATH=str(PROJECT / "postproc"))
     soil = (folder / "answer" / "soil.yaml").read_text()
     if "su: 21600" not in soil or "shear_limit: 19440" not in soil:
         sys.exit(f"the clay is not that of the cone index:\n{soil}")
@@ -319,6 +320,8 @@ def answer(results):
     found = re.search(r"net traction coefficient (\S+) ± (\S+) \(\+ material unknown\); formulas (\S+) to (\S+): (inside|outside by|OUTSIDE by)", said)
     if not found or abs(float(found[1]) - pull) > 0.006 * abs(pull) or abs(float(found[2]) / error - 1) > 0.06:
         sys.exit(f"the pull {pull} ± {error} is not compared:\n{said}")
+    if abs(float(said.splitlines()[-1]) / pull - 1) > 1e-9:
+        sys.exit(f"the table has another pull than {pull}:\n{said}")
     if (found[5] == "inside") != (float(found[3]) <= pull <= float(found[4])):
         sys.exit(f"the place in the band is wrong: {found[0]}")
 

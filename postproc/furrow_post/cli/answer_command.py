@@ -8,6 +8,7 @@ from ..analyse.tyre_estimate import Catalogue
 from ..analyse.tyre_fit import PlateTest, fit_tyre, press
 from ..analyse.tyre_size import read_size
 from ..analyse.whole_error import budgets_of
+from ..csv_table import write_rows
 from ..arguments import between, fraction, path, positive, seconds
 from ..programs import results_folder
 from ..run.summary import Summary
@@ -19,6 +20,7 @@ from .parameters import Given, argument, command, flag, option
 from .run_command import post
 
 SCENE = "tyre_on_soil"
+TABLE = "answer.csv"  # values and formulas, in the results
 SAND, CLAY = "sand", "clay"
 CLASS = "SP"  # of the sand between the classes of the USCS: clean, of one size
 INDEX_OVER_STRENGTH = 12.5  # cone index over undrained strength; 9 to 15 are measured
@@ -63,7 +65,9 @@ def answer(given: Given) -> int:
     status = post("run", SCENE, "-o", run, *words)
     if status == 0:
         formulas = formulas_for(given.soil, 1e3 * given.cone_index, tyre, given.slip or USUAL_SLIP, "R" in given.size.upper())
-        print("\n".join(compared(run, formulas, given.slip is None)))
+        rows = compared(run, formulas, given.slip is None)
+        write_rows(folder / TABLE, rows)
+        print("\n".join(["", "Formulas of this cone index", formulas.report(), "", *(_sentence(**row) for row in rows)]))  # type: ignore[arg-type]
     return status
 
 
@@ -100,22 +104,26 @@ def _soil(given: Given) -> str:
     )
 
 
-def compared(run: Path, formulas: Formulas, towed: bool) -> list[str]:
-    """The table of the formulas, then a line for each value of the run with its whole error and the band."""
+def compared(run: Path, formulas: Formulas, towed: bool) -> list[dict[str, object]]:
+    """Values of the run with their whole errors, and the band of the formulas, which is empty without one."""
     found, errors = Summary(run).quantities, budgets_of(run)
-    lines = ["", "Formulas of this cone index", formulas.report(), ""]
+    rows: list[dict[str, object]] = []
     for name, of_formulas in COMPARED.items():
         quantity = of_formulas[0 if towed else 1]
-        band = formulas.band(quantity) if quantity else None
-        if name not in found or band is None:
-            continue
-        value, error, missing = float(found[name]["mean"]), errors[name].total, errors[name].missing_text()
-        _, low, high = band
-        known = f"formulas {low:.3g} to {high:.3g}" if low < high else f"formula {low:.3g}, of unknown scatter"
-        apart = max(low - value, value - high, 0.0) / error if error > 0.0 else 0.0
-        lacks = f" ({missing})" if missing else ""
-        lines.append(f"{name.replace('_', ' ')} {value:.3g} ± {error:.2g}{lacks}; {known}: {_place(apart)}")
-    return lines
+        if name in found and quantity and (band := formulas.band(quantity)):
+            rows.append({
+                "quantity": name, "value": float(found[name]["mean"]), "error": errors[name].total,
+                "least": band[1], "greatest": band[2], "unknown": errors[name].missing_text(),
+            })  # fmt: skip
+    return rows
+
+
+def _sentence(quantity: str, value: float, error: float, least: float, greatest: float, unknown: str) -> str:
+    """Where a value lies: inside of the band of the formulas, or by how many errors outside."""
+    known = f"formulas {least:.3g} to {greatest:.3g}" if least < greatest else f"formula {least:.3g}, of unknown scatter"
+    apart = max(least - value, value - greatest, 0.0) / error if error > 0.0 else 0.0
+    lacks = f" ({unknown})" if unknown else ""
+    return f"{quantity.replace('_', ' ')} {value:.3g} ± {error:.2g}{lacks}; {known}: {_place(apart)}"
 
 
 def _place(apart: float) -> str:
