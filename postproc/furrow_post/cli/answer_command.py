@@ -3,6 +3,8 @@
 
 from pathlib import Path
 
+import yaml
+
 from ..analyse.cone_formulas import Formulas, Tyre, formulas_for
 from ..analyse.tyre_estimate import Catalogue
 from ..analyse.tyre_fit import PlateTest, fit_tyre, press
@@ -72,13 +74,13 @@ def answer(given: Given) -> int:
 
 
 def _tyre(given: Given, file: Path) -> tuple[Tyre, float]:
-    """Writes the tyre file. Returns the tyre of the formulas, and its radius without load [m]."""
+    """Writes the tyre file. Returns the tyre of the formulas, and the radius of its belt, which meets the ground [m]."""
     size = read_size(given.size)
     fit = fit_tyre(Catalogue(size, 1e3 * given.pressure), [])
     text = fit.file_text(size.designation, [f"furrow-post answer {given.size} --pressure {given.pressure:g}"])
     (state,) = press(text, [PlateTest(given.pressure, given.load, {})])
     file.write_text(text, encoding="utf-8")
-    return Tyre(given.load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"]), 0.5 * size.diameter
+    return Tyre(given.load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"]), float(yaml.safe_load(text)["tread"]["radius"])
 
 
 def _soil(given: Given) -> str:
