@@ -22,7 +22,7 @@ def quartz_sand(title: str, index: float) -> str | None:
     base = find_ground(BASE)
     rows = [row for row in read_rows(base.parents[1] / "soils" / TABLE) if row["across"] == CELLS]
     places = np.log([float(row["index_Pa"]) for row in rows])
-    place = math.log(index)
+    place = float(np.log(index))
     if not places[0] <= place <= places[-1]:
         return None
     e0 = float(np.interp(place, places, [float(row["e0"]) for row in rows]))

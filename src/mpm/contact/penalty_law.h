@@ -47,15 +47,16 @@ class PenaltyLaw {
   double damping_;  // of critical
 };
 
-/// The stiffness follows the modulus of the ground. A loaded spring keeps its energy
-/// k (gap^2 + stretch^2)/2: contact gives no energy to ground that stiffens, and the face of the
-/// ground comes back where it softens again.
+/// The stiffness follows the modulus of the ground upwards, also from bounce to bounce. A spring
+/// that followed it downwards would give way where sand has opened. A loaded spring keeps its
+/// energy k (gap^2 + stretch^2)/2: contact gives none to ground that stiffens.
 inline void PenaltyLaw::update_stiffness(const ParticleGroup& group, std::size_t particle,
                                          ContactHistory& history) const {
   const double modulus = group.material->moduli(group.particles.state(particle)).wave();
   const double volume = group.particles.data(column::volume)[particle];
-  const double stiffness = stiffness_.value_or(usual_stiffness) * modulus * std::cbrt(volume);
-  if (history.touches()) {
+  double stiffness = stiffness_.value_or(usual_stiffness) * modulus * std::cbrt(volume);
+  if (history.touches() || history.bounces()) {
+    stiffness = std::max(stiffness, history.stiffness);
     const double scale = std::sqrt(history.stiffness / stiffness);
     history.gap *= scale;
     history.spring *= scale;
