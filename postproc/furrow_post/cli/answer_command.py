@@ -16,7 +16,6 @@ from ..programs import results_folder
 from ..run.summary import Summary
 from ..soil.make import from_cone
 from ..soil.material import find_ground
-from ..soil.sand import quartz_sand
 from .fit_tyre_command import inflation
 from .parameters import Given, argument, command, flag, option
 from .run_command import post
@@ -89,9 +88,6 @@ def _soil(given: Given) -> str:
     title = f"{given.soil.capitalize()} of cone index {given.cone_index:g} kPa"
     clay = find_ground("clay_medium")
     if given.soil == SAND:
-        if text := quartz_sand(title, index):
-            return text
-        # softer or harder than quartz sand: the cap law by a formula
         return f"{from_cone(title, index, CLASS, None).text()}contact: {clay.parent / 'contact' / 'sand.yaml'}\n"
     strength = index / INDEX_OVER_STRENGTH
     return (
