@@ -48,7 +48,7 @@ class PenaltyLaw {
 };
 
 /// The stiffness follows the modulus of the ground upwards, also from bounce to bounce. A spring
-/// that followed it downwards would give way where sand has opened. A loaded spring keeps its
+/// that followed it downwards would be too soft where sand has opened. A loaded spring keeps its
 /// energy k (gap^2 + stretch^2)/2: contact gives none to ground that stiffens.
 inline void PenaltyLaw::update_stiffness(const ParticleGroup& group, std::size_t particle,
                                          ContactHistory& history) const {
