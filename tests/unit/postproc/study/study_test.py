@@ -157,7 +157,7 @@ class StudyTest(FolderTest):
         stored.write_text("run,value,note\na1,7,old\nb1,8,old\n")
         head = "file,program,commit,runs,written,command,note"
         provenance = self.tree.study / "provenance.csv"
-        provenance.write_text(f"{head}\nresults.csv,furrow 1,abc,2020-01-01,2020-01-01,,\n")
+        provenance.write_text(f"{head}\nresults.csv,furrow 0,abc,2020-01-01,2020-01-01,,\n")
         page = self.page.read_text()
         self.run_study("a1", "--merge", a1=1, b1=2, c1=3)
         self.assertEqual(
@@ -165,7 +165,7 @@ class StudyTest(FolderTest):
             [("a1", 1.0, ""), ("b1", 8.0, "old")],
         )
         (origin,) = read_rows(provenance)
-        self.assertTrue(origin["program"].startswith("furrow 1; furrow "))
+        self.assertTrue(origin["program"].startswith("furrow 0; furrow "))
         self.assertTrue(origin["runs"].startswith("2020-01-01 to "))
         self.assertEqual(self.page.read_text(), page)
         self.run_study("c1", "--merge", a1=1, b1=2, c1=3)  # a run that had no row
