@@ -61,6 +61,8 @@ double PenaltyLaw::largest_stiffness(const TerrainParameters& terrain,
 }
 
 void PenaltyLaw::fit(const TerrainParameters& terrain, const std::string& where) {
+  for (const TerrainLayer& layer : terrain.layers)
+    unstressed_moduli_.push_back(layer.material->moduli(layer.material->initial_state()).wave());
   const double largest = largest_stiffness(terrain, where);
   if (!stiffness_) stiffness_ = std::min(usual_stiffness, margin * largest);
   if (*stiffness_ < largest) return;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mpm/contact/contact_parameters.h"
 #include "mpm/contact/friction.h"
@@ -26,8 +27,8 @@ class PenaltyLaw {
         stiffness_(parameters.stiffness),
         damping_(parameters.damping) {}
 
-  /// Chooses the stiffness, unless it was given: the usual one, or four fifths of the largest with
-  /// which the ground's step is stable.
+  /// Before all others. Chooses the stiffness, unless it was given: the usual one, or four fifths
+  /// of the largest with which the ground's step is stable.
   void fit(const TerrainParameters& terrain, const std::string& where);
   void update_stiffness(const ParticleGroup& group, std::size_t particle,
                         ContactHistory& history) const;
@@ -44,17 +45,20 @@ class PenaltyLaw {
   Friction friction_;
   /// Stiffness over (wave modulus) x (cube root of the particle's volume).
   std::optional<double> stiffness_;
-  double damping_;  // of critical
+  double damping_;                         // of critical
+  std::vector<double> unstressed_moduli_;  // wave moduli of the layers at the start [Pa]
 };
 
-/// The stiffness follows the modulus of the ground upwards, also from bounce to bounce. A spring
-/// that followed it downwards would be too soft where sand has opened. A loaded spring keeps its
-/// energy k (gap^2 + stretch^2)/2: contact gives none to ground that stiffens.
+/// The stiffness follows the modulus of the ground upwards, also from bounce to bounce, from that
+/// at the start on. A spring that followed it downwards would be too soft where sand has opened. A
+/// loaded spring keeps its energy k (gap^2 + stretch^2)/2: contact gives none to ground that
+/// stiffens.
 inline void PenaltyLaw::update_stiffness(const ParticleGroup& group, std::size_t particle,
                                          ContactHistory& history) const {
   const double modulus = group.material->moduli(group.particles.state(particle)).wave();
   const double volume = group.particles.data(column::volume)[particle];
-  double stiffness = stiffness_.value_or(usual_stiffness) * modulus * std::cbrt(volume);
+  double stiffness = stiffness_.value_or(usual_stiffness) *
+                     std::max(modulus, unstressed_moduli_[group.layer]) * std::cbrt(volume);
   if (history.touches() || history.bounces()) {
     stiffness = std::max(stiffness, history.stiffness);
     const double scale = std::sqrt(history.stiffness / stiffness);

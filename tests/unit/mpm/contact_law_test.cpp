@@ -93,9 +93,10 @@ TEST(PenaltyLaw, SpringStretchesByTheLastStep) {
 }
 
 /// Porous elasticity: K = (p + pt_el) (1 + e0)/kappa. When the ground stiffens under a loaded
-/// contact, the springs keep k (gap^2 + stretch^2)/2. When it softens, the springs stay.
+/// contact, the springs keep k (gap^2 + stretch^2)/2. When it softens, the springs stay. Ground
+/// that has opened gets the springs of the start.
 TEST(PenaltyLaw, StiffnessFollowsTheModulusAndKeepsTheEnergy) {
-  const ParticleGroup group = [] {
+  ParticleGroup group = [] {
     auto material = testing_terrain::material_of(
         "crushable_foam density 200 pt 2000 sigma0 5000 K 1 pc0_reading pc0 elasticity porous "
         "elasticity.kappa 0.005 elasticity.e0 3.5 nu 0.3 pt_el 5000 hardening exponential pc0 5000 "
@@ -108,7 +109,8 @@ TEST(PenaltyLaw, StiffnessFollowsTheModulusAndKeepsTheEnergy) {
   }();
   ContactParameters parameters;
   parameters.stiffness = 0.4;
-  const PenaltyLaw law(parameters);
+  PenaltyLaw law(parameters);
+  law.fit(testing_terrain::box(group.material, {0, 0, 0}, {1, 1, 1}, 0.5), "foot");
   ContactHistory history;
   law.update_stiffness(group, 0, history);
   const double wave_over_bulk = 3.0 * 0.7 / 1.3;  // nu = 0.3
@@ -124,6 +126,12 @@ TEST(PenaltyLaw, StiffnessFollowsTheModulusAndKeepsTheEnergy) {
     EXPECT_NEAR(history.gap, -1e-3 * std::sqrt(before / after), 1e-15);
     EXPECT_NEAR(history.spring.y(), 2e-3 * std::sqrt(before / after), 1e-15);
   }
+  VectorX opened = group.material->initial_state();
+  opened.head<3>().setConstant(1500.0);
+  group.particles.set_state(0, opened);
+  history = {};
+  law.update_stiffness(group, 0, history);
+  EXPECT_NEAR(history.stiffness, now, 1e-9 * now);
 }
 
 /// m (approach + a fifth of the penetration each step)/dt; friction stops the sliding at most.
