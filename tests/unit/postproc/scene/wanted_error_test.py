@@ -76,10 +76,9 @@ class PlanTest(FolderTest):
 
     def test_outcome_is_that_of_the_run(self) -> None:
         write_run(self.folder / "run", torque=50.0)
-        # the part's number is that of the stored comparisons
-        for wanted, state in ((0.9, "within 90 %"), (0.01, r"above 1 %: the part 'model' leaves \d\d % "), (math.inf, r" of one core\.")):
+        for wanted, state in ((0.9, "within 90 %"), (0.01, "above 1 %: the part 'model' leaves 82 %"), (math.inf, " of one core.")):
             text = outcome(Plan(SERIES[0], self.pilot(), wanted, math.inf), self.folder / "run")[0]
-            self.assertRegex(text, state)
+            self.assertIn(state, text)
 
 
 if __name__ == "__main__":
