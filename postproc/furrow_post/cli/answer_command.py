@@ -2,8 +2,7 @@
 """furrow-post answer: pull, resistance and rut of a tyre on soil, from its size and a cone index."""
 
 from pathlib import Path
-
-import yaml
+from typing import NamedTuple
 
 from ..analyse.cone_formulas import Formulas, Tyre, formulas_for
 from ..analyse.tyre_estimate import Catalogue
@@ -67,8 +66,8 @@ def answer(given: Given) -> int:
     if status == 0:
         formulas = formulas_for(given.soil, 1e3 * given.cone_index, tyre, given.slip or USUAL_SLIP, "R" in given.size.upper())
         rows = compared(run, formulas, given.slip is None)
-        write_rows(folder / TABLE, rows)
-        print("\n".join(["", "Formulas of this cone index", formulas.report(), "", *(_sentence(**row) for row in rows)]))  # type: ignore[arg-type]
+        write_rows(folder / TABLE, [row._asdict() for row in rows])
+        print("\n".join(["", "Formulas of this cone index", formulas.report(), "", *(row.sentence() for row in rows)]))
     return status
 
 
@@ -79,7 +78,7 @@ def _tyre(given: Given, file: Path) -> tuple[Tyre, float]:
     text = fit.file_text(size.designation, [f"furrow-post answer {given.size} --pressure {given.pressure:g}"])
     (state,) = press(text, [PlateTest(given.pressure, given.load, {})])
     file.write_text(text, encoding="utf-8")
-    return Tyre(given.load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"]), float(yaml.safe_load(text)["tread"]["radius"])
+    return Tyre(given.load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"]), fit.values()["belt_radius"]
 
 
 def _soil(given: Given) -> str:
@@ -102,26 +101,34 @@ def _soil(given: Given) -> str:
     )
 
 
-def compared(run: Path, formulas: Formulas, towed: bool) -> list[dict[str, object]]:
-    """Values of the run with their whole errors, and the band of the formulas, which is empty without one."""
+class Compared(NamedTuple):
+    """Value of a run with its whole error, and the band of the formulas."""
+
+    quantity: str
+    value: float
+    error: float
+    least: float
+    greatest: float
+    unknown: str  # parts of the error
+
+    def sentence(self) -> str:
+        """Where the value lies: inside of the band, or by how many errors outside."""
+        known = f"formulas {self.least:.3g} to {self.greatest:.3g}" if self.least < self.greatest else f"formula {self.least:.3g}, of unknown scatter"
+        apart = max(self.least - self.value, self.value - self.greatest, 0.0) / self.error if self.error > 0.0 else 0.0
+        lacks = f" ({self.unknown})" if self.unknown else ""
+        return f"{self.quantity.replace('_', ' ')} {self.value:.3g} ± {self.error:.2g}{lacks}; {known}: {_place(apart)}"
+
+
+def compared(run: Path, formulas: Formulas, towed: bool) -> list[Compared]:
+    """Values of the run of which the formulas speak."""
     found, errors = Summary(run).quantities, budgets_of(run)
-    rows: list[dict[str, object]] = []
+    rows = []
     for name, of_formulas in COMPARED.items():
         quantity = of_formulas[0 if towed else 1]
         if name in found and quantity and (band := formulas.band(quantity)):
-            rows.append({
-                "quantity": name, "value": float(found[name]["mean"]), "error": errors[name].total,
-                "least": band[1], "greatest": band[2], "unknown": errors[name].missing_text(),
-            })  # fmt: skip
+            error = errors[name]
+            rows.append(Compared(name, float(found[name]["mean"]), error.total, band[1], band[2], error.missing_text()))
     return rows
-
-
-def _sentence(quantity: str, value: float, error: float, least: float, greatest: float, unknown: str) -> str:
-    """Where a value lies: inside of the band of the formulas, or by how many errors outside."""
-    known = f"formulas {least:.3g} to {greatest:.3g}" if least < greatest else f"formula {least:.3g}, of unknown scatter"
-    apart = max(least - value, value - greatest, 0.0) / error if error > 0.0 else 0.0
-    lacks = f" ({unknown})" if unknown else ""
-    return f"{quantity.replace('_', ' ')} {value:.3g} ± {error:.2g}{lacks}; {known}: {_place(apart)}"
 
 
 def _place(apart: float) -> str:
