@@ -2,16 +2,12 @@
 #pragma once
 /// The contact laws: how a surface and the particles that touch it are kept apart.
 ///
-/// A law is a class like PenaltyLaw:
-///   static constexpr const char* name, *meaning;   // for keyword 'enforcement' and its page
-///   explicit Law(const ContactParameters&);
-///   // to the step of this terrain; @throws InputError when it cannot; `where`: the contact
-///   void fit(const TerrainParameters&, const std::string& where);
-///   // for every touching particle in each step: the stiffness of its springs
-///   void update_stiffness(const ParticleGroup&, std::size_t particle, ContactHistory&) const;
-///   // for every touching particle in each step of dt: force of the surface on the ground [N]; the
-///   // energy that the contact takes is added to the losses
-///   Vector3 force(const ContactMotion&, double dt, ContactHistory&, ContactLosses&) const;
+/// A law is a class like PenaltyLaw, built from ContactParameters. It has these members:
+///   name, meaning     of keyword 'enforcement' and its page
+///   fit               to the step of a terrain, once and first; throws InputError where it cannot
+///   update_stiffness  of a touching particle's springs, in each step before its force
+///   force             of the surface on the ground at a touching particle [N], in each step; adds
+///                     the energy that the contact takes to the losses
 /// A new law is one file and one row here. The law is chosen once a step: calls for a particle are
 /// direct.
 

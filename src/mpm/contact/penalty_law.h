@@ -57,8 +57,8 @@ inline void PenaltyLaw::update_stiffness(const ParticleGroup& group, std::size_t
                                          ContactHistory& history) const {
   const double modulus = group.material->moduli(group.particles.state(particle)).wave();
   const double volume = group.particles.data(column::volume)[particle];
-  double stiffness = stiffness_.value_or(usual_stiffness) *
-                     std::max(modulus, unstressed_moduli_[group.layer]) * std::cbrt(volume);
+  double stiffness =
+      *stiffness_ * std::max(modulus, unstressed_moduli_[group.layer]) * std::cbrt(volume);
   if (history.touches() || history.bounces()) {
     stiffness = std::max(stiffness, history.stiffness);
     const double scale = std::sqrt(history.stiffness / stiffness);

@@ -204,16 +204,26 @@ TEST_P(Enforcements, ForceAndMomentAreEqualOnBothSides) {
   expect_balance_when_hit(GetParam(), TerrainParameters().remap_interval, 2e-3);
 }
 
-/// A plate in a bed of snow, pressed in and pulled out: momentum against all impulses; energies
-/// against all works.
-TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
-  TerrainParameters p = box(material_of(snow()), {-0.15, 0, 0}, {0.15, 0.15, 0.1}, 0.025);
+/// A bed of 0.3 m x 0.15 m x 0.1 m under gravity, half of it.
+TerrainParameters bed_of(const std::string& material, const FaceArray<const char*>& boundary) {
+  TerrainParameters p = box(material_of(material), {-0.15, 0, 0}, {0.15, 0.15, 0.1}, 0.025);
   p.z = even(0, 0.15, 0.025);
   p.gravity = {0, 0, -standard_gravity};
   p.initial_stress = true;
-  set_boundary(p, {"absorbing", "absorbing", "smooth", "absorbing", "rough", "free"});
+  set_boundary(p, boundary);
+  return p;
+}
+
+const PlateGeometry bed_plate{PlateShape::square, 0.15, 0.05, 4};
+const Vector3 above_bed(0.02, 0, 0.1 + 1e-4);
+
+/// A plate in a bed of snow, pressed in and pulled out: momentum against all impulses; energies
+/// against all works.
+TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
+  const TerrainParameters p =
+      bed_of(snow(), {"absorbing", "absorbing", "smooth", "absorbing", "rough", "free"});
   ContinuumTerrain ground(p, Communicator());
-  RigidPlate plate({PlateShape::square, 0.15, 0.05, 4}, {0.02, 0, 0.1 + 1e-4});
+  RigidPlate plate(bed_plate, above_bed);
   ContactParameters parameters;
   parameters.enforcement = GetParam();
   TerrainContact contact(plate, ground, parameters, false, "plate");
@@ -258,31 +268,24 @@ TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
 /// A rough plate presses sand whose modulus grows with the root of pressure, slides and lifts off.
 /// Its work goes to ground and friction, since its springs are empty at the end.
 TEST(Contact, SpringsOnGroundThatStiffensReturnWhatTheyTake) {
-  const auto sand = material_of(
-      "norsand density 1500 e0 0.75 M 1.25 gamma 0.93 lambda 0.02 csl_exponent 0.7 chi 5 N 0.5 H "
-      "150 G 40e6 n 0.5 nu 0.2 pt 100");
-  TerrainParameters p = box(sand, {-0.15, 0, 0}, {0.15, 0.15, 0.1}, 0.025);
-  p.z = even(0, 0.15, 0.025);
-  p.gravity = {0, 0, -standard_gravity};
-  p.initial_stress = true;
-  set_boundary(p, {"rough", "rough", "smooth", "rough", "rough", "free"});
-  ContinuumTerrain ground(p, Communicator());
-  RigidPlate plate({PlateShape::square, 0.15, 0.05, 4}, {0.02, 0, 0.1 + 1e-4});
+  PressedGround press(
+      bed_of("norsand density 1500 e0 0.75 M 1.25 gamma 0.93 lambda 0.02 csl_exponent 0.7 chi 5 N "
+             "0.5 H 150 G 40e6 n 0.5 nu 0.2 pt 100",
+             {"rough", "rough", "smooth", "rough", "rough", "free"}),
+      bed_plate, above_bed);
   ContactParameters parameters;
   parameters.friction = 0.5;
   parameters.damping = 0.0;
-  TerrainContact contact(plate, ground, parameters, false, "plate");
+  press.touch(parameters);
+  const TerrainContact& contact = *press.contact;
   double time = 0.0, spent = 0.0, most = 0.0;
   while (time < 0.06) {
-    const double dt = 0.25 * ground.stable_time_step();
+    const double dt = 0.25 * press.ground.stable_time_step();
     const Vector3 velocity(0.2, 0, time < 0.03 ? -0.1 : 0.15);
-    plate.surface().clear_forces();
-    plate.prescribe(velocity);
-    contact.apply(dt);
+    press.plate.prescribe(velocity);
+    press.system.advance(dt);
     spent -= dt * contact.force().dot(velocity);
     most = std::max(most, spent);
-    plate.advance(dt);
-    ground.advance(dt);
     time += dt;
   }
   EXPECT_EQ(contact.force(), Vector3::Zero());
