@@ -7,6 +7,8 @@
 
 #include <Eigen/LU>
 
+#include "material/models/norsand/norsand.h"
+
 namespace furrow::testing_paths {
 
 Vector6 mixed_step(const Material& material, VectorX& state, Vector6 strain,
@@ -54,6 +56,16 @@ Vector6 mixed_step(const Material& material, VectorX& state, Vector6 strain,
   residual(strain, result);
   state = result;
   return strain;
+}
+
+double excess_of_cone(const Material& material, const VectorX& before, const VectorX& after) {
+  const auto* sand = dynamic_cast<const NorSand*>(&material);
+  if (!sand) return 0.0;
+  const NorSandParameters& p = sand->parameters();
+  const double change = sand->critical_void_ratio(before[NorSand::image_pressure]) -
+                        sand->critical_void_ratio(after[NorSand::image_pressure]);
+  const double P = std::max(0.0, invariants(stress_of(after)).p + p.pt);
+  return (1.0 - p.N) * p.chi_i * std::abs(change) * P / material.stress_scale(after);
 }
 
 }  // namespace furrow::testing_paths

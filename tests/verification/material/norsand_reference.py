@@ -65,7 +65,7 @@ def rates(y, path, phase):
         psi = psi_i(void, image)
         x, lowest = P / np.exp(image), lowest_ratio(void, image)
         D = CHI_I * psi if phase == "limit" else dilatancy(x)
-        modulus = max(H - H_PSI * psi, 0.1 * H)
+        modulus = max(H - H_PSI * psi, 0.1 * H) * (np.exp(image) / 1e5) ** (EXPONENT - 1)
         hardening = modulus * (x / lowest - 1 if phase == "limit" else x**2 / lowest - x)
         stiffness = f[0] * K * D + f[1] * 3 * G - f[2] * hardening
 

@@ -40,6 +40,7 @@ std::unique_ptr<Material> create_norsand(const MaterialOptions& sections) {
   const double nu = o.number("nu");
   q.shear = o.number("G");
   q.exponent = o.number("n");
+  q.H_exponent = o.has("H_exponent") ? o.number("H_exponent") : 1.0 - q.exponent;
   q.bulk_ratio = 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu));
   const double coupling = q.bulk_ratio * q.M * q.M / (12.0 * (1.0 - q.N));
   if (coupling > largest_coupling)
@@ -97,7 +98,12 @@ MaterialModel NorSand::model() {
       .number("N", "", Range::closed(0.05, 0.8),
               "volumetric coupling: the stress ratio is M - (1 - N) times the dilatancy")
       .by_default(0.5);
-  schema.number("H", "", Range::positive(), "plastic hardening modulus over the image pressure");
+  schema.number("H", "", Range::positive(),
+                "plastic hardening modulus over the image pressure, at 100 kPa");
+  schema
+      .number("H_exponent", "", Range::closed(0.0, 1.0),
+              "H times (image pressure/100 kPa)^-H_exponent; 1 - n unless given")
+      .optional();
   schema
       .number("H_psi", "", Range::non_negative(),
               "decrease of H with the state parameter; at least a tenth of H remains")

@@ -16,12 +16,14 @@
 ///   D_l = chi_i psi_i,  psi_i = e - e_c(P_i)
 /// So eta is at most M - (1 - N) chi psi. Plastic shear hardens the surface until x falls to x_l,
 /// the x of D_l.
-///   d(ln P_i) = (H - H_psi psi_i) (x^2/x_l - x) d(eps_q)
-/// The shear modulus grows with the pressure, and the bulk modulus in proportion.
+///   d(ln P_i) = h (x^2/x_l - x) d(eps_q),  h = (H - H_psi psi_i) (P_i/100 kPa)^-m
+/// With m = 1 - n plastic and elastic stiffness have one ratio at all pressures. A constant H, m =
+/// 0, makes sand that opened compact by 3 to 15 % of its volume under the first 1 kPa. The shear
+/// modulus grows with the pressure, and the bulk modulus in proportion.
 ///   G = G_ref (P/100 kPa)^n,  K = G 2 (1 + nu)/(3 (1 - 2 nu))
 ///
-/// At the limit, x < x_l, the surface is a cone. P_i then falls by d(ln P_i) = -(H - H_psi psi_i)
-/// (1 - x/x_l) d(eps_q). At the tip flow may be volumetric, and (1 - N) d(eps_v)/M takes the place
+/// At the limit, x < x_l, the surface is a cone. P_i then falls by d(ln P_i) = -h (1 - x/x_l)
+/// d(eps_q). At the tip flow may be volumetric, and (1 - N) d(eps_v)/M takes the place
 /// of d(eps_q). Sand with D_l >= M/(1 - N) is too loose to bear shear, and compression softens it.
 /// Grains that had separated thus bear a load only after the void ratio has fallen again.
 ///

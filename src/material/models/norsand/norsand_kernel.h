@@ -57,6 +57,12 @@ struct NorSandKernel {
   FURROW_INLINE Lanes stress_ratio(const Lanes& D) const {
     return Lanes(parameters.M) - Lanes(1.0 - parameters.N) * D;
   }
+  /// H over that of the reference pressure; tension does not raise it further.
+  FURROW_INLINE Lanes hardening_over_reference(const Lanes& image) const {
+    if (parameters.H_exponent == 0.0) return 1.0;
+    return power(Lanes(NorSandParameters::reference_pressure) / max(image, parameters.pt),
+                 parameters.H_exponent);
+  }
 
   FURROW_INLINE void step(const Symmetric& strain, Points<internal_variables>& points) const {
     const double pt = parameters.pt, largest = parameters.largest_D();
@@ -104,7 +110,8 @@ struct NorSandKernel {
     if (any(yielding)) {
       const Lanes over_k = Lanes(1.0) / (Lanes(3.0) * deviator.stiffness(shear)), c = bulk * over_k;
       const Lanes H = max(Lanes(parameters.H) - Lanes(parameters.H_psi) * psi,
-                          NorSandParameters::least_hardening * parameters.H);
+                          NorSandParameters::least_hardening * parameters.H) *
+                      hardening_over_reference(image_old);
       const Lanes over_x_l = Lanes(1.0) / x_l;
       const auto pressure = [&](const Lanes& at) __attribute__((always_inline)) {
         return (P_tr - c * at * t_tr) / (Lanes(1.0) - c * at * stress_ratio(at));
