@@ -102,11 +102,12 @@ def _soil(given: Given) -> str:
 
 
 class Compared(NamedTuple):
-    """Value of a run with its whole error, and the band of the formulas."""
+    """Value of a run with its whole error, and mean and band of the formulas."""
 
     quantity: str
     value: float
     error: float
+    mean: float  # of the formulas
     least: float
     greatest: float
     unknown: str  # parts of the error
@@ -127,7 +128,7 @@ def compared(run: Path, formulas: Formulas, towed: bool) -> list[Compared]:
         quantity = of_formulas[0 if towed else 1]
         if name in found and quantity and (band := formulas.band(quantity)):
             error = errors[name]
-            rows.append(Compared(name, float(found[name]["mean"]), error.total, band[1], band[2], error.missing_text()))
+            rows.append(Compared(name, float(found[name]["mean"]), error.total, *band, error.missing_text()))
     return rows
 
 

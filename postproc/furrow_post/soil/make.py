@@ -266,6 +266,8 @@ CLASSES = {
 # Young's modulus over cone resistance of sand: J. H. Schmertmann, J. Soil Mech. Found. Div. ASCE 96
 # (1970), 1011-1043
 MODULUS_RATIO = 2.0
+# Resistance of the virtual cone in these materials over that of the cavity: inputs/soils/cone_on_estimated_sand.csv
+CONE_OVER_CAVITY = 1.33
 
 
 def cone_resistance(strength: Strength, density: float, shear_modulus: float, depth: float) -> float:
@@ -313,7 +315,7 @@ def from_cone(title: str, cone_index: float, soil_class: str, density: float | N
 
     def excess(strength: Strength) -> float:
         q = cone_resistance(strength, weight, shear_modulus, 0.5 * INDEX_DEPTH)
-        return math.log(q / cone_index)
+        return math.log((CONE_OVER_CAVITY if typical.coarse else 1.0) * q / cone_index)
 
     low, high = (5.0, 48.0) if typical.coarse else (20.0, 1e6)
 
@@ -331,7 +333,8 @@ def from_cone(title: str, cone_index: float, soil_class: str, density: float | N
     confined = confined_of_modulus(young, reference)
     head = (
         f"cone index {cone_index:g} Pa in {soil_class}: c {strength.c:.4g} Pa, phi "
-        f"{strength.phi:.4g} degrees, by the cavity of Vesic (1977)",
+        f"{strength.phi:.4g} degrees, by the cavity of Vesic (1977)"
+        f"{f' times {CONE_OVER_CAVITY:g}' if typical.coarse else ''}",
     )
     return material_of(
         title,

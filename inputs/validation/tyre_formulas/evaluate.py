@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Tyres estimated from their sizes, and the formulas that hold for them."""
+
+from collections.abc import Iterator
+from functools import cache
+from typing import Any
+
+from furrow_post.analyse.cone_formulas import Formulas, Tyre, formulas_for
+from furrow_post.analyse.tyre_estimate import Catalogue
+from furrow_post.analyse.tyre_fit import PlateTest, fit_tyre, press
+from furrow_post.analyse.tyre_size import read_size
+from furrow_post.cli.answer_command import compared
+from furrow_post.study.runs import Run
+
+# Size: load [N], inflation [kPa]
+TYRES = {
+    "205/55R16": (4000, 220),
+    "265/70R17": (6000, 200),
+    "14.00R20": (25000, 300),
+    "18.4R38": (20000, 100),
+    "31x15.50-15": (6000, 80),
+    "22x11.00-10": (2000, 50),
+}
+# File in inputs/materials: soil, index of the virtual cone [kPa]
+SOILS = {
+    "sand_loose": ("sand", 60),
+    "sand_medium": ("sand", 120),
+    "sand_firm": ("sand", 250),
+    "clay_soft": ("clay", 130),
+    "clay_medium": ("clay", 270),
+    "clay_stiff": ("clay", 530),
+}
+SLIP = 0.2  # of the driven tyres
+CELL, DEPTH, TRAVEL = 0.15, 1.3, 3.7  # over the radius of the belt
+
+
+@cache
+def tyre_text(size: str) -> str:
+    """Tyre file that furrow-post answer writes for this size."""
+    return fit_tyre(Catalogue(read_size(size), 1e3 * TYRES[size][1]), []).file_text(size, ["furrow-post fit tyre"])
+
+
+@cache
+def belt_radius(size: str) -> float:
+    """Radius of the estimated belt, which meets the ground [m]."""
+    return fit_tyre(Catalogue(read_size(size), 1e3 * TYRES[size][1]), []).values()["belt_radius"]
+
+
+def combinations() -> Iterator[dict[str, Any]]:
+    """Every tyre on every soil, towed and driven."""
+    for size, (load, pressure) in TYRES.items():
+        radius = belt_radius(size)
+        lengths = {"cell": CELL * radius, "depth": DEPTH * radius, "fine_depth": 0.5 * radius, "distance": TRAVEL * radius}
+        for soil in SOILS:
+            for drive, motion in (("towed", "mode towed"), ("driven", f"mode slip slip {SLIP}")):
+                yield {
+                    "tyre": size.replace("/", "_"), "size": size, "soil": soil, "drive": drive, "motion": motion, "load": load,
+                    "pressure": 1e3 * pressure, "radius": f"{radius:.4f}", **{name: f"{value:.4f}" for name, value in lengths.items()},
+                }  # fmt: skip
+
+
+@cache
+def formulas(size: str, soil: str) -> Formulas:
+    """Of one tyre on the cone index of one soil."""
+    load, pressure = TYRES[size]
+    shape = read_size(size)
+    (state,) = press(tyre_text(size), [PlateTest(pressure, load, {})])
+    tyre = Tyre(load, shape.diameter, shape.width, shape.height, 1e-2 * state["deflection_cm"])
+    kind, index = SOILS[soil]
+    return formulas_for(kind, 1e3 * index, tyre, SLIP, "R" in size)
+
+
+
+def compared_with_formulas(run: Run) -> list[dict[str, Any]]:
+    """Values of a run of which the formulas speak, with their whole errors."""
+    soil, _, name = run.name.partition("/")
+    size, _, drive = name.rpartition("_")
+    size = size.replace("_", "/")
+    rows = compared(run.folder, formulas(size, soil), drive == "towed")
+    return [{"size": size, "soil": soil, "drive": drive, "kind": SOILS[soil][0], **row._asdict()} for row in rows]
