@@ -23,9 +23,9 @@ TYRES = {
 }
 # File in inputs/materials: soil, index of the virtual cone [kPa]
 SOILS = {
-    "sand_loose": ("sand", 60),
-    "sand_medium": ("sand", 120),
-    "sand_firm": ("sand", 250),
+    "sand_loose": ("sand", 67),
+    "sand_medium": ("sand", 131),
+    "sand_firm": ("sand", 217),
     "clay_soft": ("clay", 130),
     "clay_medium": ("clay", 270),
     "clay_stiff": ("clay", 530),

@@ -23,6 +23,7 @@ SCENE = "tyre_on_soil"
 TABLE = "answer.csv"  # values and formulas, in the results
 SAND, CLAY = "sand", "clay"
 CLASS = "SP"  # of the sand between the classes of the USCS: clean, of one size
+LOOSE_BELOW = 85e3  # cone index of 33 degrees, between the angles of the contact files of sand [Pa]
 INDEX_OVER_STRENGTH = 12.5  # cone index over undrained strength; 9 to 15 are measured
 USUAL_SLIP = 0.2  # of the driven columns of the formulas next to a towed tyre
 STIFFNESS = 150.0  # Young's modulus over strength; 50 to 500 are measured
@@ -87,7 +88,8 @@ def _soil(given: Given) -> str:
     title = f"{given.soil.capitalize()} of cone index {given.cone_index:g} kPa"
     clay = find_ground("clay_medium")
     if given.soil == SAND:
-        return f"{from_cone(title, index, CLASS, None).text()}contact: {clay.parent / 'contact' / 'sand.yaml'}\n"
+        contact = clay.parent / "contact" / ("sand.yaml" if index < LOOSE_BELOW else "firm_sand.yaml")
+        return f"{from_cone(title, index, CLASS, None).text()}contact: {contact}\n"
     strength = index / INDEX_OVER_STRENGTH
     return (
         f"title: {title}\n"

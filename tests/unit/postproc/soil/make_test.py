@@ -7,6 +7,7 @@ import unittest
 import numpy as np
 import yaml
 
+from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.soil.make import (
     CLASSES,
@@ -56,9 +57,9 @@ class MakeTest(FolderTest):
     def test_norsand_has_its_own_elasticity(self) -> None:
         material = read_material(SOURCE / "inputs" / "materials" / "norsand_dry.yaml")
         # by hand: 2 G (1 + nu) at a tenth of the pressure of G, to which the law adds pt
-        young = 2 * 1.66e6 * (1 + 0.229) * ((1e4 + 20) / 1e5) ** 0.3296
+        young = 2 * 1.686e6 * (1 + 0.227) * ((1e4 + 20) / 1e5) ** 0.3320
         self.assertAlmostEqual(material.young / young, 1, places=9)
-        self.assertAlmostEqual(material.wave_speed, 38.2, places=1)
+        self.assertAlmostEqual(material.wave_speed, 38.3, places=1)
 
     def test_a_modulus_gives_janbus_curve(self) -> None:
         made = from_strength("mine", 0.0, 33.0, 1600.0, None, 1.2e7)
@@ -96,6 +97,15 @@ class MakeTest(FolderTest):
         cohesions = [float(from_cone("c", q, "CL", None).law["d"].value) for q in (1e5, 2e5, 4e5)]
         self.assertEqual(betas, sorted(betas))
         self.assertEqual(cohesions, sorted(cohesions))
+
+    def test_the_virtual_cone_shows_the_index_of_an_estimated_sand(self) -> None:
+        inputs = SOURCE / "inputs"
+        for row in read_rows(inputs / "soils" / "cone_on_estimated_sand.csv"):
+            asked = float(row["asked_Pa"])
+            stored = yaml.safe_load((inputs / "materials" / f"{row['file']}.yaml").read_text())["law"]
+            made = from_cone("mine", asked, "SP", float(row["density_kgm3"]))
+            self.assertAlmostEqual(float(made.law["beta"].value), stored["beta"], delta=1e-3)
+            self.assertAlmostEqual(float(row["index_Pa"]) / asked, 1, delta=0.15)
 
     def test_every_guess_is_marked_in_the_file(self) -> None:
         done = run_card("material", self.file, "--c", 500, "--phi", 33, "--density", 1600,
