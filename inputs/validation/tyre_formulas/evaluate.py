@@ -3,13 +3,16 @@
 
 from collections.abc import Iterator
 from functools import cache
+from statistics import fmean
 from typing import Any
 
 from furrow_post.analyse.cone_formulas import Formulas, Tyre, formulas_for
 from furrow_post.analyse.tyre_estimate import Catalogue
 from furrow_post.analyse.tyre_fit import PlateTest, fit_tyre, press
 from furrow_post.analyse.tyre_size import read_size
-from furrow_post.cli.answer_command import compared
+from furrow_post.analyse.whole_error import budgets_of
+from furrow_post.cli.answer_command import Compared, compared
+from furrow_post.run.summary import Summary
 from furrow_post.study.runs import Run
 
 # Size: load [N], inflation [kPa]
@@ -30,6 +33,7 @@ SOILS = {
     "clay_medium": ("clay", 270),
     "clay_stiff": ("clay", 530),
 }
+ON_CLAY = ("205/55R16", "265/70R17", "18.4R38")  # three of the tyres
 SLIP = 0.2  # of the driven tyres
 CELL, DEPTH, TRAVEL = 0.15, 1.3, 3.7  # over the radius of the belt
 
@@ -47,11 +51,13 @@ def belt_radius(size: str) -> float:
 
 
 def combinations() -> Iterator[dict[str, Any]]:
-    """Every tyre on every soil, towed and driven."""
+    """Every tyre on every sand and three on every clay, towed and driven."""
     for size, (load, pressure) in TYRES.items():
         radius = belt_radius(size)
         lengths = {"cell": CELL * radius, "depth": DEPTH * radius, "fine_depth": 0.5 * radius, "distance": TRAVEL * radius}
-        for soil in SOILS:
+        for soil, (kind, _) in SOILS.items():
+            if kind == "clay" and size not in ON_CLAY:
+                continue
             for drive, motion in (("towed", "mode towed"), ("driven", f"mode slip slip {SLIP}")):
                 yield {
                     "tyre": size.replace("/", "_"), "size": size, "soil": soil, "drive": drive, "motion": motion, "load": load,
@@ -60,15 +66,14 @@ def combinations() -> Iterator[dict[str, Any]]:
 
 
 @cache
-def formulas(size: str, soil: str) -> Formulas:
+def formulas(size: str, soil: str, slip: float = SLIP) -> Formulas:
     """Of one tyre on the cone index of one soil."""
     load, pressure = TYRES[size]
     shape = read_size(size)
     (state,) = press(tyre_text(size), [PlateTest(pressure, load, {})])
     tyre = Tyre(load, shape.diameter, shape.width, shape.height, 1e-2 * state["deflection_cm"])
     kind, index = SOILS[soil]
-    return formulas_for(kind, 1e3 * index, tyre, SLIP, "R" in size)
-
+    return formulas_for(kind, 1e3 * index, tyre, slip, "R" in size)
 
 
 def compared_with_formulas(run: Run) -> list[dict[str, Any]]:
@@ -77,4 +82,14 @@ def compared_with_formulas(run: Run) -> list[dict[str, Any]]:
     size, _, drive = name.rpartition("_")
     size = size.replace("_", "/")
     rows = compared(run.folder, formulas(size, soil), drive == "towed")
-    return [{"size": size, "soil": soil, "drive": drive, "kind": SOILS[soil][0], **row._asdict()} for row in rows]
+    if SOILS[soil][0] == "clay" and drive == "towed":
+        rows += _resistance_on_clay(run, size, soil)
+    return [{"size": size, "soil": soil, "drive": drive, **row._asdict()} for row in rows]
+
+
+def _resistance_on_clay(run: Run, size: str, soil: str) -> list[Compared]:
+    """The formulas of clay have the resistance of a driven tyre; that without slip stands for a towed one."""
+    answers = [answer.resistance for answer in formulas(size, soil, 1e-6).answers]
+    error = budgets_of(run.folder)["resistance_coefficient"]
+    value = Summary(run.folder).quantities["resistance_coefficient"]["mean"]
+    return [Compared("resistance_coefficient", float(value), error.total, fmean(answers), min(answers), max(answers), "")]

@@ -172,6 +172,25 @@ TEST(Presets, NorSandFollowsTheTestsOnItsGrains) {
   }
 }
 
+/// Peak friction angles of GRC-1 at four densities, which published triaxial tests gave. The loosest sand
+/// ends at the critical angle.
+TEST(Presets, Grc1HasTheFrictionAngleOfItsDensity) {
+  const auto preset = file_of("grc1_norsand").make();
+  const NorSandParameters& law = static_cast<const NorSand&>(*preset).parameters();
+  std::vector<double> strains;
+  for (int i = 1; i <= 60; ++i) strains.push_back(0.005 * i);
+  const auto angle = [&](double density) {
+    const NorSand sand(density, law, 2580 / density - 1, 1e4, law.shear_band);
+    const std::vector<double> ratios = stress_ratios(sand, 1e4, strains);
+    const double peak = *std::max_element(ratios.begin(), ratios.end());
+    return std::asin(3 * peak / (6 + peak)) * 180 / std::acos(-1.0);
+  };
+  EXPECT_NEAR(angle(1600), 29.8, 2.0);
+  EXPECT_NEAR(angle(1670), 33.4, 1.0);
+  EXPECT_NEAR(angle(1760), 38.4, 1.0);
+  EXPECT_NEAR(angle(1800), 42.4, 1.0);
+}
+
 /// The curve that the clusters of the ground snow_bonded_field were calibrated on is this law's.
 TEST(Presets, FieldSnowIsTheCurveOfItsGrains) {
   const CsvTable curve = CsvTable::read(inputs + "/validation/grains/field_snow_oedometer.csv");
