@@ -24,6 +24,7 @@
 #include "mpm/divided_ground.h"
 #include "mpm/ground_under_wheel.h"
 #include "primitive_wall.h"
+#include "tyre/darnell_tyre.h"
 
 namespace furrow::coupling {
 
@@ -647,6 +648,18 @@ Found body_is_over_terrain(const Scene&, FixContactContinuum& contact) {
                   pair.body.id, pair.terrain.id, pair.body_x.lower, pair.body_x.upper,
                   pair.body_y.lower, pair.body_y.upper, pair.terrain_x.lower, pair.terrain_x.upper,
                   pair.terrain_y.lower, pair.terrain_y.upper));
+}
+
+Found sidewalls_touch_the_terrain(const Scene&, FixContactContinuum& contact) {
+  const FixBody& fix = contact.body_fix();
+  const auto* tyre = dynamic_cast<const DarnellTyre*>(&fix.body());
+  if (tyre == nullptr || tyre->settings().sidewall_rows > 0) return {};
+  Finding open = warning(fmt::format(
+      "{} is 0: only the tread of '{}' touches '{}', and ground that flows over its edges stops "
+      "the run; write 1 to 50 (4 is usual)",
+      fix.options().where("sidewall_rows"), fix.id, contact.terrain_fix().id));
+  open.explains_errors = true;
+  return open;
 }
 
 /// Ground enters a groove, or the gap between two bars, with particles that are narrower.

@@ -117,6 +117,7 @@ constexpr Rule rules[] = {
     rule<cells_of_the_field_show_the_grousers>(When::before_run),
     rule<wheel_on_a_field_has_no_camber>(When::before_run),
     rule<body_is_over_terrain>(When::before_run),
+    rule<sidewalls_touch_the_terrain>(When::before_run),
     rule<cells_enter_grooves>(When::before_run),
     rule<turning_plate_has_whole_terrain>(When::before_run),
     rule<waves_outrun_body>(When::before_run),

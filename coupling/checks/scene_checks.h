@@ -172,6 +172,8 @@ Found sand_pulls_less_than_the_load(const Scene& scene, FixContactRft& contact);
 Found card_reaches_the_sinkage(const Scene& scene, FixContactScm& contact);
 Found card_reaches_the_pressure(const Scene& scene, FixContactScm& contact);
 Found body_is_over_terrain(const Scene& scene, FixContactContinuum& contact);
+/// A tread without sidewalls is open: ground that flows over its edges is inside of the tyre.
+Found sidewalls_touch_the_terrain(const Scene& scene, FixContactContinuum& contact);
 Found cells_enter_grooves(const Scene& scene, FixContactContinuum& contact);
 Found turning_plate_has_whole_terrain(const Scene& scene, FixContactContinuum& contact);
 

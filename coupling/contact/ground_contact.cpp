@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/contact/ground_contact.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,6 +15,13 @@ namespace {
 
 // Snow has 0.05 m [Wong2008], rubber on three soils 0.006 to 0.009 m [KRC]
 constexpr double least_slip_length = 2e-4, largest_slip_length = 0.15;
+
+/// True for a contact law whose line takes a largest shear stress.
+bool takes_shear_limit(const Options& options) {
+  const std::vector<Key>& keys = options.keys();
+  return std::any_of(keys.begin(), keys.end(),
+                     [](const Key& key) { return key.name == "shear_limit"; });
+}
 
 /// Text of a value: "friction 0.3 (0.2 to 0.5)", or the value of the line.
 std::string value_text(const Options& options, const char* key, const char* unit, double known,
@@ -55,7 +63,13 @@ BodyContact contact_with(LAMMPS_NS::LAMMPS& lammps, const Options& options, cons
                          const GroundContact& known, const BodyContact& without,
                          const std::string& consequence) {
   const auto found = known.find(material);
-  const bool limited = found != known.end() && std::isfinite(found->second.shear_limit);
+  const bool has_limit = found != known.end() && std::isfinite(found->second.shear_limit);
+  const bool limited = has_limit && takes_shear_limit(options);
+  if (has_limit && !limited)
+    warn(lammps,
+         fmt::format("{}: the shear_limit of {:g} Pa that '{}' has for {} has no effect on "
+                     "'{}'; use contact/continuum for adhesion, or remove it from the file",
+                     options.subject(), found->second.shear_limit, ground, material, body.id));
   if (options.given("friction") && options.given("slip_length") && !limited) return without;
   if (found == known.end()) {
     const std::string missing = options.given("friction")      ? "slip_length"

@@ -20,7 +20,8 @@ std::string body_material(const Options& options, const FixBody& body);
 void warn_of_slip_length(LAMMPS_NS::LAMMPS& lammps, const Options& options);
 
 /// Friction and slip length of a contact, from the ground where a line does not give them. Prints
-/// the values; warns where the ground knows nothing.
+/// the values; warns where the ground knows nothing, or has a shear limit that the law does not
+/// use.
 /// @param ground  its name for messages
 /// @param without  values in effect without those of the ground
 /// @param consequence  of these values, for the warning

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/terrain/command_bed.h"
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -237,12 +238,19 @@ CommandBed::Request CommandBed::read_request(const std::vector<std::string>& wor
 void CommandBed::set_contact(const Options& options) {
   if (!options.has("contact")) return;
   const std::string path = (fs::path(script_folder(*lmp)) / options.text("contact")).string();
+  std::vector<std::string> limited;
   for (const auto& [material, contact] : read_contact_file(path)) {
+    if (std::isfinite(contact.shear_limit)) limited.push_back(material);
     set_variable(*lmp, "bed_friction_" + material, fmt::format("{:.15g}", contact.friction));
     announce(*lmp, fmt::format("Friction of the grains with {}: {:g} ({:g} to {:g}), {}; {}",
                                material, contact.friction, contact.friction_range[0],
                                contact.friction_range[1], contact.label, contact.source));
   }
+  if (!limited.empty())
+    warn(*lmp, fmt::format("{}: the shear_limit that '{}' has for {} has no effect on grains; use "
+                           "contact/continuum for adhesion, or remove it from the file",
+                           options.where("contact"), options.text("contact"),
+                           fmt::join(limited, " and ")));
 }
 
 /// Sets a variable with bed_ before its name for each parameter; also for a former name, which a

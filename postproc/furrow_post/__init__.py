@@ -49,12 +49,11 @@ def answer(size: str, **options: Any) -> "pandas.DataFrame":
     """
     import pandas
 
-    from .cli.answer_command import TABLE
+    from .cli.answer_command import TABLE, default_folder
     from .cli.run_command import post
     from .errors import ResultsError
-    from .programs import results_folder
 
-    folder = Path(options.setdefault("output", results_folder("answer")))
+    folder = Path(options.setdefault("output", default_folder()))
     words = [
         word
         for name, value in options.items()

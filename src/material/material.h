@@ -120,8 +120,7 @@ class Material {
   /// Where several surfaces meet (cap, shear, tension cut-off), the largest.
   virtual double yield_function(const VectorX& state) const;
   /// The stress that an error of the yield function is compared with [Pa]: the strength or the
-  /// pressure, and at least 1e-8 of the wave modulus, below which the rounding of a strain matters.
-  /// A law that never yields has the wave modulus.
+  /// pressure, and at least rounding_stress(). A law that never yields has the wave modulus.
   virtual double stress_scale(const VectorX& state) const { return moduli(state).wave(); }
   /// The yield surface of the state in triaxial compression as points (p, q), from the tensile end
   /// to the tip of the cap; empty for a law that never yields.
@@ -132,6 +131,8 @@ class Material {
   /// @param pressure    at the start of a run [Pa]
   Material(std::string name, double density, const std::vector<StateVariable>& internal_variables,
            double pressure = 0.0);
+  /// Stress below which the rounding of a strain matters [Pa].
+  double rounding_stress(const VectorX& state) const { return 1e-8 * moduli(state).wave(); }
   /// The report of a kernel's update. @throws PointError when the kernel failed
   UpdateReport checked(const BlockResult& result, const PointBlock& block) const;
   /// @throws PointError with the cause, the step and the state of a point of the block

@@ -12,8 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import ResultsError
-from ..formatting import percent, with_error
+from ..formatting import percent
 from ..read.wheel_run import WheelRun
+from ..run.summary import SteadyValue
 from . import cost_table
 from .budget import Budget
 from .conditions import TOLERANCES, Difference, incomparable
@@ -22,9 +23,9 @@ from .judgement import judge, summed_up
 from .measured import measured_entries
 from .prediction import Prediction
 from .statistics import commonest
-from .verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, Entry, Quantity, Verdict
+from .verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, TRACK_DENSITY, Entry, Quantity, Verdict
 from .wheel_histories import settling_curve
-from .whole_error import Families, budgets
+from .whole_error import Families, budget_of, budgets
 
 NAME_IN_RUN = {"sinkage": "hub_drop", "coefficient": "resistance_coefficient"}
 
@@ -38,7 +39,7 @@ class Comparison:
     differences: list[Difference] = field(default_factory=list)
     verdicts: list[Verdict] = field(default_factory=list)
     best_estimates: list[Verdict] = field(default_factory=list)  # on those of the runs
-    tracks: dict[str, tuple[float, float]] = field(default_factory=dict)  # density, error [kg/m3]
+    tracks: dict[str, Entry] = field(default_factory=dict)  # label of a run -> density under its track
     remarks: list[str] = field(default_factory=list)  # what differs apart from the two quantities
 
     def of(self, quantity: Quantity, kind: str | None = None) -> list[Entry]:
@@ -83,7 +84,7 @@ def compare(
     known = cost_table.families(table) if table else {}
     for run in runs:
         if run.has_density:
-            result.tracks[run.label] = track_density(run)
+            result.tracks[run.label] = track_entry(run)
         result.entries += entries_of_run(run, known)
         result.entries += best_estimates(run, known)
     for prediction in formulas:
@@ -124,12 +125,9 @@ def remarks(result: Comparison) -> list[str]:
                     f"{a / 1e3:.3g} kPa and {other.label} {b / 1e3:.3g} kPa"
                 )
         if first.label in result.tracks and other.label in result.tracks:
-            (a, a_error), (b, b_error) = result.tracks[first.label], result.tracks[other.label]
-            if abs(b - a) > max(COVERAGE * math.hypot(a_error, b_error), 0.05 * a):
-                sentences.append(
-                    f"under the track {first.label} has {with_error(a, a_error)} kg/m3 and "
-                    f"{other.label} {with_error(b, b_error)} kg/m3"
-                )
+            one, two = result.tracks[first.label], result.tracks[other.label]
+            if abs(two.value - one.value) > max(COVERAGE * math.hypot(one.uncertainty, two.uncertainty), 0.05 * one.value):
+                sentences.append(f"under the track {first.label} has {one.text()} kg/m3 and {other.label} {two.text()} kg/m3")
     return sentences
 
 
@@ -169,6 +167,13 @@ def entries_of_run(run: WheelRun, families: Families) -> list[Entry]:
         note = "" if value.steady else "not called steady"
         entries.append(Entry(quantity, run.label, value.mean, parts, RUN, note, run.cpu_time, value.steady))
     return entries
+
+
+def track_entry(run: WheelRun) -> Entry:
+    """Density under the track. No series of sizes and no test has one, so most parts of its error are unknown."""
+    density, error = track_density(run)
+    parts = budget_of(run, TRACK_DENSITY.key, SteadyValue(density, error, TRACK_DENSITY.unit, True))
+    return Entry(TRACK_DENSITY, run.label, density, parts, RUN)
 
 
 def best_estimates(run: WheelRun, families: Families) -> list[Entry]:

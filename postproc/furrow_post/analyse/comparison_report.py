@@ -9,12 +9,12 @@ import h5py
 import numpy as np
 
 from ..csv_table import in_cells, write_rows
-from ..formatting import duration, in_unit, with_error
+from ..formatting import duration
 from .comparison import Comparison, overall, overall_of_best_estimates
 from .budget import Budget
 from .density import sections
 from .judgement import remedies
-from .verdict import QUANTITIES, RUN, Entry
+from .verdict import QUANTITIES, TRACK_DENSITY, Entry
 from .wheel_histories import cruise_history, settling_curve
 
 SHOWN_CONDITIONS = (
@@ -39,9 +39,8 @@ def table_rows(result: Comparison) -> list[Line]:
         parts = e.parts if e.of_run else Budget()
         line = _line(e.quantity.name, e.source, e.kind, e.value, e.uncertainty, parts)
         lines.append({**line, "cpu_time": e.cpu_time, "note": e.note})
-    for label, (value, error) in result.tracks.items():
-        parts = Budget(time=error)
-        lines.append(_line("density under the track", label, RUN, value, error, parts))
+    for e in result.tracks.values():
+        lines.append(_line(e.quantity.name, e.source, e.kind, e.value, e.uncertainty, e.parts))
     return lines
 
 
@@ -78,10 +77,8 @@ def comparison_report(result: Comparison) -> str:
             for e in result.of(quantity)
         ]
     if result.tracks:
-        lines += ["", f"density under the track{in_unit('kg/m3')}"]
-        lines += [
-            f"  {label:{wide}}  {with_error(*track)}" for label, track in result.tracks.items()
-        ]
+        lines += ["", f"  {TRACK_DENSITY.label:{wide}}  {'':27} parts of the error"]
+        lines += [f"  {e.label:{wide}}  {e.text():27} {parts_cell(e)}" for e in result.tracks.values()]
     lines += [
         "",
         "± is one standard error, from the parts that are known. Verdicts allow two.",

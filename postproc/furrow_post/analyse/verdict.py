@@ -43,6 +43,7 @@ class Quantity:
 HUB_DROP = Quantity("sinkage", "hub drop", "mm", 1e3)
 COEFFICIENT = Quantity("coefficient", "resistance coefficient", "", 1.0)
 QUANTITIES = (HUB_DROP, COEFFICIENT)
+TRACK_DENSITY = Quantity("track_density", "density under the track", "kg/m3", 1.0)  # without a verdict
 
 
 @dataclass(frozen=True)

@@ -206,8 +206,12 @@ def budgets(run: WheelRun, families: Families | None = None) -> dict[str, Budget
     steady.update(run.values)
     values = {name: value for name, value in steady.items() if value}
     found = _Parts(run, families or {})
-    elements = "mesh" if run.ground == "none" else cells_or_grains(run.ground)
-    return {name: replace(found.of(name, value), elements=elements) for name, value in values.items()}
+    return {name: found.of(name, value) for name, value in values.items()}
+
+
+def budget_of(run: WheelRun, name: str, value: SteadyValue) -> Budget:
+    """Error of a value that the summary does not have."""
+    return _Parts(run, {}).of(name, value)
 
 
 class _Parts:
@@ -220,8 +224,12 @@ class _Parts:
         self.soil = material_error_of(run)
         self.load = abs(run.values["force_z"].mean)
         self.regimes = known_regimes() if run.ground != "scm" else ()
+        self.elements = "mesh" if run.ground == "none" else cells_or_grains(run.ground)
 
     def of(self, name: str, value: SteadyValue) -> Budget:
+        return replace(self._whole(name, value), elements=self.elements)
+
+    def _whole(self, name: str, value: SteadyValue) -> Budget:
         time = value.standard_error
         if value.imposed or name == "force_z":  # the load, which the rig holds
             return replace(IMPOSED, time=0.0 if value.imposed else time)

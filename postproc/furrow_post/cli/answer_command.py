@@ -20,6 +20,7 @@ from .parameters import Given, argument, command, flag, option
 from .run_command import post
 
 SCENE = "tyre_on_soil"
+RESULTS = "answer"  # name of the default results folder
 TABLE = "answer.csv"  # values and formulas, in the results
 SAND, CLAY = "sand", "clay"
 CLASS = "SP"  # of the sand between the classes of the USCS: clean, of one size
@@ -36,6 +37,11 @@ COMPARED = {
 }
 
 
+def default_folder() -> Path:
+    """Results folder of a command without --output."""
+    return results_folder(RESULTS)
+
+
 @command(
     argument("size", "of the tyre: 265/70R17, 31x10.50R15, 16.00R20, 18.4R38, ..."),
     option("--load", parse=positive, required=True, help="of the wheel [N]"),
@@ -45,11 +51,11 @@ COMPARED = {
     option("--slip", parse=between(-1.0, 0.9), help="of a driven wheel, 1 - v/(r omega); towed without it"),
     option("--error", parse=fraction, metavar="PERCENT", help="wanted whole error of hub drop and coefficient, e.g. 10%"),
     option("--time", parse=seconds, metavar="TIME", help="the least error within this time of one core, e.g. 10min"),
-    option("-o", "--output", "folder", parse=path, help="by default results/answer"),
+    option("-o", "--output", "folder", parse=path, help=f"by default results/{RESULTS}"),
     flag("--quick", help="a small, coarse run, done within a minute"),
 )
 def answer(given: Given) -> int:
-    folder: Path = given.folder or results_folder("answer")
+    folder: Path = given.folder or default_folder()
     folder.mkdir(parents=True, exist_ok=True)
     tyre_file, soil_file, run = folder / "tyre.yaml", folder / "soil.yaml", folder / "run"
     tyre, radius = _tyre(given, tyre_file)

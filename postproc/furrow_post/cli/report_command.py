@@ -10,7 +10,7 @@ from markupsafe import Markup
 
 from ..analyse import cost_table
 from ..analyse.comparison import Comparison
-from ..analyse.comparison_report import write_comparison
+from ..analyse.comparison_report import parts_cell, write_comparison
 from ..errors import ResultsError
 from ..figures.comparison_figure import draw_comparison
 from ..figures.cost_figure import draw_cost
@@ -25,7 +25,6 @@ from ..figures.page import (
 )
 from ..figures.resistance_parts import CAPTION as PARTS_CAPTION, Panel, draw_parts
 from ..figures.view import view_section, view_style
-from ..formatting import with_error
 from ..read.motion import read_motion
 from ..run.summary import ResistanceParts, Summary
 from ..read.wheel_run import WheelRun
@@ -77,7 +76,7 @@ def _page_text(result: Comparison, errors: Path | None, scratch: Path, target: P
         style=view_style(),
         view=Markup(_in_3d(result)),
         quantities=results_tables(result),
-        tracks=[[label, with_error(*track)] for label, track in result.tracks.items()],
+        tracks=[[e.label, e.text(), parts_cell(e)] for e in result.tracks.values()],
         comparison=scratch / "compare.png",
         parts=_draw_parts(runs, scratch / "parts.png"),
         parts_caption=PARTS_CAPTION,

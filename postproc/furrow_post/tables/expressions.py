@@ -10,6 +10,7 @@ import numpy as np
 
 from ..analyse.statistics import block_mean, drift, rms
 from ..errors import ResultsError
+from ..study.values import NOT_ESTIMATED
 
 
 def rounded(value: Any, digits: int | None = None) -> Any:
@@ -19,8 +20,8 @@ def rounded(value: Any, digits: int | None = None) -> Any:
 
 
 def number(cell: Any) -> float:
-    """A cell of a column that may be empty; NaN of an empty cell."""
-    return float(cell) if cell != "" else math.nan
+    """A cell of a column that may be empty or not estimated; NaN of such a cell."""
+    return math.nan if cell in ("", NOT_ESTIMATED) else float(cell)
 
 
 def whole(cell: Any) -> Any:

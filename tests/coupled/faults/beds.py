@@ -66,6 +66,9 @@ def refused(furrow, table, beds):
     table.check("twice", bed(whole + " young 6e6"), 1, "keyword 'young' is given twice")
     table.check("without value", bed(whole + " young"), 1, "every parameter of the bed needs a value")
     table.check("folder", bed("bed . depth 0.1"), 1, "cannot read")
+    clay = os.path.join(beds, "..", "materials", "contact", "clay_soft.yaml")
+    table.check("adhesion to grains", bed(f"{whole} contact {clay}"), 0, "WARNING: command bed, keyword 'contact': the shear_limit that",
+                "has for rubber and steel has no effect on grains")
     for cache in ("/dev/null", "/proc/x"):
         said = run_script(furrow, table.folder, whole, FURROW_CACHE=cache)
         table.check(f"cache {cache}", said, 1, f"the folder for beds, '{cache}', cannot be used", "FURROW_CACHE")

@@ -76,6 +76,11 @@ def friction(furrow: str) -> None:
            "unknown: 0.3 and 0 m hold" in words)
     _, words = run(furrow, continuum=0, contact="body_material steel", steps=1)
     expect("a soil without contact gives a warning", "'soil' has no contact with steel" in words)
+    card = f"card {HERE / 'limited.yaml'}"
+    for contact in ("body_material steel", "friction 0.4 slip_length 0.01"):
+        _, words = run(furrow, continuum=0, soil=card, contact=contact, steps=1)
+        expect("a shear limit of a soil card gives a warning", words.count("shear_limit") == 1 and
+               "fix contact/scm: the shear_limit of 18000 Pa that " in words and "has for steel has no effect on 'wheel'" in words)
 
 
 if __name__ == "__main__":

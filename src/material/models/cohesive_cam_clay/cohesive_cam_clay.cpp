@@ -81,7 +81,7 @@ double CohesiveCamClay::yield_function(const VectorX& state) const {
 
 double CohesiveCamClay::stress_scale(const VectorX& state) const {
   const double stress = std::max(p0(state[eps_vol_pl]), std::abs(invariants(stress_of(state)).p));
-  return std::max(stress, 1e-8 * moduli(state).wave());
+  return std::max(stress, rounding_stress(state));
 }
 
 std::vector<Vector2> CohesiveCamClay::yield_surface(const VectorX& state,

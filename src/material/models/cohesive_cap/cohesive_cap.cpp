@@ -113,7 +113,7 @@ double CohesiveCap::yield_function(const VectorX& state) const {
 double CohesiveCap::stress_scale(const VectorX& state) const {
   const double eps = state[eps_vol_pl];
   const double stress = std::max({pc(eps), d(eps), std::abs(invariants(stress_of(state)).p)});
-  return std::max(stress, 1e-8 * moduli(state).wave());
+  return std::max(stress, rounding_stress(state));
 }
 
 std::vector<Vector2> CohesiveCap::yield_surface(const VectorX& state, std::size_t points) const {

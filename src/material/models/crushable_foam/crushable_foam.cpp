@@ -112,7 +112,7 @@ double CrushableFoam::yield_function(const VectorX& state) const {
 
 double CrushableFoam::stress_scale(const VectorX& state) const {
   const double stress = std::max(pc(state[eps_vol_pl]), std::abs(invariants(stress_of(state)).p));
-  return std::max(parameters_.pt + stress, 1e-8 * moduli(state).wave());
+  return std::max(parameters_.pt + stress, rounding_stress(state));
 }
 
 std::vector<Vector2> CrushableFoam::yield_surface(const VectorX& state, std::size_t points) const {

@@ -75,7 +75,7 @@ std::vector<Vector2> DruckerPrager::yield_surface(const VectorX& state, std::siz
 
 double DruckerPrager::stress_scale(const VectorX& state) const {
   const double stress = parameters_.d + std::abs(invariants(stress_of(state)).p);
-  return std::max(stress, 1e-8 * moduli(state).wave());
+  return std::max(stress, rounding_stress(state));
 }
 
 }  // namespace furrow

@@ -171,7 +171,7 @@ double DruckerPragerCap::yield_function(const VectorX& state) const {
 
 double DruckerPragerCap::stress_scale(const VectorX& state) const {
   const double stress = std::max(pb(state[eps_vol_pl]), std::abs(invariants(stress_of(state)).p));
-  return std::max(parameters_.d + stress, 1e-8 * moduli(state).wave());
+  return std::max(parameters_.d + stress, rounding_stress(state));
 }
 
 std::vector<Vector2> DruckerPragerCap::yield_surface(const VectorX& state,

@@ -202,7 +202,7 @@ double NorSand::yield_function(const VectorX& state) const {
 
 double NorSand::stress_scale(const VectorX& state) const {
   const double P = invariants(stress_of(state)).p + parameters_.pt;
-  return std::max({P, parameters_.tip * state[image_pressure], 1e-8 * moduli(state).wave()});
+  return std::max({P, parameters_.tip * state[image_pressure], rounding_stress(state)});
 }
 
 std::vector<Vector2> NorSand::yield_surface(const VectorX& state, std::size_t points) const {

@@ -91,7 +91,7 @@ double UndrainedClay::yield_function(const VectorX& state) const {
 
 double UndrainedClay::stress_scale(const VectorX& state) const {
   return std::max(strength(state) + std::abs(invariants(stress_of(state)).p),
-                  1e-8 * moduli(state).wave());
+                  rounding_stress(state));
 }
 
 std::vector<Vector2> UndrainedClay::yield_surface(const VectorX& state, std::size_t points) const {

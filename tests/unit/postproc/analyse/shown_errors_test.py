@@ -5,7 +5,9 @@ import math
 import re
 import unittest
 from pathlib import Path
+from unittest.mock import patch
 
+from furrow_post.analyse import comparison
 from furrow_post.analyse.comparison import compare
 from furrow_post.analyse.comparison_report import comparison_report, table_rows
 from furrow_post.analyse.whole_error import budgets, headline, read_series, report
@@ -167,6 +169,16 @@ class OutputTest(FolderTest):
         for line in table_rows(result):
             parts = [value for name, value in line.items() if name.startswith("u_") and isinstance(value, float)]
             self.assertAlmostEqual(float(line["uncertainty"]), math.hypot(*(p for p in parts if p == p)))
+
+    def test_density_under_the_track_names_what_its_error_lacks(self) -> None:
+        run = self.run_on_sand()
+        with patch.object(comparison, "track_density", return_value=(1650.0, 5.0)):
+            result = compare([run])
+        (line,) = (row for row in comparison_report(result).splitlines() if "1650 ± 5" in row)
+        self.assertRegex(line, r"1650 ± 5 +time 5; cells, ground, step, contact, .*material, model unknown$")
+        (row,) = (row for row in table_rows(result) if row["quantity"] == "density under the track")
+        self.assertEqual((row["u_time"], row["u_packing"]), (5.0, 0.0))
+        self.assertTrue(math.isnan(float(row["u_size"])))
 
     def test_texts_of_a_folder(self) -> None:
         write_run(self.folder / "run", torque=50.0)

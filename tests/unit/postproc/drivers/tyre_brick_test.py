@@ -8,15 +8,19 @@ has the radii of belts and bead, Table 6 the widths of tread and section.
 
 import math
 import re
+import tempfile
 import unittest
 from dataclasses import dataclass
 from math import asin, cos, pi, radians, sin
+from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
+import yaml
 
 from furrow_post.csv_table import read_rows
 from support.command import SOURCE
-from support.evaluation import VALIDATION
+from support.evaluation import VALIDATION, cases, evaluation
 
 HERE = VALIDATION / "tyre_brick"
 
@@ -142,6 +146,26 @@ class GroovesTest(unittest.TestCase):
         np.testing.assert_allclose(listed(text, "depth"), [5.1e-3, 5.3e-3])
         self.assertAlmostEqual(sum(widths) / half_tread, 0.44, delta=0.03)
         self.assertAlmostEqual(sum(listed(text, "depth")) / half_tread, 0.13, delta=0.005)
+
+
+    def test_the_tyre_with_the_printed_grooves_has_all_else_of_the_ribbed_one(self) -> None:
+        text = cases("tyre_brick")["grooves/printed_241"].files["tyre.yaml"]
+        made, ribbed = yaml.safe_load(text), yaml.safe_load((SOURCE / "inputs" / "tyres" / "p235_75r15_ribbed.yaml").read_text())
+        self.assertEqual(made.pop("title"), f"{ribbed.pop('title')}, grooves by width and depth")
+        voids, others = made.pop("voids"), ribbed.pop("voids")
+        self.assertEqual(made, ribbed)
+        np.testing.assert_allclose(np.subtract(voids["to"], voids["from"]), others["depth"])
+        np.testing.assert_allclose(sorted(np.subtract(others["to"], others["from"])), sorted(map(float, voids["depth"])), atol=1e-6)
+        middle, of_ribbed = (np.add(one["to"], one["from"]) / 2 for one in (voids, others))
+        np.testing.assert_allclose(middle, of_ribbed, atol=1e-4)
+
+    def test_the_carcass_is_not_written_twice(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "tyre.yaml"
+            file.write_text("title: Other\ncap:\n  C10: 1e6  # softer\nvoids:\n  from: [1]\n")
+            study = evaluation("tyre_brick")
+            with patch.object(study, "RIBBED", file):
+                self.assertEqual(study.ribbed_tyre("cut", to="[2]"), "title: Other, cut\ncap:\n  C10: 1e6\nvoids:\n  to:    [2]\n")
 
 
 class Table6Test(unittest.TestCase):

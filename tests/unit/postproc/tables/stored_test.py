@@ -7,8 +7,9 @@ from typing import Any
 
 from furrow_post.csv_table import read_rows
 from furrow_post.study.definition import evaluation_of
-from furrow_post.study.values import DEFINITION, load_yaml, study_folders
+from furrow_post.study.values import DEFINITION, NOT_ESTIMATED, load_yaml, study_folders
 from furrow_post.tables.engine import Engine, Tables
+from furrow_post.tables.frames import frame_of, rows_of
 from support.command import SOURCE
 
 
@@ -46,6 +47,19 @@ class StoredTablesTest(unittest.TestCase):
             rows = engine.rows(nothing, name, Tables(engine))
             made = [{column: str(value) for column, value in row.items()} for row in rows]
             self.assertEqual(made, read_rows(folder / name), name)
+
+    def test_plates_whose_error_is_not_estimated_are_no_tests(self) -> None:
+        folder = SOURCE / "inputs" / "validation"
+        engine = Engine(folder, load_yaml(folder / DEFINITION), evaluation_of(folder))
+        stored = [row["error"] for row in rows_of(engine.derived("plates", Tables(engine)))]
+        self.assertEqual(len(stored), 2)
+        for unknown, kept in (("plate_variants.fresh_31.peak_N", stored[:1]), ("cmu_sand.smooth.fx", stored)):
+            rows = read_rows(folder / "experiments.csv")
+            next(row for row in rows if row["id"] == unknown)["error"] = NOT_ESTIMATED
+            tables = Tables(engine)
+            tables.made["experiments.csv"] = frame_of(rows)
+            with self.subTest(unknown=unknown):
+                self.assertEqual([row["error"] for row in rows_of(engine.derived("plates", tables))], kept)
 
     def test_stored_tables_are_within_the_limits_of_their_study(self) -> None:
         for folder in study_folders(SOURCE):
