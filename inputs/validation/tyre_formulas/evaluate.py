@@ -12,6 +12,7 @@ from furrow_post.analyse.tyre_fit import PlateTest, fit_tyre, press
 from furrow_post.analyse.tyre_size import read_size
 from furrow_post.analyse.whole_error import budgets_of
 from furrow_post.cli.answer_command import Compared, compared
+from furrow_post.errors import ResultsError
 from furrow_post.run.summary import Summary
 from furrow_post.study.runs import Run
 
@@ -67,7 +68,7 @@ def combinations() -> Iterator[dict[str, Any]]:
 
 @cache
 def formulas(size: str, soil: str, slip: float = SLIP) -> Formulas:
-    """Of one tyre on the cone index of one soil."""
+    """Formulas for one tyre on the cone index of one soil."""
     load, pressure = TYRES[size]
     shape = read_size(size)
     (state,) = press(tyre_text(size), [PlateTest(pressure, load, {})])
@@ -81,6 +82,8 @@ def compared_with_formulas(run: Run) -> list[dict[str, Any]]:
     soil, _, name = run.name.partition("/")
     size, _, drive = name.rpartition("_")
     size = size.replace("_", "/")
+    if "rut_depth" not in Summary(run.folder).quantities:
+        raise ResultsError(f"{run.folder}: its summary has no rut depth; repeat the run")
     rows = compared(run.folder, formulas(size, soil), drive == "towed")
     if SOILS[soil][0] == "clay" and drive == "towed":
         rows += _resistance_on_clay(run, size, soil)

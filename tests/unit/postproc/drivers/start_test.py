@@ -29,7 +29,7 @@ def start(*words: object) -> "subprocess.CompletedProcess[str]":
 
 class DriversTest(unittest.TestCase):
     def test_there_are_all_studies(self) -> None:
-        self.assertEqual(len(STUDIES), 27)
+        self.assertEqual(len(STUDIES), 28)
 
     def test_help(self) -> None:
         for driver in TOOLS:
