@@ -248,7 +248,7 @@ def sand_drained(void, M=1.25, N=0.5, chi=4.0, gamma=0.82, slope=0.02, H=100.0, 
         trial = q + 3 * G * (step - dv / 3)
         if trial > (M - (1 - N) * D) * (lateral + trial / 3):
             x = P / image
-            growth = H * (x**2 / sand_ratio(limit, M, N) - x) if D > limit else 0.0
+            growth = H * (image / 1e5) ** -0.5 * (x**2 / sand_ratio(limit, M, N) - x) if D > limit else 0.0
             # q = eta(P/image) P with P = lateral + q/3; d(eta) = -(1 - N) dD
             slope_x = (1 - N) * M / N * N / (1 - N) * x ** (N / (1 - N))
             dq_flow = slope_x * P * growth / (1 - (M - (1 - N) * D) / 3 + slope_x / 3)

@@ -82,8 +82,9 @@ def compared_with_formulas(run: Run) -> list[dict[str, Any]]:
     soil, _, name = run.name.partition("/")
     size, _, drive = name.rpartition("_")
     size = size.replace("_", "/")
-    if "rut_depth" not in Summary(run.folder).quantities:
-        raise ResultsError(f"{run.folder}: its summary has no rut depth; repeat the run")
+    needed = {"rut_depth", "resistance_coefficient" if drive == "towed" else "net_traction_coefficient"}
+    if missing := needed - Summary(run.folder).quantities.keys():
+        raise ResultsError(f"{run.folder}: its summary has no {' and '.join(sorted(missing))}; repeat the run")
     rows = compared(run.folder, formulas(size, soil), drive == "towed")
     if SOILS[soil][0] == "clay" and drive == "towed":
         rows += _resistance_on_clay(run, size, soil)
@@ -91,8 +92,10 @@ def compared_with_formulas(run: Run) -> list[dict[str, Any]]:
 
 
 def _resistance_on_clay(run: Run, size: str, soil: str) -> list[Compared]:
-    """The formulas of clay have the resistance of a driven tyre; that without slip stands for a towed one."""
-    answers = [answer.resistance for answer in formulas(size, soil, 1e-6).answers]
+    """Towed resistance on clay: that of the formulas without slip, whose limit of slip does not apply."""
+    answers = [one.resistance for one in formulas(size, soil, 1e-6).answers if all(limit.startswith("slip ") for limit in one.outside)]
+    if not answers:
+        return []
     error = budgets_of(run.folder)["resistance_coefficient"]
     value = Summary(run.folder).quantities["resistance_coefficient"]["mean"]
-    return [Compared("resistance_coefficient", float(value), error.total, fmean(answers), min(answers), max(answers), "")]
+    return [Compared("resistance_coefficient", float(value), error.total, fmean(answers), min(answers), max(answers), error.missing_text())]

@@ -172,8 +172,8 @@ TEST(Presets, NorSandFollowsTheTestsOnItsGrains) {
   }
 }
 
-/// Peak friction angles of GRC-1 at four densities, which published triaxial tests gave. The
-/// loosest sand ends at the critical angle.
+/// Peak friction angles of triaxial tests of GRC-1 at four densities [CRM2026]. The loosest sand
+/// has no peak, and the law is 2 degrees too strong.
 TEST(Presets, Grc1HasTheFrictionAngleOfItsDensity) {
   const auto preset = file_of("grc1_norsand").make();
   const NorSandParameters& law = static_cast<const NorSand&>(*preset).parameters();

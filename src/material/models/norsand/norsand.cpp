@@ -99,7 +99,7 @@ MaterialModel NorSand::model() {
               "volumetric coupling: the stress ratio is M - (1 - N) times the dilatancy")
       .by_default(0.5);
   schema.number("H", "", Range::positive(),
-                "plastic hardening modulus over the image pressure, at 100 kPa");
+                "plastic hardening modulus over the image pressure, where that is 100 kPa");
   schema
       .number("H_exponent", "", Range::closed(0.0, 1.0),
               "H times (image pressure/100 kPa)^-H_exponent; 1 - n unless given")
@@ -133,13 +133,13 @@ MaterialModel NorSand::model() {
   model.create = create_norsand;
   model.doubts = doubts_of_norsand;
   const std::string sand = " M 1.25 gamma 0.85 lambda 0.02 chi 3.5 N 0.5 H 100 G 40e6 n 0.5 nu 0.2";
-  model.examples = {"density 1700 e0 0.6" + sand,
-                    "density 1450 e0 0.9" + sand + " H_psi 300 image_pressure 2e3",
-                    "density 1600 e0 0.7 pt 100 K 0.72 section matsuoka_nakai" + sand,
-                    "density 1700 e0 0.55 K 0.8 M 1.25 gamma 0.85 lambda 0.1 csl_exponent 0.7 chi "
-                    "3.5 N 0.3 H 100 "
-                    "G 40e6 n 0.4 nu 0.2",
-                    "density 1700 e0 0.6 shear_band 0.005 band_width 0.04" + sand};
+  model.examples = {
+      "density 1700 e0 0.6" + sand, "density 1450 e0 0.9" + sand + " H_psi 300 image_pressure 2e3",
+      "density 1600 e0 0.7 pt 100 K 0.72 H_exponent 0.3 section matsuoka_nakai" + sand,
+      "density 1700 e0 0.55 K 0.8 M 1.25 gamma 0.85 lambda 0.1 csl_exponent 0.7 chi "
+      "3.5 N 0.3 H 100 "
+      "G 40e6 n 0.4 nu 0.2",
+      "density 1700 e0 0.6 shear_band 0.005 band_width 0.04" + sand};
   return model;
 }
 

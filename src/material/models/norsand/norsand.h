@@ -17,9 +17,9 @@
 /// So eta is at most M - (1 - N) chi psi. Plastic shear hardens the surface until x falls to x_l,
 /// the x of D_l.
 ///   d(ln P_i) = h (x^2/x_l - x) d(eps_q),  h = (H - H_psi psi_i) (P_i/100 kPa)^-m
-/// With m = 1 - n plastic and elastic stiffness have one ratio at all pressures. A constant H, m =
-/// 0, makes sand that opened compact by 3 to 15 % of its volume under the first 1 kPa. The shear
-/// modulus grows with the pressure, and the bulk modulus in proportion.
+/// With m = 1 - n plastic and elastic stiffness have one ratio at all pressures (theory: sand).
+///
+/// The shear modulus grows with the pressure, and the bulk modulus in proportion.
 ///   G = G_ref (P/100 kPa)^n,  K = G 2 (1 + nu)/(3 (1 - 2 nu))
 ///
 /// At the limit, x < x_l, the surface is a cone. P_i then falls by d(ln P_i) = -h (1 - x/x_l)
@@ -32,7 +32,8 @@
 /// w/shear_band times the dilation, w the width of the piece. The strength then falls over a slip
 /// that does not depend on the cell. In a continuum w is the cell (TerrainFill).
 ///
-/// psi_i in D_l and H is that of P_i at the start of a step and of the void ratio at its end.
+/// psi_i in D_l and h, and the power in h, have the P_i of the start of a step. The void ratio is
+/// that of its end.
 /// Tension beyond P = 0 opens the sand. The dissipation is (M + N D) P d(eps_q) >= 0; the work
 /// against pt counts as frozen energy.
 ///

@@ -57,7 +57,7 @@ struct NorSandKernel {
   FURROW_INLINE Lanes stress_ratio(const Lanes& D) const {
     return Lanes(parameters.M) - Lanes(1.0 - parameters.N) * D;
   }
-  /// H over that of the reference pressure; tension does not raise it further.
+  /// h over its value at the reference pressure. An image pressure below pt counts as pt.
   FURROW_INLINE Lanes hardening_over_reference(const Lanes& image) const {
     if (parameters.H_exponent == 0.0) return 1.0;
     return power(Lanes(NorSandParameters::reference_pressure) / max(image, parameters.pt),

@@ -159,7 +159,7 @@ class GroovesTest(unittest.TestCase):
         middle, of_ribbed = (np.add(one["to"], one["from"]) / 2 for one in (voids, others))
         np.testing.assert_allclose(middle, of_ribbed, atol=1e-4)
 
-    def test_the_carcass_is_not_written_twice(self) -> None:
+    def test_all_but_the_grooves_comes_from_the_file_of_the_ribbed_tyre(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "tyre.yaml"
             file.write_text("title: Other\ncap:\n  C10: 1e6  # softer\nvoids:\n  from: [1]\n")
