@@ -40,21 +40,24 @@ CELL, DEPTH, TRAVEL = 0.15, 1.3, 3.7  # over the radius of the belt
 
 
 @cache
+def estimate(size: str) -> tuple[str, float, float]:
+    """Tyre file that furrow-post answer writes for this size; radius of its belt, which meets the ground, and deflection
+    on a plane under the load [m]."""
+    load, pressure = TYRES[size]
+    fit = fit_tyre(Catalogue(read_size(size), 1e3 * pressure), [])
+    text = fit.file_text(size, ["furrow-post fit tyre"])
+    (state,) = press(text, [PlateTest(pressure, load, {})])
+    return text, fit.values()["belt_radius"], 1e-2 * state["deflection_cm"]
+
+
 def tyre_text(size: str) -> str:
-    """Tyre file that furrow-post answer writes for this size."""
-    return fit_tyre(Catalogue(read_size(size), 1e3 * TYRES[size][1]), []).file_text(size, ["furrow-post fit tyre"])
-
-
-@cache
-def belt_radius(size: str) -> float:
-    """Radius of the estimated belt, which meets the ground [m]."""
-    return fit_tyre(Catalogue(read_size(size), 1e3 * TYRES[size][1]), []).values()["belt_radius"]
+    return estimate(size)[0]
 
 
 def combinations() -> Iterator[dict[str, Any]]:
     """Every tyre on every sand and one on every clay, towed and driven."""
     for size, (load, pressure) in TYRES.items():
-        radius = belt_radius(size)
+        _, radius, _ = estimate(size)
         lengths = {"cell": CELL * radius, "depth": DEPTH * radius, "fine_depth": 0.5 * radius, "distance": TRAVEL * radius}
         for soil, (kind, _) in SOILS.items():
             if kind == "clay" and size != ON_CLAY:
@@ -69,10 +72,8 @@ def combinations() -> Iterator[dict[str, Any]]:
 @cache
 def formulas(size: str, soil: str, slip: float = SLIP) -> Formulas:
     """Formulas for one tyre on the cone index of one soil."""
-    load, pressure = TYRES[size]
-    shape = read_size(size)
-    (state,) = press(tyre_text(size), [PlateTest(pressure, load, {})])
-    tyre = Tyre(load, shape.diameter, shape.width, shape.height, 1e-2 * state["deflection_cm"])
+    shape, (_, _, deflection) = read_size(size), estimate(size)
+    tyre = Tyre(TYRES[size][0], shape.diameter, shape.width, shape.height, deflection)
     kind, index = SOILS[soil]
     return formulas_for(kind, 1e3 * index, tyre, slip, "R" in size)
 

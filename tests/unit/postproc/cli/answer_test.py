@@ -4,7 +4,10 @@
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 from unittest.mock import patch
+
+import yaml
 
 import furrow_post
 from furrow_post.cli import answer_command, run_command
@@ -25,6 +28,11 @@ class AnswerTest(unittest.TestCase):
     def test_help_names_the_default_folder(self) -> None:
         (option,) = (one for one in answer_command.answer.params if one.name == "folder")
         self.assertTrue(getattr(option, "help").endswith(f"/{answer_command.default_folder().name}"))
+
+    def test_firm_sand_has_the_contact_of_firm_sand(self) -> None:
+        for index, name in ((80.0, "sand.yaml"), (90.0, "firm_sand.yaml")):
+            text = answer_command._soil(SimpleNamespace(soil="sand", cone_index=index))
+            self.assertEqual(Path(yaml.safe_load(text)["contact"]).name, name)
 
 
 if __name__ == "__main__":
