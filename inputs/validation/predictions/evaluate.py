@@ -6,7 +6,11 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from furrow_post.csv_table import read_rows
+from furrow_post.read.results import Results
+from furrow_post.study.runs import Run
 
 HERE = Path(__file__).resolve().parent
 WHEEL = 0.38  # [m] radius of the wheel in the tests that the tyre file describes
@@ -79,3 +83,12 @@ def in_wheel_axes(pull: float, side: float, load: float, angle: float) -> tuple[
     """Forces along the heading and along the axle over F_z (src/theory/symbols.md). The drawbar pull is the force along
     the travel, F_x = F_T cos(angle) - F_S sin(angle); the lateral force is F_S."""
     return (pull + side * math.sin(math.radians(angle))) / math.cos(math.radians(angle)) / load, side / load
+
+
+def slip_at_the_end(run: Run, seconds: float, rim_speed: float) -> dict[str, float]:
+    """Slip over the last part of a run [s], also of a wheel that digs in; error: half the change between its halves."""
+    history = Results(run.folder).columns
+    time, x = history["time"], history["x"]
+    marks = np.interp(time[-1] - seconds * np.array([1.0, 0.5, 0.0]), time, x)
+    first, second = 1.0 - np.diff(marks) / (0.5 * seconds * rim_speed)
+    return {"slip": 0.5 * (first + second), "slip_error": 0.5 * abs(second - first)}
