@@ -4,13 +4,13 @@
 import tempfile
 import unittest
 from pathlib import Path
-from types import SimpleNamespace
 from unittest.mock import patch
 
 import yaml
 
 import furrow_post
 from furrow_post.cli import answer_command, run_command
+from furrow_post.cli.parameters import Given
 
 
 class AnswerTest(unittest.TestCase):
@@ -31,7 +31,7 @@ class AnswerTest(unittest.TestCase):
 
     def test_firm_sand_has_the_contact_of_firm_sand(self) -> None:
         for index, name in ((80.0, "sand.yaml"), (90.0, "firm_sand.yaml")):
-            text = answer_command._soil(SimpleNamespace(soil="sand", cone_index=index))
+            text = answer_command._soil(Given(soil="sand", cone_index=index))
             self.assertEqual(Path(yaml.safe_load(text)["contact"]).name, name)
 
 
