@@ -6,12 +6,9 @@ from functools import cache
 from statistics import fmean
 from typing import Any
 
-from furrow_post.analyse.cone_formulas import Formulas, Tyre, formulas_for
-from furrow_post.analyse.tyre_estimate import Catalogue
-from furrow_post.analyse.tyre_fit import PlateTest, fit_tyre, press
-from furrow_post.analyse.tyre_size import read_size
+from furrow_post.analyse.cone_formulas import Formulas, formulas_for
 from furrow_post.analyse.whole_error import budgets_of
-from furrow_post.cli.answer_command import Compared, compared
+from furrow_post.cli.answer_command import Compared, EstimatedTyre, compared, estimate_tyre
 from furrow_post.errors import ResultsError
 from furrow_post.run.summary import Summary
 from furrow_post.study.runs import Run
@@ -40,24 +37,19 @@ CELL, DEPTH, TRAVEL = 0.15, 1.3, 3.7  # over the radius of the belt
 
 
 @cache
-def estimate(size: str) -> tuple[str, float, float]:
-    """Tyre file that furrow-post answer writes for this size; radius of its belt, which meets the ground, and deflection
-    on a plane under the load [m]."""
+def estimate(size: str) -> EstimatedTyre:
     load, pressure = TYRES[size]
-    fit = fit_tyre(Catalogue(read_size(size), 1e3 * pressure), [])
-    text = fit.file_text(size, ["furrow-post fit tyre"])
-    (state,) = press(text, [PlateTest(pressure, load, {})])
-    return text, fit.values()["belt_radius"], 1e-2 * state["deflection_cm"]
+    return estimate_tyre(size, load, pressure, "furrow-post fit tyre")
 
 
 def tyre_text(size: str) -> str:
-    return estimate(size)[0]
+    return estimate(size).text
 
 
 def combinations() -> Iterator[dict[str, Any]]:
     """Every tyre on every sand and one on every clay, towed and driven."""
     for size, (load, pressure) in TYRES.items():
-        _, radius, _ = estimate(size)
+        radius = estimate(size).radius
         lengths = {"cell": CELL * radius, "depth": DEPTH * radius, "fine_depth": 0.5 * radius, "distance": TRAVEL * radius}
         for soil, (kind, _) in SOILS.items():
             if kind == "clay" and size != ON_CLAY:
@@ -72,10 +64,8 @@ def combinations() -> Iterator[dict[str, Any]]:
 @cache
 def formulas(size: str, soil: str, slip: float = SLIP) -> Formulas:
     """Formulas for one tyre on the cone index of one soil."""
-    shape, (_, _, deflection) = read_size(size), estimate(size)
-    tyre = Tyre(TYRES[size][0], shape.diameter, shape.width, shape.height, deflection)
     kind, index = SOILS[soil]
-    return formulas_for(kind, 1e3 * index, tyre, slip, "R" in size)
+    return formulas_for(kind, 1e3 * index, estimate(size).tyre, slip, "R" in size)
 
 
 def compared_with_formulas(run: Run) -> list[dict[str, Any]]:

@@ -58,11 +58,13 @@ def answer(given: Given) -> int:
     folder: Path = given.folder or default_folder()
     folder.mkdir(parents=True, exist_ok=True)
     tyre_file, soil_file, run = folder / "tyre.yaml", folder / "soil.yaml", folder / "run"
-    tyre, radius = _tyre(given, tyre_file)
+    made_by = f"furrow-post answer {given.size} --pressure {given.pressure:g}"
+    estimated = estimate_tyre(given.size, given.load, given.pressure, made_by)
+    tyre_file.write_text(estimated.text, encoding="utf-8")
     soil_file.write_text(_soil(given), encoding="utf-8")
     print(f"{given.size}: {tyre_file}, estimated from its size\n{given.soil}: {soil_file}, estimated from its cone index", flush=True)
     motion = "mode towed" if given.slip is None else f"mode slip slip {given.slip:g}"
-    values = {"tyre": tyre_file.resolve(), "material": soil_file.resolve(), "radius": f"{radius:.4f}",
+    values = {"tyre": tyre_file.resolve(), "material": soil_file.resolve(), "radius": f"{estimated.radius:.4f}",
               "pressure": f"{1e3 * given.pressure:g}", "load": f"{given.load:g}", "motion": motion}
     words = [word for name, value in values.items() for word in ("-v", name, value)]
     for name in ("error", "time"):
@@ -71,21 +73,29 @@ def answer(given: Given) -> int:
     words += ["--quick"] if given.quick else []
     status = post("run", SCENE, "-o", run, *words)
     if status == 0:
-        formulas = formulas_for(given.soil, 1e3 * given.cone_index, tyre, given.slip or USUAL_SLIP, "R" in given.size.upper())
+        formulas = formulas_for(given.soil, 1e3 * given.cone_index, estimated.tyre, given.slip or USUAL_SLIP, "R" in given.size.upper())
         rows = compared(run, formulas, given.slip is None)
         write_rows(folder / TABLE, [row._asdict() for row in rows])
         print("\n".join(["", "Formulas of this cone index", formulas.report(), "", *(row.sentence() for row in rows)]))
     return status
 
 
-def _tyre(given: Given, file: Path) -> tuple[Tyre, float]:
-    """Writes the tyre file. Returns the tyre of the formulas, and the radius of its belt, which meets the ground [m]."""
-    size = read_size(given.size)
-    fit = fit_tyre(Catalogue(size, 1e3 * given.pressure), [])
-    text = fit.file_text(size.designation, [f"furrow-post answer {given.size} --pressure {given.pressure:g}"])
-    (state,) = press(text, [PlateTest(given.pressure, given.load, {})])
-    file.write_text(text, encoding="utf-8")
-    return Tyre(given.load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"]), fit.values()["belt_radius"]
+class EstimatedTyre(NamedTuple):
+    """Text of a tyre file, radius of the belt, which meets the ground [m], and the tyre of the formulas."""
+
+    text: str
+    radius: float
+    tyre: Tyre
+
+
+def estimate_tyre(text: str, load: float, pressure: float, command: str) -> EstimatedTyre:
+    """The tyre of a size designation under a load [N], at an inflation [kPa]. command: that the file names."""
+    size = read_size(text)
+    fit = fit_tyre(Catalogue(size, 1e3 * pressure), [])
+    file_text = fit.file_text(size.designation, [command])
+    (state,) = press(file_text, [PlateTest(pressure, load, {})])
+    tyre = Tyre(load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"])
+    return EstimatedTyre(file_text, fit.values()["belt_radius"], tyre)
 
 
 def _soil(given: Given) -> str:

@@ -314,9 +314,11 @@ def from_cone(title: str, cone_index: float, soil_class: str, density: float | N
     young = MODULUS_RATIO * cone_index
     shear_modulus = young / (2 * (1 + float(POISSON.value)))
 
+    over_cavity, factor = (CONE_OVER_CAVITY, f" times {CONE_OVER_CAVITY:g}") if typical.coarse else (1.0, "")
+
     def excess(strength: Strength) -> float:
         q = cone_resistance(strength, weight, shear_modulus, 0.5 * INDEX_DEPTH)
-        return math.log((CONE_OVER_CAVITY if typical.coarse else 1.0) * q / cone_index)
+        return math.log(over_cavity * q / cone_index)
 
     low, high = (5.0, 48.0) if typical.coarse else (20.0, 1e6)
 
@@ -334,8 +336,7 @@ def from_cone(title: str, cone_index: float, soil_class: str, density: float | N
     confined = confined_of_modulus(young, reference)
     head = (
         f"cone index {cone_index:g} Pa in {soil_class}: c {strength.c:.4g} Pa, phi "
-        f"{strength.phi:.4g} degrees, by the cavity of Vesic (1977)"
-        f"{f' times {CONE_OVER_CAVITY:g}' if typical.coarse else ''}",
+        f"{strength.phi:.4g} degrees, by the cavity of Vesic (1977){factor}",
     )
     return material_of(
         title,

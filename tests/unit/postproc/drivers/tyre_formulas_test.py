@@ -16,7 +16,7 @@ class TyreFormulasTest(unittest.TestCase):
         study = evaluation("tyre_formulas")
         for keys in study.combinations():
             self.assertTrue(study.formulas(keys["size"], keys["soil"]).answers, keys)
-            self.assertIn("tread:", study.estimate(keys["size"])[0])
+            self.assertIn("tread:", study.estimate(keys["size"]).text)
 
     def test_a_tyre_on_soft_clay_is_outside_of_maclaurins_range(self) -> None:
         # N = CI b^0.8 d^0.8 delta^0.4/W is 1.4, the formula starts at 1.85
