@@ -3,9 +3,10 @@
 /// The interface of a constitutive law: parameters, the state of a point, and one update. No mesh,
 /// no MPI, no files.
 ///
-/// Finite strain is treated once, for every law (kinematics.h): the law receives the logarithmic
-/// strain increment of the step in the frame of its start, and the stress is rotated afterwards
-/// (theory: laws, eq. 2). A hyperelastic law (neo-Hookean) updates its own deformation instead.
+/// Finite strain is treated in one place for every law (kinematics.h). A law receives the
+/// logarithmic strain increment of the step, in the frame of its start. The stress is rotated
+/// afterwards (theory: laws, eq. 2). A hyperelastic law (neo-Hookean) updates its own deformation
+/// instead.
 ///
 /// Signs and invariants: core/types.h. Energies are per unit of reference volume: d(energy) = J
 /// (energy per current volume).
@@ -150,12 +151,13 @@ class Material {
 struct Invariants {
   double p;  ///< pressure, compression positive [Pa]
   double q;  ///< Mises stress [Pa]
-  /// (r/q)^3 = (27/2) det s / q^3: -1 in triaxial compression, +1 in extension; -1 when q = 0
+  /// (r/q)^3 = (27/2) det s / q^3. It is -1 in triaxial compression and +1 in extension. Without
+  /// shear, q = 0, it is -1.
   double cos_3t;
 };
 Invariants invariants(const Vector6& stress);
-/// t = (q/2) [1 + 1/K - (1 - 1/K)(r/q)^3] with the flow stress ratio K: q in triaxial compression,
-/// q/K in extension [Pa].
+/// Yield measure t = (q/2) [1 + 1/K - (1 - 1/K)(r/q)^3], with the flow stress ratio K [Pa]. It is q
+/// in triaxial compression and q/K in extension.
 double yield_measure(const Invariants& stress, double flow_ratio);
 /// The stress of a state [Pa].
 inline Vector6 stress_of(const VectorX& state) { return state.segment<6>(field::stress); }

@@ -43,9 +43,9 @@ inline Vector6 strain_of(double xx, double yy, double zz, double xz = 0) {
 Vector6 mixed_step(const Material& material, VectorX& state, Vector6 strain,
                    const std::array<bool, 3>& held, const Vector3& target, double tolerance);
 
-/// Largest excess over the surface that a step of NorSand may leave, over the stress scale: its
-/// cone of least dilatancy is that of the image pressure at the start of the step. 0 for other
-/// laws.
+/// Largest excess over the yield surface that a step of NorSand may leave, divided by the stress
+/// scale. The step uses the limit of dilatancy at its start, and a larger image pressure lowers
+/// that limit's strength. Other laws have 0.
 double excess_of_cone(const Material& material, const VectorX& before, const VectorX& after);
 
 }  // namespace furrow::testing_paths

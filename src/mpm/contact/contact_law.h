@@ -2,12 +2,14 @@
 #pragma once
 /// The contact laws: how a surface and the particles that touch it are kept apart.
 ///
-/// A law is a class like PenaltyLaw, built from ContactParameters. It has these members:
-///   name, meaning     of keyword 'enforcement' and its page
-///   fit               to the step of a terrain, once and first; throws InputError where it cannot
-///   update_stiffness  of a touching particle's springs, in each step before its force
-///   force             of the surface on the ground at a touching particle [N], in each step; adds
-///                     the energy that the contact takes to the losses
+/// A law is a class like PenaltyLaw, built from ContactParameters.
+/// - name and meaning are shown by keyword 'enforcement' and its page.
+/// - fit adapts the law to the step of a terrain. It is called once, before all others, and throws
+///   InputError where the law cannot be adapted.
+/// - update_stiffness sets the springs of a touching particle. It is called in each step.
+/// - force follows it. It returns the force of the surface on the ground at this particle [N], and
+///   adds the energy that the contact takes to the losses.
+///
 /// A new law is one file and one row here. The law is chosen once a step: calls for a particle are
 /// direct.
 

@@ -10,13 +10,17 @@
 /// dilatancy d(eps_v)/d(eps_q) of plastic flow, compaction positive.
 ///
 /// Yield is at t = eta P, with the stress ratio eta.
+///
 ///   eta = M - (1 - N) D,  x = (1 + N D/M)^((1 - N)/N)
+///
 /// Flow is associated. D falls from M/(1 - N) at the tip, where t = 0, through 0 at the image.
 /// D is at least D_l: the void ratio e decides how fast sand can dilate.
 ///   D_l = chi_i psi_i,  psi_i = e - e_c(P_i)
 /// So eta is at most M - (1 - N) chi psi. Plastic shear hardens the surface until x falls to x_l,
 /// the x of D_l.
+///
 ///   d(ln P_i) = h (x^2/x_l - x) d(eps_q),  h = (H - H_psi psi_i) (P_i/100 kPa)^-m
+///
 /// With m = 1 - n plastic and elastic stiffness have one ratio at all pressures (theory: sand).
 ///
 /// The shear modulus grows with the pressure, and the bulk modulus in proportion.
