@@ -84,6 +84,8 @@ class CommittedTest(unittest.TestCase):
             if "±" in table:
                 pages += 1
                 self.assertRegex(text, STATED, f"{page}: what is the number behind ±?")
+            if page.parent.name == "soils":  # Cards have no sinkage or resistance of a series; equal digits are chance.
+                continue
             for value, error in SHOWN.findall(re.sub("<!-- value: .*?<!-- end value -->", "", table)):
                 whole = known.get(value.removeprefix("-"), 0.0)
                 seen += whole > 0
