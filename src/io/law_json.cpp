@@ -122,6 +122,7 @@ std::string material_json(const MaterialFile& file, double pressure) {
   return text_of({{"title", file.title},
                   {"law", file.model.name},
                   {"sections", sections},
+                  {"cone_index", file.cone_index ? Json(*file.cone_index) : Json()},
                   {"elastic",
                    {{"pressure", pressure},
                     {"density", material->density()},

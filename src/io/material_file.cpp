@@ -45,6 +45,18 @@ const YamlTree& text_of(const YamlTree& map, const std::string& key, const std::
 }
 
 constexpr std::size_t most_bases = 8;
+const std::string cone_index = "cone_index";
+
+/// The cone index of a file. @throws InputError for a value that is none
+Options read_cone_index(const YamlTree& value) {
+  Schema schema("material file");
+  schema.number(cone_index, "Pa", Range::positive(), "mean of a cone test's first 15 cm");
+  YamlTree map;
+  map.kind = YamlTree::Kind::map;
+  map.origin = value.origin;
+  map.keys.emplace_back(cone_index, value);
+  return read_map(schema, map);
+}
 
 /// The file that `base` names, beside the file at the end of `files`: each the base of the one
 /// before.
@@ -91,6 +103,9 @@ YamlTree read_with_base(const std::vector<std::string>& files) {
   more.push_back(base_of(name, files));
   YamlTree merged = with_place(name.origin + ": base", [&] { return read_with_base(more); });
   merged.origin = file.origin;
+  merged.keys.erase(std::remove_if(merged.keys.begin(), merged.keys.end(),
+                                   [](const auto& entry) { return entry.first == cone_index; }),
+                    merged.keys.end());
   for (const auto& [key, value] : file.keys) {
     if (key == "base") continue;
     if (YamlTree* old = merged.find(key))
@@ -129,12 +144,18 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
       continue;
     }
     if (key == "contact") continue;
+    if (key == cone_index) {
+      const Options options = read_cone_index(value);
+      result.cone_index = options.number(cone_index);
+      result.warnings = options.warnings();
+      continue;
+    }
     const std::vector<std::string> names = section_names(model);
     if (std::find(names.begin(), names.end(), key) == names.end())
       throw InputError(
           value.origin,
           fmt::format("has the section '{}', which law {} does not have", key, model.name),
-          fmt::format("title, base, contact, {}", fmt::join(names, ", ")),
+          fmt::format("title, base, contact, cone_index, {}", fmt::join(names, ", ")),
           did_you_mean(names, key));
     if (value.kind != YamlTree::Kind::map)
       throw InputError(fmt::format("{}: '{}'", value.origin, key), "is not a section of keys",

@@ -10,11 +10,14 @@
 ///   elasticity: { type: linear, ... }     # other sections of the law, with a `type` where
 ///   hardening: { type: table, ... }       # there are several
 ///   contact: contact/sand.yaml            # optional (contact_section.h)
+///   cone_index: 131e3                     # optional [Pa], mean of the first 15 cm
 ///
 /// A variant names another file and gives what differs: `base: fresh_snow.yaml` (in the same
-/// folder). A section that is of another type than the base's replaces it whole.
+/// folder). A section that is of another type than the base's replaces it whole. The cone index of
+/// the base is not that of the variant.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +35,7 @@ struct MaterialFile {
   MaterialModel model;
   MaterialSections sections;
   GroundContact contact;
+  std::optional<double> cone_index;   ///< [Pa]
   std::vector<std::string> warnings;  ///< unusual values, a sentence each, to be shown
 
   std::unique_ptr<Material> make() const { return make_material(model, sections); }

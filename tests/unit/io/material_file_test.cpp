@@ -92,6 +92,22 @@ TEST_F(MaterialFileTest, ContactIsThatOfItsFileOrSection) {
   EXPECT_EQ(clay.at("rubber").shear_limit_range[0], 1e4);
 }
 
+TEST_F(MaterialFileTest, ConeIndexIsThatOfItsOwnFile) {
+  EXPECT_FALSE(read_material_file(file(sand)).cone_index);
+  EXPECT_EQ(read_material_file(file(sand + "cone_index: 131e3\n", "base.yaml")).cone_index, 131e3);
+  EXPECT_FALSE(read_material_file(file("base: base.yaml\nlaw: {density: 1700}\n")).cone_index);
+  EXPECT_EQ(read_material_file(file("base: base.yaml\ncone_index: 2e5\n")).cone_index, 2e5);
+}
+
+TEST_F(MaterialFileTest, ConeIndexInOtherUnitsIsRefusedOrDoubted) {
+  EXPECT_THAT(refusal(sand + "cone_index: 0\n"),
+              AllOf(HasSubstr("line 16"), HasSubstr("cone_index"), HasSubstr("> 0")));
+  EXPECT_THAT(refusal(sand + "cone_index: {value: 1e5}\n"), HasSubstr("line 16"));
+  const auto warnings = read_material_file(file(sand + "cone_index: 131\n")).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], AllOf(HasSubstr("line 16"), HasSubstr("kPa times 1000")));
+}
+
 TEST_F(MaterialFileTest, RefusesContactInOtherUnits) {
   const auto refused = [&](const std::string& old, const std::string& now) {
     file(with(of_rubber, old, now), "rubber.yaml");
