@@ -93,7 +93,7 @@ def series_value(line: Mapping[str, str], name: str) -> float | None:
 
 
 def table(lines: Iterable[Mapping[str, str]]) -> list[str]:
-    """A row for each quantity of a case: the best estimates, else the values at the runs' sizes."""
+    """A row for each quantity of a case: of each ground the best estimate, else the value at the run's size."""
     groups: dict[tuple[str, str, str], list[Mapping[str, str]]] = {}
     for line in lines:
         if is_value(line):
@@ -102,7 +102,7 @@ def table(lines: Iterable[Mapping[str, str]]) -> list[str]:
     rows = []
     for (case, place, _), group in groups.items():
         name = case.replace("_", " ") + ("" if place == "base" else f", {place}")
-        own = entries(group, BEST) or entries(group, RUN)
+        own = {**entries(group, RUN), **entries(group, BEST)}
         if own:
             quantity = next(iter(own.values())).quantity
             cells = [name, quantity.name + in_unit(quantity.unit)]
