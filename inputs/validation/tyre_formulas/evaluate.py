@@ -11,7 +11,9 @@ from furrow_post.analyse.whole_error import budgets_of
 from furrow_post.cli.answer_command import Compared, EstimatedTyre, compared, estimate_tyre
 from furrow_post.errors import ResultsError
 from furrow_post.run.summary import Summary
+from furrow_post.soil.material import find_ground
 from furrow_post.study.runs import Run
+from furrow_post.sweep.cone_band import Soil, soil_of
 
 # Size: load [N], inflation [kPa]
 TYRES = {
@@ -22,15 +24,7 @@ TYRES = {
     "31x15.50-15": (6000, 80),
     "22x11.00-10": (2000, 50),
 }
-# File in inputs/materials: soil, index of the virtual cone [kPa]
-SOILS = {
-    "sand_loose": ("sand", 67),
-    "sand_medium": ("sand", 131),
-    "sand_firm": ("sand", 217),
-    "clay_soft": ("clay", 130),
-    "clay_medium": ("clay", 270),
-    "clay_stiff": ("clay", 530),
-}
+SOILS = ("sand_loose", "sand_medium", "sand_firm", "clay_soft", "clay_medium", "clay_stiff")  # in inputs/materials
 ON_CLAY = "265/70R17"  # the tyre that runs on clay too
 SLIP = 0.2  # of the driven tyres
 CELL, DEPTH, TRAVEL = 0.15, 1.3, 3.7  # over the radius of the belt
@@ -42,6 +36,14 @@ def estimate(size: str) -> EstimatedTyre:
     return estimate_tyre(size, load, pressure, "furrow-post fit tyre")
 
 
+def soil_named(name: str) -> Soil:
+    """Kind and index of the virtual cone of a material file."""
+    soil = soil_of(find_ground(name))
+    if soil is None:
+        raise ResultsError(f"{name}: has no cone index; give the material file a line 'cone_index: 131e3'")
+    return soil
+
+
 def tyre_text(size: str) -> str:
     return estimate(size).text
 
@@ -51,8 +53,8 @@ def combinations() -> Iterator[dict[str, Any]]:
     for size, (load, pressure) in TYRES.items():
         radius = estimate(size).radius
         lengths = {"cell": CELL * radius, "depth": DEPTH * radius, "fine_depth": 0.5 * radius, "distance": TRAVEL * radius}
-        for soil, (kind, _) in SOILS.items():
-            if kind == "clay" and size != ON_CLAY:
+        for soil in SOILS:
+            if soil_named(soil).kind == "clay" and size != ON_CLAY:
                 continue
             for drive, motion in (("towed", "mode towed"), ("driven", f"mode slip slip {SLIP}")):
                 yield {
@@ -64,8 +66,8 @@ def combinations() -> Iterator[dict[str, Any]]:
 @cache
 def formulas(size: str, soil: str, slip: float = SLIP) -> Formulas:
     """Formulas for one tyre on the cone index of one soil."""
-    kind, index = SOILS[soil]
-    return formulas_for(kind, 1e3 * index, estimate(size).tyre, slip, "R" in size)
+    ground = soil_named(soil)
+    return formulas_for(ground.kind, ground.cone_index, estimate(size).tyre, slip, "R" in size)
 
 
 def compared_with_formulas(run: Run) -> list[dict[str, Any]]:
@@ -77,7 +79,7 @@ def compared_with_formulas(run: Run) -> list[dict[str, Any]]:
     if missing := needed - Summary(run.folder).quantities.keys():
         raise ResultsError(f"{run.folder}: its summary has no {' and '.join(sorted(missing))}; repeat the run")
     rows = compared(run.folder, formulas(size, soil), drive == "towed")
-    if SOILS[soil][0] == "clay" and drive == "towed":
+    if soil_named(soil).kind == "clay" and drive == "towed":
         rows += _resistance_on_clay(run, size, soil)
     return [{"size": size, "soil": soil, "drive": drive, **row._asdict()} for row in rows]
 

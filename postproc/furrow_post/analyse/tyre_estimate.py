@@ -26,10 +26,10 @@ _RIM_STIFFNESS, _TREAD_STIFFNESS = 50.0, 10.0  # [N m/rad/m]
 _PRESSURE = 241e3  # [Pa] from which the moduli grow
 _AREAL_MASS = 19.6  # [kg/m2] of a tread of 21 mm
 _TREAD_THICKNESS = 0.021  # [m]
-_TREAD_OVER_DIAMETER = 0.0285  # thickness of the tread, 21 mm of 0.737 m
+TREAD_OVER_DIAMETER = 0.0285  # thickness of the tread, 21 mm of 0.737 m
 _TREAD_OVER_SECTION = 0.72  # width: 0.67 of [Shoop2001] Table 6 to 0.8 of truck tyres
 _RIM_OVER_SECTION = 0.70  # width of the measuring rim
-_FLANGE = 0.017  # [m] height of the flange of a rim for cars
+FLANGE = 0.017  # [m] height of the flange of a rim for cars
 _TREAD_MASS_SHARE = 0.5  # of the tyre's mass, in belts and tread
 _NU12 = 0.3
 
@@ -110,7 +110,7 @@ def tyre_sections(known: Catalogue, values: Values, notes: Mapping[str, str]) ->
     @raises ResultsError where rim, tread and section do not fit together
     """
     rim, rim_source = _rim_width(known)
-    bead = 0.5 * known.size.rim_diameter + (_FLANGE if known.flange is None else known.flange)
+    bead = 0.5 * known.size.rim_diameter + (FLANGE if known.flange is None else known.flange)
     flange_source = "17 mm, guess" if known.flange is None else "the given flange"
     arc = _sidewall(0.5 * rim, bead, values)
     scale = values["section_width"] / _SECTION_WIDTH
@@ -224,7 +224,7 @@ def _section_width(known: Catalogue) -> tuple[float, str, float]:
 def _tread_thickness(known: Catalogue) -> tuple[float, str]:
     if known.tread_thickness is not None:
         return known.tread_thickness, "the given tread"
-    thickness = _TREAD_OVER_DIAMETER * _diameter(known)
+    thickness = TREAD_OVER_DIAMETER * _diameter(known)
     return thickness, f"{1e3 * thickness:.0f} mm of tread"
 
 

@@ -105,12 +105,12 @@ def _soil(given: Given) -> str:
     clay = find_ground("clay_medium")
     if given.soil == SAND:
         contact = clay.parent / "contact" / ("sand.yaml" if index < LOOSE_BELOW else "firm_sand.yaml")
-        return f"{from_cone(title, index, CLASS, None).text()}contact: {contact}\n"
+        return f"{from_cone(title, index, CLASS, None).text()}cone_index: {index:g}\ncontact: {contact}\n"
     strength = index / INDEX_OVER_STRENGTH
     return (
         f"title: {title}\n"
         f"# Strength: cone index over {INDEX_OVER_STRENGTH:g}. Modulus: {STIFFNESS:g} times the strength.\n"
-        f"base: {clay}\n"
+        f"base: {clay}\ncone_index: {index:g}\n"
         f"law: {{su: {strength:g}}}\nelasticity: {{E: {STIFFNESS * strength:g}}}\n"
         "contact:\n  rubber:\n    friction: 1\n    friction_range: [0.5, 1.5]\n    slip_length: 0.006\n"
         f"    slip_length_range: [0.003, 0.009]\n    shear_limit: {ADHESION * strength:g}\n"

@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from ..analyse.verdict import BARS, COVERAGE
 from ..figures.resistance_parts import Panel, draw_parts
 from ..figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
+from .cone_band import ConeBand
 from .sweep_curves import Curve, Figure, Line
 from .sweep_formulas import FormulaLine
 from .sweep_measured import MeasuredPoints
@@ -30,6 +31,7 @@ def draw_sweep(
     formulas: Sequence[FormulaLine],
     measured: Sequence[MeasuredPoints],
     target: Path,
+    bands: Sequence[ConeBand] = (),
 ) -> None:
     use_style()
     rows = math.ceil(len(figure.curves) / COLUMNS)
@@ -38,7 +40,7 @@ def draw_sweep(
     entries: dict[str, Artist] = {}
     for k, (curve, letter) in enumerate(zip(figure.curves, panel_letters())):
         axes = whole.add_subplot(grid[k // COLUMNS, k % COLUMNS])
-        _draw_curve(axes, figure, curve, formulas, measured)
+        _draw_curve(axes, figure, curve, formulas, measured, bands)
         annotate_panel(axes, letter, curve.name)
         handles, labels = axes.get_legend_handles_labels()
         entries.update(zip(labels, handles))
@@ -82,6 +84,7 @@ def _draw_curve(
     curve: Curve,
     formulas: Sequence[FormulaLine],
     measured: Sequence[MeasuredPoints],
+    bands: Sequence[ConeBand],
 ) -> None:
     for k, line in enumerate(figure.lines):
         _draw_line(axes, figure, curve, line, _colour(k), MARKERS[k % len(MARKERS)])
@@ -104,6 +107,13 @@ def _draw_curve(
             dashes = DASHES[methods.index(one.formula) % len(DASHES)]
             look = {"color": colours.get(one.line, "0.45"), "lw": 1.1, "dashes": dashes}
             axes.plot(x_scale * x, y_scale * y, label=one.label, **look)
+    for band in bands:
+        values = band.values(curve.y)
+        if values:
+            x, mean, least, greatest = (np.array(column) for column in zip(*values))
+            colour = colours[band.line.label]
+            axes.fill_between(x_scale * x, y_scale * least, y_scale * greatest, color=colour, alpha=0.12, lw=0)
+            axes.plot(x_scale * x, y_scale * mean, color=colour, lw=1.1, ls=":", label=band.label)
     if shown:  # a formula may lie far away: the runs keep their room
         low, high = min(low for low, _ in shown), max(high for _, high in shown)
         now = axes.get_ylim()

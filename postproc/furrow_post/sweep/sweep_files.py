@@ -13,6 +13,7 @@ from ..errors import ResultsError
 from ..figures.page import condition_rows, render
 from ..figures.resistance_parts import CAPTION as PARTS_CAPTION
 from ..study.tables import in_columns
+from .cone_band import ConeBand, cone_bands
 from .sweep_curves import Figure, arrange
 from .drawing import CAPTION, draw_parts_of_sweep, draw_sweep
 from .sweep_formulas import FormulaLine, formula_lines
@@ -59,6 +60,7 @@ class Result:
     series: Sequence[Series]
     figure: Figure
     formulas: Sequence[FormulaLine]
+    bands: Sequence[ConeBand]
     measured: Sequence[MeasuredPoints]
 
     def remarks(self) -> list[str]:
@@ -88,7 +90,8 @@ class Result:
         )
         if imposed:
             found.append(f"imposed by the script, without an error: {', '.join(imposed)}")
-        return found + [one.note for one in self.formulas if one.note]
+        found += [one.note for one in (*self.formulas, *self.bands) if one.note]
+        return found + [text for band in self.bands for curve in self.figure.curves for text in band.departures(curve.y)]
 
 
 def evaluate(folders: Sequence[Named], wanted: Wanted) -> Result:
@@ -109,7 +112,7 @@ def evaluate(folders: Sequence[Named], wanted: Wanted) -> Result:
         for points in read_measured_points(file.path, file.label, figure)
     ]
     formulas = formula_lines(figure.lines, wanted.formulas, wanted.extrapolate)
-    return Result(series, figure, formulas, measured)
+    return Result(series, figure, formulas, cone_bands(figure.lines), measured)
 
 
 def write_sweep(result: Result, folder: Path) -> list[str]:
@@ -118,7 +121,7 @@ def write_sweep(result: Result, folder: Path) -> list[str]:
     with tempfile.TemporaryDirectory(dir=folder, prefix=".sweep") as scratch:
         part = Path(scratch)
         write_table(result.series, part / TABLE, part / NUMBERS)
-        draw_sweep(result.figure, result.formulas, result.measured, part / PICTURE)
+        draw_sweep(result.figure, result.formulas, result.measured, part / PICTURE, result.bands)
         parts = part / PARTS if draw_parts_of_sweep(result.figure, part / PARTS) else None
         (part / REPORT).write_text(_page(result, part / PICTURE, parts), encoding="utf-8")
         names = sorted(file.name for file in part.iterdir())

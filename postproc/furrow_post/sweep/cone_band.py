@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Formulas of the cone index of the ground for the runs of a tyre: mean, band, and values outside of the band."""
+
+import functools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import yaml
+
+from ..analyse.cone_formulas import Formulas, Tyre, formulas_for
+from ..analyse.tyre_estimate import FLANGE, TREAD_OVER_DIAMETER
+from ..analyse.tyre_fit import PlateTest, press
+from ..analyse.verdict import COVERAGE
+from ..errors import ResultsError, content_of
+from ..json_text import parse_json
+from ..programs import find_program
+from ..read.wheel_run import WheelRun
+from ..run.tools import answer
+from .sweep_curves import PULL, RESISTANCE, TORQUE, Axis, Line
+
+CLAY_LAW = "undrained_clay"
+MESH = (4, 36)  # of the tyre on a rigid plane
+ROLLING = 1e-6  # slip for formulas of a towed tyre
+# Axis -> quantity of the formulas. Those of clay have no tyre that skids.
+DRIVEN = {PULL: "net", TORQUE: "gross"}
+TOWED = {"sand": {RESISTANCE: "towed_resistance"}, "clay": {RESISTANCE: "resistance"}}
+
+
+@dataclass(frozen=True)
+class Soil:
+    """kind: sand or clay, as the formulas have it; cone index [Pa]."""
+
+    kind: str
+    cone_index: float
+
+
+@dataclass(frozen=True)
+class ConeBand:
+    """Formulas at the points of a line, within their ranges."""
+
+    line: Line
+    soil: Soil
+    formulas: tuple[Formulas | None, ...]  # of each point; None without an answer
+    note: str  # why points have none; empty: all have
+
+    @property
+    def label(self) -> str:
+        return f"formulas, cone index {1e-3 * self.soil.cone_index:.0f} kPa ({self.line.label})"
+
+    def values(self, y: Axis) -> list[tuple[float, float, float, float]]:
+        """x, mean, least and greatest; empty where the formulas do not speak of y."""
+        found = []
+        for x, formulas, point in zip(self.line.x, self.formulas, self.line.points):
+            quantity = (TOWED[self.soil.kind] if _is_towed(point.runs[0]) else DRIVEN).get(y, "")
+            band = formulas.band(quantity) if formulas and quantity else None
+            found += [(x, *band)] if band else []
+        return found
+
+    def departures(self, y: Axis) -> list[str]:
+        """A sentence for each value further than two whole errors from the band; not where the model's error is unknown."""
+        bands = {x: band for x, *band in self.values(y)}
+        found = []
+        for x, point, value in self.line.values(y):
+            if x in bands and not math.isnan(value.parts.model):
+                _, least, greatest = bands[x]
+                if max(least - value.mean, value.mean - greatest) > COVERAGE * value.uncertainty:
+                    found.append(
+                        f"{self.line.label}, {point.name}: {y.name} {value.mean:.2f} ± {value.uncertainty:.2g} is outside of the "
+                        f"formulas, {least:.2f} to {greatest:.2f}"
+                    )
+        return found
+
+
+def cone_bands(lines: Sequence[Line]) -> list[ConeBand]:
+    """Bands of the lines whose runs have a tyre on one soil of known cone index."""
+    found = []
+    for line in lines:
+        soil = _soil_of(line.points[0].runs[0]) if line.points else None
+        if soil:
+            found.append(_band(line, soil))
+    return found
+
+
+def _band(line: Line, soil: Soil) -> ConeBand:
+    formulas: list[Formulas | None] = []
+    reasons = []
+    for point in line.points:
+        run = point.runs[0]
+        try:
+            slip = ROLLING if _is_towed(run) else run.number("slip")
+            formulas.append(formulas_for(soil.kind, soil.cone_index, _tyre_of(run), slip, radial=True))
+        except ResultsError as error:
+            formulas.append(None)
+            reasons.append(f"{line.label}: no formula at {point.name}: {error}")
+    return ConeBand(line, soil, tuple(formulas), reasons[0] if reasons else "")
+
+
+def _is_towed(run: WheelRun) -> bool:
+    return run.text("mode") == "towed"
+
+
+def _soil_of(run: WheelRun) -> Soil | None:
+    """None without a tyre, or where the material has no cone index."""
+    ground = run.results.styles().of_kind("terrain")
+    if not run.deformable or run.ground != "continuum" or ground is None or not ground.has("material"):
+        return None
+    file = Path(ground.text("material"))
+    return soil_of(file) if file.is_file() else None
+
+
+@functools.cache
+def soil_of(material: Path) -> Soil | None:
+    """Soil of a material file; None where the file has no cone index. @raises ResultsError"""
+    content = parse_json(answer([find_program("furrow-point"), "show", material, "--json"]))
+    index = content["cone_index"]
+    return None if index is None else Soil("clay" if content["law"] == CLAY_LAW else "sand", float(index))
+
+
+def _tyre_of(run: WheelRun) -> Tyre:
+    """@raises ResultsError where the tyre's file is gone"""
+    style = run.results.styles().of_kind("wheel")
+    assert style is not None  # of a run with a tyre
+    return formula_tyre(Path(style.text("file")), run.number("pressure"), run.number("load"))
+
+
+@functools.cache
+def formula_tyre(file: Path, pressure: float, load: float) -> Tyre:
+    """Sizes of a tyre file and its deflection on a rigid plane, for formulas. pressure [Pa], load [N].
+
+    The outer diameter is that of the inflated belt with the tread of an estimated tyre. @raises ResultsError"""
+    with content_of(file, "a tyre file is YAML, inputs/guide/tyre_files.md"):
+        text = file.read_text(encoding="utf-8")
+        bead = float(yaml.safe_load(text)["tyre"]["bead_radius"])
+    (state,) = press(text, [PlateTest(1e-3 * pressure, load, {})], MESH)
+    diameter = 0.02 * state["crown_radius_cm"] / (1 - 2 * TREAD_OVER_DIAMETER)
+    width = 1e-2 * state["section_width_cm"]
+    return Tyre(load, diameter, width, 0.5 * diameter - bead + FLANGE, 1e-2 * state["deflection_cm"])

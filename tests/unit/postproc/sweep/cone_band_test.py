@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Formulas of a cone index in a sweep: soil and tyre of the files, band, values outside of the band."""
+
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from furrow_post.analyse.cone_formulas import formulas_for
+from furrow_post.run.record import Record
+from furrow_post.sweep.cone_band import Soil, formula_tyre, soil_of
+from furrow_post.sweep.sweep_curves import HUB_DROP, PULL, RESISTANCE, TORQUE
+from furrow_post.sweep.sweep_files import Named, Result, Wanted, evaluate, write_sweep
+from furrow_post.sweep.sweep_plan import Plan, Point
+from support.command import SOURCE
+from support.folder import FolderTest
+from support.runs import rig, rigid_wheel, style, write_run
+
+MATERIALS = SOURCE / "inputs" / "materials"
+TYRE = SOURCE / "inputs" / "tyres" / "p235_75r15.yaml"
+LOAD, PRESSURE = 6000.0, 2e5
+
+
+def write_tyre_run(folder: Path, material: str, slip: float, pull: float, mode: str = "slip", tyre: bool = True) -> None:
+    """A tyre on a continuum of one particle."""
+    driven = rig(LOAD)
+    driven["options"]["mode"] = [mode]
+    wheel = style("wheel", "tyre/darnell", "wheel", file=str(TYRE), pressure=PRESSURE, diameter=0.7, width=0.2)
+    soil = style("terrain", "terrain/continuum", "soil", material=str(MATERIALS / f"{material}.yaml"), length=2, width=1, depth=0.5, cell=0.05)
+    write_run(folder, LOAD, styles=[wheel if tyre else rigid_wheel(), driven, soil], slip=slip, pull=pull, torque=500.0)
+    with h5py.File(folder / "terrain.h5", "w") as content:
+        for name in ("density", "volume", "compaction", "vertical_stress"):
+            content[f"terrain/{name}"] = np.zeros(1) if name in ("compaction", "vertical_stress") else np.ones(1)
+        content["terrain/x"] = content["terrain/initial_position"] = np.zeros((1, 3))
+    Record({}, "", {}, "", "2026-01-01T00:00:00Z", 1.0, 1.5, 0.1).write(folder)
+
+
+class ConeBandTest(FolderTest):
+    def sweep(self, material: str, pulls: dict[float, float], tyre: bool = True) -> Result:
+        points = []
+        for slip, pull in pulls.items():
+            write_tyre_run(self.folder / f"slip_{slip:g}", material, slip, pull, tyre=tyre)
+            points.append(Point(f"slip_{slip:g}", {"slip": f"{slip:g}"}))
+        Plan("scene.lig", ("slip",), points=tuple(points)).write(self.folder)
+        return evaluate([Named(self.folder)], Wanted())
+
+    def test_the_soil_is_that_of_the_material_file(self) -> None:
+        self.assertEqual(soil_of(MATERIALS / "sand_medium.yaml"), Soil("sand", 131e3))
+        self.assertEqual(soil_of(MATERIALS / "clay_stiff.yaml"), Soil("clay", 530e3))
+        self.assertIsNone(soil_of(MATERIALS / "fresh_snow.yaml"))
+
+    def test_the_tyre_has_the_sizes_of_its_designation(self) -> None:
+        """P235/75 R15 has a diameter of 0.733 m and a section height of 0.176 m. Its deflection is that of [Shoop2001]."""
+        tyre = formula_tyre(TYRE, 179e3, 6227.0)
+        self.assertAlmostEqual(tyre.diameter, 0.733, delta=0.01)
+        self.assertAlmostEqual(tyre.section_height, 0.176, delta=0.006)
+        self.assertAlmostEqual(tyre.width, 0.235, delta=0.035)  # under load it bulges
+        self.assertAlmostEqual(tyre.deflection, 0.0404, delta=0.005)
+
+    def test_clay_has_a_band_and_values_outside_are_named(self) -> None:
+        result = self.sweep("clay_medium", {0.1: 0.25, 0.2: -0.5})
+        (band,) = result.bands
+        tyre = formula_tyre(TYRE, PRESSURE, LOAD)
+        for slip, mean, least, greatest in band.values(PULL):
+            self.assertEqual((mean, least, greatest), formulas_for("clay", 270e3, tyre, slip, True).band("net"))
+            self.assertLess(least, greatest)
+        self.assertEqual([x for x, *_ in band.values(TORQUE)], [0.1, 0.2])
+        self.assertEqual(band.values(HUB_DROP), [])
+        named = [text for text in result.remarks() if "outside of the formulas" in text]
+        self.assertEqual(len(named), 1, named)
+        self.assertRegex(named[0], r"slip_0.2: net traction coefficient -0.50 ± \S+ is outside of the formulas, 0\.\d+ to 0\.\d+")
+        self.assertIn("sweep.png", write_sweep(result, self.folder / "drawn"))
+
+    def test_a_towed_tyre_on_sand_has_the_formula_of_towed_resistance(self) -> None:
+        for load in (5000, 6000):
+            write_tyre_run(self.folder / f"load_{load}", "sand_firm", -0.05, -0.1, mode="towed")
+        points = tuple(Point(f"load_{load}", {"load": str(load)}) for load in (5000, 6000))
+        Plan("scene.lig", ("load",), points=points).write(self.folder)
+        (band,) = evaluate([Named(self.folder)], Wanted()).bands
+        expected = formulas_for("sand", 217e3, formula_tyre(TYRE, PRESSURE, LOAD), 1e-6).answers[0].towed_resistance
+        self.assertEqual({mean for _, mean, *_ in band.values(RESISTANCE)}, {expected})
+        self.assertEqual(band.values(PULL), [])
+
+    def test_rigid_wheels_and_snow_have_no_formula(self) -> None:
+        self.assertEqual(list(self.sweep("fresh_snow", {0.1: 0.2, 0.3: 0.2}).bands), [])
+        self.assertEqual(list(self.sweep("sand_firm", {0.1: 0.2, 0.3: 0.2}, tyre=False).bands), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
