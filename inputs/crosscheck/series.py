@@ -111,6 +111,8 @@ def draw_series(case: str, lines: Sequence[Mapping[str, str]], target: Path) -> 
             unit, scale = UNITS[name]
             for k, ground in enumerate(("continuum", "grains")):
                 curve = curve_of(lines, (ground, BEST, quantity.key), name, BASES[case].get(name))
+                if not curve:  # of a study that is not complete
+                    continue
                 x, entries = zip(*sorted(curve.items()))
                 axes.errorbar(
                     scale * np.array(x),

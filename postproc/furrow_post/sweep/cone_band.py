@@ -106,8 +106,13 @@ def _soil_of(run: WheelRun) -> Soil | None:
     ground = run.results.styles().of_kind("terrain")
     if not run.deformable or run.ground != "continuum" or ground is None or not ground.has("material"):
         return None
-    file = Path(ground.text("material"))
+    file = _file(run, ground.text("material"))
     return soil_of(file) if file.is_file() else None
+
+
+def _file(run: WheelRun, name: str) -> Path:
+    """A file that a script names, from the folder of the script on."""
+    return Path(run.results.run.get("script", "")).parent / name
 
 
 @functools.cache
@@ -122,7 +127,7 @@ def _tyre_of(run: WheelRun) -> Tyre:
     """@raises ResultsError where the tyre's file is gone"""
     style = run.results.styles().of_kind("wheel")
     assert style is not None  # of a run with a tyre
-    return formula_tyre(Path(style.text("file")), run.number("pressure"), run.number("load"))
+    return formula_tyre(_file(run, style.text("file")), run.number("pressure"), run.number("load"))
 
 
 @functools.cache

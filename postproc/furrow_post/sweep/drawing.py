@@ -113,7 +113,7 @@ def _draw_curve(
             x, mean, least, greatest = (np.array(column) for column in zip(*values))
             colour = colours[band.line.label]
             axes.fill_between(x_scale * x, y_scale * least, y_scale * greatest, color=colour, alpha=0.12, lw=0)
-            axes.plot(x_scale * x, y_scale * mean, color=colour, lw=1.1, ls=":", label=band.label)
+            axes.plot(x_scale * x, y_scale * mean, color=colour, lw=1.1, ls=":", marker="_", label=band.label)
     if shown:  # a formula may lie far away: the runs keep their room
         low, high = min(low for low, _ in shown), max(high for _, high in shown)
         now = axes.get_ylim()

@@ -109,6 +109,7 @@ def arrange(series: Sequence[Series], against: str | None = None) -> Figure:
         others = [name for name in one.variables or _varying(one.points) if name != x]
         if x == SLIP and _are_free(one.points):
             others = [name for name in others if name not in HELD_BACK_BY]
+        others = [name for name in others if not _tells_place(one.points, name, positions)]
         groups: dict[str, list[SweepPoint]] = {}
         for point in one.points:
             groups.setdefault(_label(one, point, others, len(series)), []).append(point)
@@ -117,6 +118,13 @@ def arrange(series: Sequence[Series], against: str | None = None) -> Figure:
             lines.append(Line(label, tuple(ordered), tuple(map(positions, ordered))))
     points = [point for one in series for point in one.points]
     return Figure(axis, tuple(_curves(axis, points)), tuple(lines), categories)
+
+
+def _tells_place(points: Sequence[SweepPoint], name: str, positions: Callable[[SweepPoint], float]) -> bool:
+    """True of a variable that has one value at each place of the x axis, as the mode of a rig that sets the slip."""
+    pairs = {(_setting(point, name), positions(point)) for point in points}
+    values, places = (set(column) for column in zip(*pairs)) if pairs else (set(), set())
+    return len(pairs) == len(values) == len(places) > 1
 
 
 def _label(series: Series, point: SweepPoint, others: Sequence[str], number: int) -> str:

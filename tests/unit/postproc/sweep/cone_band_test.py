@@ -23,12 +23,14 @@ LOAD, PRESSURE = 6000.0, 2e5
 
 
 def write_tyre_run(folder: Path, material: str, slip: float, pull: float, mode: str = "slip", tyre: bool = True) -> None:
-    """A tyre on a continuum of one particle."""
+    """A tyre on a continuum of one particle, by a script that names its files from its own folder on."""
     driven = rig(LOAD)
     driven["options"]["mode"] = [mode]
-    wheel = style("wheel", "tyre/darnell", "wheel", file=str(TYRE), pressure=PRESSURE, diameter=0.7, width=0.2)
-    soil = style("terrain", "terrain/continuum", "soil", material=str(MATERIALS / f"{material}.yaml"), length=2, width=1, depth=0.5, cell=0.05)
+    wheel = style("wheel", "tyre/darnell", "wheel", file="../tyres/p235_75r15.yaml", pressure=PRESSURE, diameter=0.7, width=0.2)
+    soil = style("terrain", "terrain/continuum", "soil", material=f"../materials/{material}.yaml", length=2, width=1, depth=0.5, cell=0.05)
     write_run(folder, LOAD, styles=[wheel if tyre else rigid_wheel(), driven, soil], slip=slip, pull=pull, torque=500.0)
+    with h5py.File(folder / "history.h5", "a") as content:
+        content["run"].attrs["script"] = np.bytes_(str(SOURCE / "inputs" / "scenes" / "tyre_on_soil.lig"))
     with h5py.File(folder / "terrain.h5", "w") as content:
         for name in ("density", "volume", "compaction", "vertical_stress"):
             content[f"terrain/{name}"] = np.zeros(1) if name in ("compaction", "vertical_stress") else np.ones(1)
@@ -41,9 +43,12 @@ class ConeBandTest(FolderTest):
         points = []
         for slip, pull in pulls.items():
             write_tyre_run(self.folder / f"slip_{slip:g}", material, slip, pull, tyre=tyre)
-            points.append(Point(f"slip_{slip:g}", {"slip": f"{slip:g}"}))
-        Plan("scene.lig", ("slip",), points=tuple(points)).write(self.folder)
-        return evaluate([Named(self.folder)], Wanted())
+            points.append(Point(f"slip_{slip:g}", {"motion": f"mode slip slip {slip:g}"}))
+        Plan("scene.lig", ("motion",), points=tuple(points)).write(self.folder)
+        return evaluate([Named(self.folder)], Wanted(against="slip"))
+
+    def test_a_variable_that_sets_the_slip_splits_no_curve(self) -> None:
+        self.assertEqual([line.x for line in self.sweep("fresh_snow", {0.1: 0.2, 0.3: 0.2}).figure.lines], [(0.1, 0.3)])
 
     def test_the_soil_is_that_of_the_material_file(self) -> None:
         self.assertEqual(soil_of(MATERIALS / "sand_medium.yaml"), Soil("sand", 131e3))
