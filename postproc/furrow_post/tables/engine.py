@@ -13,7 +13,7 @@
     blocks: [{runs, measure, columns}, ...]   several groups of runs, each with further keys
     rows: function or "= list"      in place of runs: rows of other numbers
 
-A measure is a function of the run in measures.py or in the study's evaluate.py, or resistance (furrow-resistance): its
+A measure is a function of the run in a file *_measures.py or in the study's evaluate.py, or resistance (furrow-resistance): its
 numbers, or a list of them, one per row. An expression sees them, `reference` (columns of reference.csv), the names of
 RUN, the functions of evaluate.py, and the constants of the study and of `with`. An argument that begins with "=" is an expression. "*": measure has
 a column for each of its numbers. A table made of others has
@@ -30,6 +30,7 @@ Such a table is made of the cells that its sources store; one whose name has no 
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
+from inspect import isfunction, signature
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -38,13 +39,15 @@ import pandas
 
 from ..csv_table import read_comments, rows_text
 from ..errors import ResultsError
-from ..study.study_files import Output
+from ..study.definition import cases_of, evaluation_of
 from ..study.runs import Run, Runs
-from . import measures, panels
+from ..study.study import Study
+from ..study.study_files import Output
+from ..study.values import DEFINITION, load_yaml
+from . import element_measures, ground_measures, panels, tyre_measures, wheel_measures
 from .expressions import filled, value_of
 from .frames import Row, cell, frame_of, plain, read_frame, rows_of
-from .identification import identify
-from .operations import OPERATIONS, cells, select
+from .operations import OPERATIONS, Known, cells, select, transpose
 
 RUN = "name, last, what, arguments, stage, seconds, cpu, cpu_time, error, v (variables), facts"
 BLOCK_KEYS = {"runs", "rows", "failed", "measure", "expand", "let", "where", "columns", "with"}
@@ -53,6 +56,14 @@ TABLE_KEYS = BLOCK_KEYS | {"blocks", "of", "texts", "do", "comments", "transpose
 LIMIT_KEYS = {"table", "where", "holds", "message", "least", "absent", "key", "repeats", "within"}
 
 Spec = Mapping[str, Any]
+
+# Functions of the files *_measures.py whose first argument is a run, or all runs of the study
+MEASURES: Mapping[str, Callable[..., Any]] = {
+    name: value
+    for module in (element_measures, ground_measures, tyre_measures, wheel_measures)
+    for name, value in vars(module).items()
+    if isfunction(value) and value.__module__ == module.__name__ and next(iter(signature(value).parameters)) in ("run", "runs")
+}
 
 
 class Variables(SimpleNamespace):
@@ -115,6 +126,10 @@ class Engine:
     def where(self, name: str) -> str:
         return f"{self.folder / 'study.yaml'}: {name}"
 
+    def names(self, spec: Spec, tables: Mapping[str, pandas.DataFrame]) -> Row:
+        """Names in expressions of a table or block: constants of the study and its own, and all tables."""
+        return {**self.constants, "tables": tables, **(spec.get("with") or {})}
+
     def function(self, name: str, known: Mapping[str, Callable[..., Any]], what: str) -> Callable[..., Any]:
         """Function of evaluate.py, or of the package. @raises ResultsError"""
         found = getattr(self.module, name, None) or known.get(name)
@@ -122,6 +137,14 @@ class Engine:
             raise ResultsError(f"{self.where(what)}: there is no {name}; known are {', '.join(sorted(known))}")
         function: Callable[..., Any] = found
         return function
+
+    def measure(self, name: str, runs: Runs, what: str) -> Callable[..., Any]:
+        """Measure of evaluate.py or of the package; resistance: lines that furrow-resistance prints, a row for each."""
+
+        def resistance(run: Run, options: Sequence[object] = ("--csv",)) -> list[Row]:
+            return [dict(line) for line in runs.resistance(run, *options)]
+
+        return self.function(name, {**MEASURES, "resistance": resistance}, what)
 
     # ---- rows of runs
 
@@ -143,13 +166,13 @@ class Engine:
             for run in self.chosen(runs, block):
                 yield from self.rows_of_run(runs, run, block, name, tables)
             return
-        names = {**self.constants, "tables": tables, **(block.get("with") or {})}
+        names = self.names(block, tables)
         made = block["rows"]
         if isinstance(made, str) and made.startswith("="):
             rows = filled(made, names, self.where(name))
         else:
             called = filled({made: {}} if isinstance(made, str) else made, names, self.where(name))
-            rows = [row for one, given in called.items() for row in self.function(one, measures.ROWS, name)(runs, **given)]
+            rows = [row for one, given in called.items() for row in self.function(one, MEASURES, name)(runs, **given)]
         for row in rows:
             yield cells({**names, **row}, block["columns"], self.where(name)) if block.get("columns") else row
 
@@ -161,7 +184,7 @@ class Engine:
         self, runs: Runs, run: Run, block: Spec, name: str, tables: Mapping[str, pandas.DataFrame]
     ) -> Iterator[Row]:
         where = f"{self.where(name)}, run {run.name}"
-        names = {**self.constants, "tables": tables, **(block.get("with") or {}), **names_of(run)}
+        names = {**self.names(block, tables), **names_of(run)}
         parts: list[Row] = [{}]
         columns = block.get("columns") or {}
         if run.error and block["failed"] != "all":
@@ -170,7 +193,7 @@ class Engine:
         for one, arguments in ({wanted: {}} if isinstance(wanted, str) else wanted).items():
             if not parts:
                 break  # a measure without rows
-            measure = self.function(one, of_runs(runs), name)
+            measure = self.measure(one, runs, name)
             try:
                 found = measure(run, **filled(arguments or {}, {**names, **parts[0]}, where))
             except ResultsError:
@@ -220,16 +243,16 @@ class Engine:
         frame = pandas.concat(
             [read_frame(self.folder / one, texts) if texts else tables[one] for one in sources], ignore_index=True
         )
-        constants = {**self.constants, "tables": tables, **(spec.get("with") or {})}
+        known = Known(tables, self.names(spec, tables))
         for step in spec.get("do") or []:
             if not len(frame):
                 return frame
             for one, arguments in ({step: {}} if isinstance(step, str) else step).items():
-                operation = self.function(one, {**OPERATIONS, "identify": identify}, name)
+                operation = self.function(one, OPERATIONS, name)
                 given = {"condition": arguments} if isinstance(arguments, str) else arguments or {}
-                frame = operation(frame, tables, constants, **filled(given, constants, self.where(name)))
+                frame = operation(frame, known, **filled(given, known.constants, self.where(name)))
         if len(frame) and spec.get("columns"):
-            frame = select(frame, tables, constants, **{str(name): text for name, text in spec["columns"].items()})
+            frame = select(frame, known, **{str(name): text for name, text in spec["columns"].items()})
         return frame
 
     def text(self, name: str, tables: Tables) -> str:
@@ -259,7 +282,7 @@ class Engine:
             else:
                 rows = self.rows(runs, name, tables)
                 if key := spec.get("transpose"):
-                    rows = rows_of(OPERATIONS["transpose"](pandas.DataFrame(rows, dtype=object), {}, {}, key)) if rows else []
+                    rows = rows_of(transpose(pandas.DataFrame(rows, dtype=object), Known({}, {}), key)) if rows else []
                 known = output.known(name, rows)
             output.table(name, rows, self.comments(name, self.folder / name))
             tables.made[name] = frame_of(known)
@@ -291,7 +314,7 @@ class Engine:
 
     def curve(self, runs: Runs, name: str, run: Run, arguments: Spec) -> Row:
         """Numbers of a run for a line of a figure; columns of several rows."""
-        measure = self.function(name, of_runs(runs), "figures")
+        measure = self.measure(name, runs, "figures")
         found = measure(run, **filled(arguments, {**self.constants, **names_of(run)}, "figures"))
         return {str(key): column.to_numpy() for key, column in pandas.DataFrame(found).items()} if isinstance(found, list) else dict(found)
 
@@ -348,11 +371,14 @@ def names_of(run: Run) -> Row:
     }
 
 
-def of_runs(runs: Runs) -> Mapping[str, measures.Measure]:
-    """All measures of the package."""
+def load_study(folder: Path) -> Study:
+    """A study with its runs and its evaluation: the tables of study.yaml, or evaluate(runs, output) of evaluate.py.
 
-    def resistance(run: Run, options: Sequence[object] = ("--csv",)) -> list[Row]:
-        """Lines that furrow-resistance prints with these options, a row for each."""
-        return [dict(line) for line in runs.resistance(run, *options)]
-
-    return {**measures.MEASURES, "resistance": resistance}
+    @raises ResultsError
+    """
+    folder = folder.resolve()
+    content = load_yaml(folder / DEFINITION)
+    module = evaluation_of(folder)
+    cases = tuple(module.cases()) if module and hasattr(module, "cases") else cases_of(folder, content)
+    evaluate = getattr(module, "evaluate", None) or Engine(folder, content, module).evaluate
+    return Study(folder, cases, evaluate, content.get("checked"))
