@@ -9,9 +9,8 @@ from pathlib import Path
 
 from ..read.laboratory import LaboratoryTest, PointRun, read_oedometer_reference
 from ..read.results import require_different
-from .evaluation import evaluate
+from .evaluation import Oedometer, evaluate, reference_error
 from .quantity import LaboratoryQuantity
-from .reference import Oedometer, reference_error
 from .together import together
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import Floats
-from ..csv_table import read_columns, read_matrix, read_numbers
+from ..csv_table import number_or_text, read_columns, read_matrix, read_numbers
 from ..errors import ResultsError, content_of
 from ..fields import Fields
 
@@ -54,13 +54,8 @@ class LaboratoryTest:
     @property
     def numbers(self) -> dict[str, float]:
         """All facts that are numbers."""
-        found = {}
-        for name, text in self.facts.items():
-            try:
-                found[name] = float(text)
-            except ValueError:
-                continue
-        return found
+        known = {name: number_or_text(text) for name, text in self.facts.items()}
+        return {name: value for name, value in known.items() if isinstance(value, float)}
 
     @property
     def label(self) -> str:

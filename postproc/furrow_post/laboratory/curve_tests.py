@@ -1,17 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tests in a periodic cell: oedometer, triaxial, extension, plane strain, free sides, tension.
+"""Tests with a curve: oedometer, triaxial, extension, plane strain, free sides and tension of a periodic cell; a sheared
+layer; a plate.
 
-Stress and strain: compression positive.
+Stress and strain: compression positive. The standard errors of means are those of blocks of the curve, those of fits
+come from the covariance of the residuals.
 """
 
 import math
 
 import numpy as np
 
+from ..analyse.fitter import Parameter, fit
 from ..analyse.statistics import block_mean, line_fit
 from ..arrays import Booleans, Floats
 from ..read.laboratory import LaboratoryTest, cell_curve
-from .quantity import LaboratoryQuantity, around_peak, degrees
+from .quantity import LaboratoryQuantity
+
+REACHED = 0.95  # of the peak: a strength that is then kept, or grows slowly, has been reached there
 
 
 def oedometer(test: LaboratoryTest) -> list[LaboratoryQuantity]:
@@ -151,6 +156,67 @@ def tension(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     ]
 
 
+def shear(test: LaboratoryTest) -> list[LaboratoryQuantity]:
+    rows = test.curve()
+    _, stress, density = cell_curve(rows)
+    travel, tau, normal = rows[:, 8], rows[:, 9], stress[:, 2]
+    peak, window, largest = around_peak(tau)
+    first = max(peak - window // 2, 0)
+    around, end = slice(first, first + window), travel > 0.6 * travel[-1]
+    angle = np.arctan2(tau, normal)
+    rise = slice(0, peak + 1)
+    start = (float(largest), float(max(travel[peak] / 3, 1e-6)))
+    janosi = [Parameter("tau_max", "Pa", start[0], 0.0, np.inf), Parameter("K", "m", start[1], 1e-9, np.inf)]
+    top, length = fit(janosi, lambda x: _janosi(travel[rise], *x) - tau[rise], known=False).parameters
+    reached = float(travel[np.argmax(tau > REACHED * largest)])
+    gap = test.numbers.get("gap", math.nan)  # of results before there was one: none
+    quantity = LaboratoryQuantity
+    at_travel = f"at a displacement of {travel[peak] * 1e3:.2f} mm"
+    fitted = "of tau_max (1 - exp(-j/K)), fitted up to the peak"
+    return [
+        quantity("initial_density", density[0], 0.0, "kg/m3", "after consolidation"),
+        quantity("normal_stress", *block_mean(normal), "Pa", "mean of the test"),
+        quantity("peak_shear", *block_mean(tau[around]), "Pa", at_travel),
+        quantity(
+            "strain_at_peak",
+            reached / gap,
+            math.nan,
+            "",
+            f"displacement over gap where {REACHED:.0%} of the peak are first borne",
+        ),
+        quantity("residual_shear", *block_mean(tau[end]), "Pa", "over the last 40 % of the travel"),
+        quantity(
+            "friction_angle_peak",
+            *degrees(angle[around]),
+            "deg",
+            "without cohesion: tan = tau/sigma",
+        ),
+        quantity("friction_angle_end", *degrees(angle[end]), "deg", "the same, residual"),
+        quantity("janosi_K", length.value, length.deviation, "m", fitted),
+        quantity("janosi_tau_max", top.value, top.deviation, "Pa", "of that fit"),
+    ]
+
+
+def plate(test: LaboratoryTest) -> list[LaboratoryQuantity]:
+    """Bekker's p = k z^n of one plate."""
+    rows = test.curve()
+    z, pressure = rows[:, 1], rows[:, 3]
+    if not (z.max() > 0 and pressure.max() > 0):
+        raise ValueError("the plate does not come into the ground, or carries nothing")
+    size = test.number("size")
+    late = (z > 0.1 * z.max()) & (pressure > 0)
+    n, log_k, covariance = line_fit(np.log(z[late]), np.log(pressure[late]))
+    k = math.exp(log_k)
+    n_error, log_k_error = (float(e) for e in np.sqrt(np.diag(covariance)))
+    at_end = f"at {z[-1] * 1e3:.1f} mm"
+    quantity = LaboratoryQuantity
+    return [
+        quantity("bekker_n", n, n_error, "", "of p = k z^n, from 10 % of the sinkage on"),
+        quantity("bekker_k", k, k * log_k_error, "Pa/m^n", f"plate of {size * 1e3:g} mm"),
+        quantity("pressure_end", float(pressure[-1]), math.nan, "Pa", at_end),
+    ]
+
+
 def _strength(
     test: LaboratoryTest, driven: int, largest: Floats, smallest: Floats
 ) -> list[LaboratoryQuantity]:
@@ -204,3 +270,22 @@ def _stress_ratio(stress: Floats) -> Floats:
     q = np.sqrt(1.5) * np.linalg.norm(stress - p[:, None], axis=1)
     ratio: Floats = q / np.maximum(p, 1e-30)
     return ratio
+
+
+def _janosi(travel: Floats, top: float, length: float) -> Floats:
+    """tau = tau_max (1 - exp(-j/K)) of Z. Janosi and B. Hanamoto (1961)."""
+    tau: Floats = top * (1 - np.exp(-travel / length))
+    return tau
+
+
+def degrees(radians: Floats) -> tuple[float, float]:
+    """Mean and standard error in degrees."""
+    mean, error = block_mean(radians)
+    return float(np.degrees(mean)), float(np.degrees(error))
+
+
+def around_peak(values: Floats) -> tuple[int, int, float]:
+    """Place of the peak of a smoothed curve, half the width about it, and the smoothed peak."""
+    window = max(len(values) // 40, 3)
+    smooth = np.convolve(values, np.ones(window) / window, mode="valid")
+    return int(np.argmax(smooth)) + window // 2, window, float(smooth.max())
