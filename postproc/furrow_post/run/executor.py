@@ -3,7 +3,7 @@
 
 import enum
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from datetime import datetime, timezone
@@ -12,10 +12,9 @@ from pathlib import Path
 from ..errors import Interrupted, ResultsError
 from ..formatting import duration
 from .case import FOLDER, Case, Value
-from .claim import claimed, is_busy
 from .process import ERRORS, Ending, Job, Processes, output_lines
 from .progress import Progress
-from .record import FAILED, FINISHED, Record, digest, digests, forget, read_record
+from .record import FAILED, FINISHED, Record, claimed, digest, digests, forget, is_busy, read_record
 from .tools import Tools
 
 LOOK_EVERY = 1.0  # [s] at what is running
@@ -93,27 +92,17 @@ class Executor:
     def folder(self, case: Case) -> Path:
         return self.results / case.name
 
-    def record(self, case: Case) -> Record | None:
-        """Record of the finished run, or None."""
-        return self._valid(case, FINISHED)
+    def ended(self, case: Case) -> Run | None:
+        """The finished run of this very case, else the failed one, whose error says why, or None."""
+        valid = (record for record in self._stored(case) if not self._changed(case, record))
+        return next((Run(case, self.folder(case), record) for record in valid), None)
 
-    def failure(self, case: Case) -> Record | None:
-        """Record of the failed run, whose error says why, or None."""
-        return self._valid(case, FAILED)
-
-    def ended(self, case: Case) -> Record | None:
-        """Record of the run, finished or failed, or None."""
-        return self.record(case) or self.failure(case)
-
-    def _valid(self, case: Case, file: str) -> Record | None:
-        """The record in the folder, if it is that of this very case."""
-        record = self._stored(case, file)
-        return record if record and not self._changed(case, record) else None
-
-    def _stored(self, case: Case, file: str) -> Record | None:
-        """The record of a run with these arguments, variables and texts, whatever has changed since."""
-        record = read_record(self.folder(case) / file)
-        return record if record and record.job == case.identity(self.tools.root) else None
+    def _stored(self, case: Case) -> Iterator[Record]:
+        """Records of a run with these arguments, variables and texts, whatever has changed since."""
+        for file in (FINISHED, FAILED):
+            record = read_record(self.folder(case) / file)
+            if record and record.job == case.identity(self.tools.root):
+                yield record
 
     def _changed(self, case: Case, record: Record) -> list[str]:
         """Names of the program and of input files that differ from those of a run."""
@@ -134,7 +123,7 @@ class Executor:
 
     def outdated(self, cases: Sequence[Case]) -> str:
         """A sentence about stored runs that do not count, because something has changed; empty where all count."""
-        stored = [(case, self._stored(case, FINISHED) or self._stored(case, FAILED)) for case in cases]
+        stored = [(case, next(self._stored(case), None)) for case in cases]
         former = [(record, names) for case, record in stored if record and (names := self._changed(case, record))]
         if not former:
             return ""
@@ -146,9 +135,8 @@ class Executor:
         )
 
     def state(self, case: Case) -> State:
-        if self.record(case):
-            return State.DONE
-        return State.FAILED if self.failure(case) else State.MISSING
+        run = self.ended(case)
+        return State.MISSING if run is None else State.FAILED if run.error else State.DONE
 
     def missing(self, cases: Sequence[Case]) -> list[Case]:
         """Cases that run() would make."""
@@ -163,7 +151,7 @@ class Executor:
     def completed(self, cases: Sequence[Case]) -> list[Run]:
         """Makes what is missing; all runs in the order of the cases. @raises Failed for the first failure"""
         self._run(self.missing(cases), None, anew=False, stop=True)
-        runs = [Run(case, self.folder(case), record) for case in cases if (record := self.ended(case))]
+        runs = [run for case in cases if (run := self.ended(case))]
         for run in runs:
             if run.error and not run.case.may_fail:
                 raise Failed(run)
@@ -238,8 +226,10 @@ class Executor:
         """Makes a run, unless another program has made it since this one looked."""
         folder = self.folder(case)
         with claimed(folder, processes.stop):
-            former = None if anew else self.record(case) if self.again else self.ended(case)
-            return former or self._launch(case, folder, processes, progress)
+            former = None if anew else self.ended(case)
+            if former and not (self.again and former.error):
+                return former.record
+            return self._launch(case, folder, processes, progress)
 
     def _launch(self, case: Case, folder: Path, processes: Processes, progress: Progress) -> Record:
         """Makes a run and writes its record.
@@ -257,17 +247,7 @@ class Executor:
         show = progress.printer(case.name)
 
         def attempt(changes: Mapping[str, Value]) -> tuple[Ending, str]:
-            job = Job(
-                case.command(program, folder, changes),
-                folder,
-                case.start_in(folder),
-                show,
-                case.checkpoint,
-                case.keeps_checkpoint,
-                case.time_limit,
-                self.low_priority,
-            )
-            ending = processes.run(job)
+            ending = processes.run(Job(case, case.command(program, folder, changes), folder, show, self.low_priority))
             return ending, _error_of(ending, case, folder)
 
         changes: Mapping[str, Value] = {}

@@ -10,10 +10,11 @@ import numpy as np
 
 from ..errors import ResultsError
 from ..programs import inputs_folder
-from ..run.script import script_variables
 from ..read.soil_card import NoResult
 from ..run.case import Case
 from ..run.executor import Executor
+from ..run.reader import read_facts
+from ..run.script import script_variables
 from .fits import PlateCurve, ShearCurve
 from .grain_cone import GrainCone
 from .instruments import CONE_ANGLE, cone_curve, instrument_case, mean_radius, read_curve, ring_curve
@@ -250,8 +251,7 @@ class GrainBench:
 
 def bulk_density(folder: Path) -> float:
     """Bulk density of the bed of a run [kg/m3]."""
-    words = (folder / "facts.txt").read_text(encoding="utf-8").split()
-    return float(words[words.index("bulk") + 1])
+    return float(read_facts(folder)["bulk"])
 
 
 def plate_name(size: float) -> str:

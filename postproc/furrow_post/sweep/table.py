@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 
 from ..analyse.budget import Budget
-from ..csv_table import column_names, in_cells, write_rows
+from ..csv_table import column_names, in_cells, number_or_text, write_rows
 from ..formatting import duration, value_text
 from .sweep_curves import CONDITIONS, Figure
 from .series import Series, SweepPoint
@@ -34,7 +34,7 @@ def table_rows(series: Sequence[Series]) -> list[dict[str, Cell]]:
 
 def _row(series: Series, point: SweepPoint) -> dict[str, Cell]:
     row: dict[str, Cell] = {"label": series.label, "folder": point.name}
-    row.update({SET + name: _as_number(value) for name, value in point.values.items()})
+    row.update({SET + name: number_or_text(value) for name, value in point.values.items()})
     first = point.runs[0]
     row["ground"] = first.ground
     for name in CONDITIONS:
@@ -59,13 +59,6 @@ def _parts(point: SweepPoint) -> dict[str, float]:
         return {}
     forces = {"whole": parts.whole, **parts.forces, "not accounted for": parts.unexplained}
     return {PART + name.replace(",", "").replace(" ", "_"): force for name, force in forces.items()}
-
-
-def _as_number(text: str) -> Cell:
-    try:
-        return float(text)
-    except ValueError:
-        return text
 
 
 def units(series: Sequence[Series]) -> dict[str, str]:
