@@ -14,8 +14,7 @@ from ..soil import grains
 from ..soil.instruments import Bench, card_executor
 from ..soil.make import CLASSES, compression, from_bekker, from_cone, from_strength
 from ..soil.material import OF_GRAINS, NewMaterial, find_ground
-from ..soil.oedometer import read_oedometer
-from ..soil.virtual_oedometer import oedometer_misfit
+from ..soil.oedometer import oedometer_misfit, read_oedometer
 from ..soil.testing import FULL, QUICK, cone_misfit, default_folder, make_card, make_grain_card, plate_misfit
 from ..soil.units import EARTH, require_plausible
 from .parameters import Given, argument, command, flag, option, repeated, target_option

@@ -17,8 +17,7 @@ from ..run.script import (
 from ..run.case import Case
 from .continued import RESULTS, scene_case
 from .sweep_plan import Plan, Point, points_of
-from .sampling import sampled
-from .sweep_values import further_seeds, parse_variables, product
+from .sweep_values import further_seeds, parse_variables, product, sampled
 
 SEED = "seed"  # the variable of a script that chooses the packing of its grains
 MOTION = "motion"  # the variable of a script that has the mode of its rig
