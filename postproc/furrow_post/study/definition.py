@@ -31,9 +31,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from ..errors import ResultsError
-from ..run.case import FOLDER, Case, Value
-from ..run.case import point_case, script_case
+from ..errors import ResultsError, refuse_others
+from ..run.case import FOLDER, Case, Value, point_case, script_case
 from ..run.tools import project_root
 from .values import DEFINITION, load_yaml
 
@@ -111,8 +110,7 @@ def _case(
     folder: Path, stage: str, name: str, run: Mapping[str, Any], texts: Mapping[str, str]
 ) -> Case:
     where = f"{folder / DEFINITION}: run '{name}'"
-    if unknown := set(run) - KEYS:
-        raise ResultsError(f"{where} has unknown keys {sorted(unknown)}; allowed are {sorted(KEYS)}")
+    refuse_others(where, run, KEYS)
     if sum(run.get(key) is not None for key in ("script", "point", "program")) != 1:
         raise ResultsError(f"{where}: give one of script, point, program")
     inputs = project_root(folder / DEFINITION) / "inputs"
