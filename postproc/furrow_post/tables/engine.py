@@ -38,15 +38,14 @@ from typing import Any
 import pandas
 
 from ..csv_table import read_comments, rows_text
-from ..errors import ResultsError
+from ..errors import ResultsError, refuse_others
 from ..study.definition import cases_of, evaluation_of
 from ..study.runs import Run, Runs
 from ..study.study import Study
 from ..study.study_files import Output
 from ..study.values import DEFINITION, load_yaml
 from . import element_measures, ground_measures, panels, tyre_measures, wheel_measures
-from .expressions import filled, value_of
-from .frames import Row, cell, frame_of, plain, read_frame, rows_of
+from .frames import Row, cell, filled, frame_of, plain, read_frame, rows_of, value_of
 from .operations import OPERATIONS, Known, cells, select, transpose
 
 RUN = "name, last, what, arguments, stage, seconds, cpu, cpu_time, error, v (variables), facts"
@@ -62,7 +61,8 @@ MEASURES: Mapping[str, Callable[..., Any]] = {
     name: value
     for module in (element_measures, ground_measures, tyre_measures, wheel_measures)
     for name, value in vars(module).items()
-    if isfunction(value) and value.__module__ == module.__name__ and next(iter(signature(value).parameters)) in ("run", "runs")
+    if isfunction(value) and value.__module__ == module.__name__ and not name.startswith("_")
+    if next(iter(signature(value).parameters)) in ("run", "runs")
 }
 
 
@@ -73,31 +73,23 @@ class Variables(SimpleNamespace):
         return getattr(self, name, default)
 
 
-class Tables(Mapping[str, pandas.DataFrame]):
+class Tables(dict[str, pandas.DataFrame]):
     """Tables by file name: those made in this evaluation, else those stored next to study.yaml. A table whose name has
     no ending is made of others and not stored."""
 
     def __init__(self, engine: "Engine") -> None:
-        self.engine, self.folder = engine, engine.folder
-        self.made: dict[str, pandas.DataFrame] = {}
+        super().__init__()
+        self.engine = engine
 
-    def __getitem__(self, name: str) -> pandas.DataFrame:
-        if name in self.made:
-            return self.made[name]
-        path = self.folder / name
+    def __missing__(self, name: str) -> pandas.DataFrame:
+        path = self.engine.folder / name
         if "of" in self.engine.tables.get(name, {}) and not path.suffix:
-            self.made[name] = self.engine.derived(name, self)
-            return self.made[name]
-        if not path.is_file():
+            self[name] = self.engine.derived(name, self)
+        elif path.is_file():
+            self[name] = read_frame(path)
+        else:
             raise ResultsError(f"{path}: no such table; the study lists its tables before it uses them")
-        self.made[name] = read_frame(path)
-        return self.made[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.made)
-
-    def __len__(self) -> int:
-        return len(self.made)
+        return self[name]
 
 
 class Engine:
@@ -114,9 +106,7 @@ class Engine:
             self.constants["reference"] = SimpleNamespace(**columns)
         self.constants = filled(self.constants, self.constants, self.where("constants"))
         for name, spec in self.tables.items():
-            if unknown := set(spec) - TABLE_KEYS:
-                allowed = ", ".join(sorted(TABLE_KEYS))
-                raise ResultsError(f"{self.where(name)} has unknown keys {sorted(unknown)}; allowed are {allowed}")
+            refuse_others(self.where(name), spec, TABLE_KEYS)
 
     @property
     def tables(self) -> Mapping[str, Spec]:
@@ -185,42 +175,39 @@ class Engine:
     ) -> Iterator[Row]:
         where = f"{self.where(name)}, run {run.name}"
         names = {**self.names(block, tables), **names_of(run)}
-        parts: list[Row] = [{}]
         columns = block.get("columns") or {}
-        if run.error and block["failed"] != "all":
+        whole = not run.error or block["failed"] == "all"  # with all columns
+        if not whole:
             columns = {column: columns[column] for column in block["failed"]}
+        try:
+            found = [{**names, **part} for part in self.measured(runs, run, block, name, names)]
+        except ResultsError:
+            if not run.error:
+                raise
+            found = [] if whole else [names]  # it failed before it had any
+        else:
+            if "expand" in block:
+                found = [{**one, **more} for one in found for more in value_of(block["expand"], one, where)]
+        for known in found:
+            if whole:
+                known |= cells(known, block.get("let") or {}, where)
+            if value_of(block.get("where", True), known, where):
+                row: Row = {}
+                for column, text in columns.items():
+                    row |= known[f"all of {text}"] if column == "*" else cells({**row, **known}, {column: text}, where)
+                yield row
+
+    def measured(self, runs: Runs, run: Run, block: Spec, name: str, names: Row) -> list[Row]:
+        """Numbers of all measures of a block, each row of one with each row of the others."""
+        parts: list[Row] = [{}]
         wanted = block.get("measure") or {}
         for one, arguments in ({wanted: {}} if isinstance(wanted, str) else wanted).items():
-            if not parts:
-                break  # a measure without rows
-            measure = self.measure(one, runs, name)
-            try:
-                found = measure(run, **filled(arguments or {}, {**names, **parts[0]}, where))
-            except ResultsError:
-                if not run.error:
-                    raise
-                break  # it failed before it had any
-            several = found if isinstance(found, list) else [found]
-            parts = [{**part, **more, f"all of {one}": more} for part in parts for more in several]
-        else:
-            known = [{**names, **part} for part in parts]
-            if "expand" in block:
-                known = [{**one, **more} for one in known for more in value_of(block["expand"], one, where)]
-            yield from self.made_rows(run, block, columns, known, where)
-            return
-        if parts and run.error and block["failed"] != "all":
-            yield from self.made_rows(run, block, columns, [names], where)
-
-    def made_rows(self, run: Run, block: Spec, columns: Spec, parts: Sequence[Row], where: str) -> Iterator[Row]:
-        for known in parts:
-            if not run.error or block["failed"] == "all":
-                known |= cells(known, block.get("let") or {}, where)
-            if not value_of(block.get("where", True), known, where):
-                continue
-            row: Row = {}
-            for column, text in columns.items():
-                row |= known[f"all of {text}"] if column == "*" else cells({**row, **known}, {column: text}, where)
-            yield row
+            if parts:  # else a measure has no rows
+                given = filled(arguments or {}, {**names, **parts[0]}, f"{self.where(name)}, run {run.name}")
+                found = self.measure(one, runs, name)(run, **given)
+                several = found if isinstance(found, list) else [found]
+                parts = [{**part, **more, f"all of {one}": more} for part in parts for more in several]
+        return parts
 
     # ---- tables of tables
 
@@ -272,7 +259,7 @@ class Engine:
         for name, spec in self.tables.items():
             if not Path(name).suffix:
                 if "of" not in spec:
-                    tables.made[name] = frame_of(self.rows(runs, name, tables))
+                    tables[name] = frame_of(self.rows(runs, name, tables))
                 continue
             if "of" in spec:
                 rows = rows_of(self.derived(name, tables))
@@ -285,7 +272,7 @@ class Engine:
                     rows = rows_of(transpose(pandas.DataFrame(rows, dtype=object), Known({}, {}), key)) if rows else []
                 known = output.known(name, rows)
             output.table(name, rows, self.comments(name, self.folder / name))
-            tables.made[name] = frame_of(known)
+            tables[name] = frame_of(known)
         for name, spec in (self.content.get("figures") or {}).items():
             self.draw(name, spec, runs, tables, output)
         return list(self.missed(tables))
@@ -321,8 +308,7 @@ class Engine:
     def missed(self, tables: Tables) -> Iterator[str]:
         """A sentence for each limit that is missed."""
         for limit in self.content.get("limits") or []:
-            if unknown := set(limit) - LIMIT_KEYS:
-                raise ResultsError(f"{self.where('limits')} have unknown keys {sorted(map(str, unknown))}; allowed are {sorted(LIMIT_KEYS)}")
+            refuse_others(self.where("a limit"), limit, LIMIT_KEYS)
             frame = self.made_or_stored(limit["table"], tables)
             if "repeats" in limit:
                 yield from self.changed(limit, frame)

@@ -19,8 +19,7 @@ from ..analyse.grid_convergence import grid_convergence
 from ..analyse.response import Response
 from ..analyse.statistics import rms
 from ..errors import ResultsError
-from .expressions import value_of
-from .frames import Row
+from .frames import Row, value_of
 
 Columns = Mapping[str, Any]  # name of a new column -> expression, None: the column of that name
 Names = str | Sequence[str]  # of one column or several

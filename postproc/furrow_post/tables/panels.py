@@ -38,8 +38,7 @@ from ..study.runs import Run, Runs
 from ..sweep.sweep_curves import CONDITIONS, HUB_DROP, PULL, SLIP, TORQUE, Curve, Figure, Line
 from ..sweep.drawing import draw_sweep
 from ..sweep.series import read_series
-from .expressions import value_of
-from .frames import Row
+from .frames import Row, value_of
 from .operations import Known, arrays, groups, where
 from .tyre_measures import tyre_print
 
