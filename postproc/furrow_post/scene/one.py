@@ -13,7 +13,7 @@ from ..run.case import FOLDER, Case
 from ..run.record import is_busy
 from ..run.executor import Executor, Failed
 from ..run.tools import Tools
-from ..sweep.continued import scene_case
+from ..sweep.cases import scene_case
 from .catalogue import Variables, is_shipped
 from .restart import continuation, write_command
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import ResultsError
 from ..programs import inputs_folder
-from ..read.soil_card import NoResult
+from ..read.soil_card import EARTH, NoResult
 from ..run.case import Case
 from ..run.executor import Executor
 from ..run.reader import read_facts
@@ -18,7 +18,6 @@ from ..run.script import script_variables
 from .fits import PlateCurve, ShearCurve
 from .grain_cone import GrainCone
 from .instruments import CONE_ANGLE, cone_curve, instrument_case, mean_radius, read_curve, ring_curve
-from .units import EARTH
 
 FEWEST_GRAINS = 10.0  # across a plate: below, single grains make the curve
 SIZES = (10.0, 13.0)  # diameters of the plates, in grains

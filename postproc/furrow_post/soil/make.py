@@ -14,10 +14,9 @@ from scipy.optimize import brentq
 
 from ..arrays import Floats
 from ..errors import ResultsError
-from ..read.soil_card import INDEX_DEPTH
-from .material import NewMaterial, Parameter
+from ..read.soil_card import EARTH, INDEX_DEPTH
+from .material import NewMaterial, Parameter, require_plausible
 from .oedometer import Confined
-from .units import EARTH, require_plausible
 
 POISSON = Parameter(0.25, "0.2 to 0.35 for soil", guessed=True)
 # Ratio of elastic to oedometric modulus: unloading modulus 3 times the secant modulus E_50, T. Schanz,

@@ -13,7 +13,7 @@ from ..analyse.point_curves import PointPaths
 from ..analyse.statistics import rms
 from ..arrays import Floats
 from ..errors import ResultsError
-from .units import require_plausible
+from .material import require_plausible
 
 NEEDS = (
     "an oedometer is a table with a column of the stress, such as stress_kPa, and one of the strain (%) or of the "
