@@ -5,10 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..arrays import Floats
+from ..arrays import Fields, Floats
 from ..csv_table import number_or_text, read_columns, read_matrix, read_numbers
 from ..errors import ResultsError, content_of
-from ..fields import Fields
 
 REMEDY = "run the test again, with inputs/laboratory/run.py"
 COLUMNS = {  # of curve.txt, at least

@@ -61,27 +61,17 @@ class Range:
     high: float
 
 
-def fitted(unit: str) -> Any:
-    """A parameter with its standard error; a person may leave out the error, which is then unknown."""
-    return field(metadata={"unit": unit})
-
-
-def span(meaning: str, unit: str) -> Any:
-    """A range of the tests; a person may leave it out."""
-    return field(metadata={"meaning": meaning, "unit": unit})
-
-
 @dataclass(frozen=True)
 class PressureSinkage:
     """p = (k_c/b + k_phi) z^n of M. G. Bekker (1969); b is the radius of a round plate."""
 
     instrument: ClassVar[str] = "plates"
-    k_c: Fitted = fitted("N/m^(n+1)")
-    k_phi: Fitted = fitted("N/m^(n+2)")
-    n: Fitted = fitted("")
-    sinkage: Range = span("sinkage of the plates", "m")
-    pressure: Range = span("pressure under the plates", "Pa")
-    radii: Range = span("radius of the plates", "m")
+    k_c: Fitted = field(metadata={"unit": "N/m^(n+1)"})
+    k_phi: Fitted = field(metadata={"unit": "N/m^(n+2)"})
+    n: Fitted = field(metadata={"unit": ""})
+    sinkage: Range = field(metadata={"meaning": "sinkage of the plates", "unit": "m"})
+    pressure: Range = field(metadata={"meaning": "pressure under the plates", "unit": "Pa"})
+    radii: Range = field(metadata={"meaning": "radius of the plates", "unit": "m"})
     residual: float  # rms, over the greatest pressure of each plate
 
     def at(self, sinkage: Floats, radius: float) -> Floats:
@@ -103,12 +93,12 @@ class Shear:
     """tau = (c + sigma tan phi)(1 - exp(-j/K)) of Z. Janosi and B. Hanamoto (1961)."""
 
     instrument: ClassVar[str] = "ring"
-    c: Fitted = fitted("Pa")
-    phi: Fitted = fitted("degree")
-    K: Fitted = fitted("m")
-    speed_stress: Fitted = fitted("Pa")  # of the grid at the speed of the ring; a part of the fit
-    normal: Range = span("normal stress under the ring", "Pa")
-    displacement: Range = span("shear displacement", "m")
+    c: Fitted = field(metadata={"unit": "Pa"})
+    phi: Fitted = field(metadata={"unit": "degree"})
+    K: Fitted = field(metadata={"unit": "m"})
+    speed_stress: Fitted = field(metadata={"unit": "Pa"})  # of the grid at the speed of the ring; a part of the fit
+    normal: Range = field(metadata={"meaning": "normal stress under the ring", "unit": "Pa"})
+    displacement: Range = field(metadata={"meaning": "shear displacement", "unit": "m"})
     residual: float  # rms, over the greatest shear stress
 
     def at(self, displacement: Floats, normal: Floats) -> Floats:
@@ -122,9 +112,9 @@ class Cone:
     """Cone index: mean pressure on the base of a cone. Another size has another index."""
 
     instrument: ClassVar[str] = "cone"
-    index: Fitted = fitted("Pa")  # mean over `depth`
-    gradient: Fitted = fitted("Pa/m")  # of the pressure over depth
-    depth: Range = span("depth of the cone of {0.size_mm:.4g} mm and {0.angle:g}°", "m")
+    index: Fitted = field(metadata={"unit": "Pa"})  # mean over `depth`
+    gradient: Fitted = field(metadata={"unit": "Pa/m"})  # of the pressure over depth
+    depth: Range = field(metadata={"meaning": "depth of the cone of {0.size_mm:.4g} mm and {0.angle:g}°", "unit": "m"})
     size: float  # diameter of the base [m]
     angle: float  # of the tip [degrees]
 
@@ -146,7 +136,7 @@ class Cone:
         return text
 
 
-SECTIONS: dict[str, type] = {"pressure_sinkage": PressureSinkage, "shear": Shear, "cone": Cone}
+SECTIONS: dict[str, Any] = {"pressure_sinkage": PressureSinkage, "shear": Shear, "cone": Cone}
 UNITS = {one.name: str(one.metadata["unit"]) for part in SECTIONS.values() for one in fields(part) if one.type is Fitted}
 
 
@@ -285,12 +275,9 @@ def _as_yaml(part: Any) -> dict[str, Any]:
 
 
 def write_card(card: SoilCard, path: Path) -> None:
-    content = {
-        **{name: getattr(card, name) for name in ("title", "ground", "density", "stiffness", "gravity")},
-        **{name: _as_yaml(part) for name, part in card.parts.items()},
-        "notes": list(card.notes),
-        **({"contact": dict(card.contact)} if card.contact else {}),
-    }
+    content: dict[str, Any] = {name: getattr(card, name) for name in ("title", "ground", "density", "stiffness", "gravity")}
+    content |= {name: _as_yaml(part) for name, part in card.parts.items()} | {"notes": list(card.notes)}
+    content |= {"contact": dict(card.contact)} if card.contact else {}
     head = (
         "# Soil card, SI units and degrees, written by furrow-post card make. value and error: fit and\n"
         "# standard error. Lists of two numbers: range of the tests. inputs/soils/README.md\n"
@@ -314,7 +301,7 @@ def read_card(path: Path | str) -> SoilCard:
         parts = {name: _read_part(path, kind, name, content.get(name)) for name, kind in SECTIONS.items()}
         _refuse_others(path, "the card", content, [*(one.name for one in fields(SoilCard)), "damping"])
         absent = {"density": math.nan, "stiffness": STIFFNESS, "c1": math.nan, "c2": math.nan}
-        numbers = {name: _finite(f"{path}: {name}", content[name]) if name in content else absent[name] for name in absent}
+        numbers: dict[str, Any] = {name: _finite(f"{path}: {name}", content[name]) if name in content else absent[name] for name in absent}
         numbers["gravity"] = _finite(f"{path}: gravity", content["gravity"])
         if numbers["gravity"] <= 0:
             raise ResultsError(
@@ -383,7 +370,7 @@ def _read_part(path: Path, kind: Any, section: str, content: dict[str, Any] | No
     if "failed" in content:
         return NoResult(str(content["failed"]))
     _refuse_others(path, section, content, [one.name for one in fields(kind)])
-    given = {"speed_stress": 0.0, **content}
+    given: dict[str, Any] = {"speed_stress": 0.0, **content}
     values: dict[str, Any] = {}
     for one in fields(kind):
         where, value = f"{path}: {section}.{one.name}", given.get(one.name)

@@ -14,8 +14,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ResultsError
-from .results import Grains, Results
-from .styles import Style
+from .results import Grains, Results, Style
 from ..run.record import FINISHED, read_record
 from ..run.summary import SteadyValue, Summary
 from .terrain import FILE, read_terrain_fields, terrain_file

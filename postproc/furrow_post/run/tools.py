@@ -121,10 +121,13 @@ class Conversation:
             raise ResultsError(cause or f"{self._name} ended without a message; start it by hand")
         return line
 
+    def close(self) -> None:
+        self._process.communicate()
+
     def __enter__(self) -> Self:
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._process.communicate()
+        self.close()

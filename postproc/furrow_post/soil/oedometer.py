@@ -19,7 +19,10 @@ NEEDS = (
     "an oedometer is a table with a column of the stress, such as stress_kPa, and one of the strain (%) or of the "
     "void ratio"
 )
-STRESS, STRAIN, VOID_RATIO = map(re.compile, ("stress|sigma|pressure|^[ps]$", "strain|^eps", "^(e|voidratio|void)$"))  # keys of columns
+# keys of columns
+STRESS = re.compile("stress|sigma|pressure|^[ps]$")
+STRAIN = re.compile("strain|^eps")
+VOID_RATIO = re.compile("^(e|voidratio|void)$")
 
 
 @dataclass(frozen=True)
@@ -116,9 +119,9 @@ def _positive(path: Path, name: str, values: Floats, notes: list[str]) -> Floats
 
 
 def _find(
-    path: Path, columns: list[Column], what: str, names: re.Pattern[str], required: bool = True
+    path: Path, columns: list[Column], what: str, keys: re.Pattern[str], required: bool = True
 ) -> Column | None:
-    found = [column for column in columns if names.search(column.key)]
+    found = [column for column in columns if keys.search(column.key)]
     if len(found) > 1:
         names = ", ".join(f"'{column.heading}'" for column in found)
         raise ResultsError(f"{path}: has the columns {names}, which may all be the {what}; leave one")

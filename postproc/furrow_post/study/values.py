@@ -286,7 +286,8 @@ def _part(folder: Path, entry: Mapping[str, Any], like: Stored | None, where: st
     if set(rest) == {"value"} or not rest:
         return Part(of, float(rest.get("value", 0.0)))
     if set(rest) == {"between"} and len(rest["between"]) == 2:
-        return Part(of, *(_stored(folder, one, like, f"{where}: error") for one in rest["between"]))
+        first, second = (_stored(folder, one, like, f"{where}: error") for one in rest["between"])
+        return Part(of, first, second)
     return Part(of, _stored(folder, rest, like, f"{where}: error"))
 
 
