@@ -27,7 +27,7 @@ from ..run.summary import ResistanceParts, Summary
 from ..read.wheel_run import WheelRun, read_wheel_run
 from ..run.process import SCREEN
 from ..run.record import FAILED, FINISHED, read_record
-from .sweep_plan import Plan, read_plan
+from .sweep_plan import Plan, Point, read_plan
 
 WHOLE, REST = "whole resistance", "unexplained"  # columns next to the parts of a resistance
 WARNED = "WARNING: run_until_steady: "
@@ -180,15 +180,12 @@ def read_series(folder: Path, label: str | None, families: Families) -> Series:
 
 def _of_plan(folder: Path, label: str, plan: Plan, families: Families) -> Series:
     series, script = Series(label, plan.variables), Path(plan.script).name
-    groups: dict[tuple[str, ...], list[str]] = {}
-    values: dict[tuple[str, ...], Mapping[str, str]] = {}
+    groups: dict[tuple[str, ...], list[Point]] = {}
     for point in plan.points:
-        key = tuple(point.values[name] for name in plan.variables)
-        groups.setdefault(key, []).append(point.folder)
-        values[key] = point.values
-    for key, names in groups.items():
+        groups.setdefault(tuple(point.values[name] for name in plan.variables), []).append(point)
+    for points in groups.values():
         ended = []
-        for name in names:
+        for name in (point.folder for point in points):
             if record := read_record(folder / name / FINISHED):
                 ended.append(folder / name)
                 series.makers.add((record.program, record.inputs.get(script, "")))
@@ -197,7 +194,7 @@ def _of_plan(folder: Path, label: str, plan: Plan, families: Families) -> Series
             else:
                 series.missing.append(name)
         if ended:
-            _add(series, names[0], values[key], ended, families)
+            _add(series, points[0].folder, points[0].values, ended, families)
     return series
 
 

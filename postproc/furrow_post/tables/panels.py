@@ -47,8 +47,7 @@ Spec = Mapping[str, Any]
 
 def listed(names: str | Sequence[str]) -> list[str]:
     """Names of one or several; the stage "all" of a study.yaml has no name in its runs."""
-    found = [names] if isinstance(names, str) else [str(one) for one in names]
-    return ["" if one == "all" else one for one in found]
+    return ["" if one == "all" else str(one) for one in ([names] if isinstance(names, str) else names)]
 
 
 @dataclass(frozen=True)
