@@ -27,7 +27,8 @@ def _tests(frame: pandas.DataFrame) -> list[Test]:
 
 def scored(frame: pandas.DataFrame, known: Any) -> pandas.DataFrame:
     """Adds the whole error of predictions by the studies before them; empty where no test is near."""
-    others = model_error.regimes_of(test for test in _tests(known.tables["measured.csv"]) if test.study != "predictions")
+    tests = _tests(known.tables["measured.csv"])
+    others = model_error.regimes_of(test for test in tests if test.study != "predictions")
     return frame.assign(scored_error=[model_error.scored_error(others, row) for row in rows_of(frame)])
 
 
@@ -35,14 +36,15 @@ def speed(frame: pandas.DataFrame, known: Any) -> pandas.DataFrame:
     """Errors of the hub drop against cost, as a run of each size has them; the best for each cost, and for the error that is asked."""
     series = whole_error.series_of(_texts(frame))
     scheme = whole_error.scheme_of(_texts(known.tables["scheme.csv"]))
-    regimes_known = model_error.regimes_of(_tests(known.tables["measured.csv"]))
+    known_regimes = model_error.regimes_of(_tests(known.tables["measured.csv"]))
     rows: list[dict[str, Any]] = []
     for one in (one for one in series if one.name not in known.constants["not_in_speed"]):
         for base in one.family.bases:
             case = Case(one.words["ground"], one.words["wheel"], one.words["motion"], "no", sinkage=base.sinkage / one.radius, radius=one.radius)
             parts = whole_error.like_wheels(series, scheme, base.ground, base.size / one.width, case, "sinkage")
             parts = replace(parts, time=base.sinkage_error / base.sinkage)
-            model = model_error.model_error(regimes_known, "hub drop" if one.words["wheel"] == "tyre" else "depth", case)
+            quantity = "hub drop" if one.words["wheel"] == "tyre" else "depth"
+            model = model_error.model_error(known_regimes, quantity, case)
             whole = replace(parts, model=model.value if model else math.nan).total
             rows.append(_point(one, base.ground, 1e3 * base.size, base.cpu_time, base.sinkage, parts.total, whole))
     reference = min((row for row in rows if row["series"] == SAME_WHEEL), key=lambda row: float(row["size_mm"]))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tests with a curve: oedometer, triaxial, extension, plane strain, free sides and tension of a periodic cell; a sheared
-layer; a plate.
+"""Tests with a curve: oedometer, triaxial, extension, plane strain, free sides and tension of a periodic cell; a
+sheared layer; a plate.
 
 Stress and strain: compression positive. The standard errors of means are those of blocks of the curve, those of fits
 come from the covariance of the residuals.

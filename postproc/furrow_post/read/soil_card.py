@@ -137,7 +137,8 @@ class Cone:
 
 
 SECTIONS: dict[str, Any] = {"pressure_sinkage": PressureSinkage, "shear": Shear, "cone": Cone}
-UNITS = {one.name: str(one.metadata["unit"]) for part in SECTIONS.values() for one in fields(part) if one.type is Fitted}
+PARAMETERS = [one for part in SECTIONS.values() for one in fields(part) if one.type is Fitted]
+UNITS = {one.name: str(one.metadata["unit"]) for one in PARAMETERS}
 
 
 @dataclass(frozen=True)
@@ -172,7 +173,8 @@ class SoilCard:
 
     def failures(self) -> dict[str, str]:
         """Instrument -> why it has no result."""
-        return {SECTIONS[name].instrument: part.reason for name, part in self.parts.items() if isinstance(part, NoResult)}
+        parts = self.parts.items()
+        return {SECTIONS[name].instrument: part.reason for name, part in parts if isinstance(part, NoResult)}
 
     def bekker_and_shear(self) -> tuple[PressureSinkage, Shear]:
         """Pressure-sinkage and shear, which vehicle codes need. @raises ResultsError where plates or ring failed"""
@@ -275,16 +277,17 @@ def _as_yaml(part: Any) -> dict[str, Any]:
 
 
 def write_card(card: SoilCard, path: Path) -> None:
-    content: dict[str, Any] = {name: getattr(card, name) for name in ("title", "ground", "density", "stiffness", "gravity")}
+    head = ("title", "ground", "density", "stiffness", "gravity")
+    content: dict[str, Any] = {name: getattr(card, name) for name in head}
     content |= {name: _as_yaml(part) for name, part in card.parts.items()} | {"notes": list(card.notes)}
     content |= {"contact": dict(card.contact)} if card.contact else {}
-    head = (
+    comment = (
         "# Soil card, SI units and degrees, written by furrow-post card make. value and error: fit and\n"
         "# standard error. Lists of two numbers: range of the tests. inputs/soils/README.md\n"
         "# explains every key.\n"
     )
     text = yaml.safe_dump(content, sort_keys=False, default_flow_style=None, width=100)
-    path.write_text(head + text, encoding="utf-8")
+    path.write_text(comment + text, encoding="utf-8")
 
 
 def read_card(path: Path | str) -> SoilCard:
@@ -300,9 +303,9 @@ def read_card(path: Path | str) -> SoilCard:
             raise ResultsError(f"{path}: has no keys; {REMEDY}")
         parts = {name: _read_part(path, kind, name, content.get(name)) for name, kind in SECTIONS.items()}
         _refuse_others(path, "the card", content, [*(one.name for one in fields(SoilCard)), "damping"])
-        absent = {"density": math.nan, "stiffness": STIFFNESS, "c1": math.nan, "c2": math.nan}
-        numbers: dict[str, Any] = {name: _finite(f"{path}: {name}", content[name]) if name in content else absent[name] for name in absent}
-        numbers["gravity"] = _finite(f"{path}: gravity", content["gravity"])
+        numbers: dict[str, Any] = {"density": math.nan, "stiffness": STIFFNESS, "c1": math.nan, "c2": math.nan}
+        given = [name for name in numbers if name in content]
+        numbers |= {name: _finite(f"{path}: {name}", content[name]) for name in (*given, "gravity")}
         if numbers["gravity"] <= 0:
             raise ResultsError(
                 f"{path}: gravity is {content['gravity']}; allowed: a number > 0 [m/s2], 9.80665 on the Earth; {REMEDY}"
@@ -326,7 +329,7 @@ def _refuse_others(path: Path, where: str, content: dict[str, Any], known: Seque
 
 
 def _of_chrono(path: Path, text: str) -> dict[str, Any]:
-    """Content of a card from the terrain file of Chrono's co-simulation with "Soil parameters". Its comments are no JSON."""
+    """Content of a card from the terrain file of Chrono's co-simulation, whose comments are no JSON."""
     lines = [line for line in text.splitlines() if not line.lstrip().startswith("//")]
     try:
         content = parse_json("\n".join(lines))
@@ -341,7 +344,8 @@ def _of_chrono(path: Path, text: str) -> dict[str, Any]:
         raise ResultsError(f"{path}: \"Soil parameters\" have no \"{lacking[0]}\"")
     values = {CHRONO[key]: _finite(f"{path}: {key}", value) for key, value in soil.items()}
     found = {
-        name: {one.name: values.pop(one.name) for one in fields(kind) if one.name in values} for name, kind in SECTIONS.items()
+        name: {one.name: values.pop(one.name) for one in fields(kind) if one.name in values}
+        for name, kind in SECTIONS.items()
     }
     notes = ["of Chrono, which states no gravity: that of the Earth"]
     return {**values, **{name: part for name, part in found.items() if part}, "gravity": EARTH, "notes": notes}

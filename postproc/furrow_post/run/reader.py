@@ -61,7 +61,8 @@ def read_table(folders: Iterable[Path]) -> pd.DataFrame:
 def _of_record(record: Record) -> dict[str, Cell]:
     variables = record.job.get("variables")
     given = {**(variables if isinstance(variables, Mapping) else {}), **record.changes}
-    cells: dict[str, Cell] = {SET + name: number_or_text(str(text)) for name, text in given.items() if name != "results"}
+    set_by_user = {name: str(text) for name, text in given.items() if name != "results"}
+    cells: dict[str, Cell] = {SET + name: number_or_text(text) for name, text in set_by_user.items()}
     return {**cells, **record.facts}
 
 
@@ -76,7 +77,7 @@ def _add_quantities(row: Row, summary: Summary, whole: Mapping[str, float]) -> N
 
 
 def read_facts(folder: Path) -> dict[str, Cell]:
-    """Names and values of facts.txt, of a test of the laboratory; empty where there is no such file. @raises ResultsError"""
+    """Names and values of facts.txt; empty where there is no such file. @raises ResultsError"""
     path = folder / FACTS
     if not path.is_file():
         return {}

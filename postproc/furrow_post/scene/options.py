@@ -64,7 +64,8 @@ def _rules(options: Any) -> Iterator[tuple[Any, str]]:
     yield options.quick and wanted, f"--quick and {wanted} both choose sizes; give one of them"
     yield (
         options.sweep and (options.continues or options.checkpoint),
-        "--checkpoint and --continue belong to one run; a sweep keeps its finished points, so the same command resumes it",
+        "--checkpoint and --continue belong to one run; a sweep keeps its finished points, so the same command "
+        "resumes it",
     )
 
 

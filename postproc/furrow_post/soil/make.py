@@ -26,6 +26,8 @@ REFERENCE = 1e5  # [Pa] of the oedometric modulus
 EXPONENT = 0.5  # M = M_ref (sigma/REFERENCE)^EXPONENT, N. Janbu, ECSMFE (1963), sand
 STRESSES = (5e2, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5)  # [Pa] of a table
 SMALLEST_COHESION = 100.0  # [Pa] d that keeps a free surface together
+# density [kg/m3]
+LOOSE_SAND = Parameter(1600.0, "loose dry sand, K. Terzaghi and R. B. Peck (1967), Table 6.3", guessed=True)
 CAP = Parameter(0.02, "a steep cap: compression at the shear strength", guessed=True)  # R
 
 
@@ -208,7 +210,7 @@ def from_bekker(
     which the material shall have the curve."""
     for name, value in (("k_c", k_c), ("k_phi", k_phi), ("Bekker's n", n), ("c", c), ("phi", phi), ("K", K)):
         require_plausible(name, value)
-    known = given("density", density, Parameter(1600.0, "loose dry sand, K. Terzaghi and R. B. Peck (1967), Table 6.3", True))
+    known = given("density", density, LOOSE_SAND)
     confined = confined_of_plate(k_c, k_phi, n, radius)
     head = (f"K = {K:g} m is not used: the law has no length. The displacement follows from E.",)
     origin = f"c {c:g} Pa, phi {phi:g} degrees"

@@ -53,7 +53,8 @@ def evaluate(surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats
     Where the wheel does not climb, slip, energy and sinkage are those of the best pull.
     """
     some = CHUNK // SLIPS
-    chunks = [{name: values[k : k + some] for name, values in ground.items()} for k in range(0, len(ground["slope"]), some)]
+    starts = range(0, len(ground["slope"]), some)
+    chunks = ({name: values[k : k + some] for name, values in ground.items()} for k in starts)
     parts = [_evaluate(surrogate, vehicle, chunk) for chunk in chunks]
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 

@@ -70,7 +70,8 @@ def make_map(
             f"{outside} of {slope.values.size} cells lie outside of the training ranges: no data"
         )
     chance = found["probability"]
-    verdict = np.select([np.isnan(chance), chance >= confidence, chance <= 1 - confidence], [np.nan, GO, NO_GO], UNCERTAIN)
+    cases = {np.nan: np.isnan(chance), GO: chance >= confidence, NO_GO: chance <= 1 - confidence}
+    verdict = np.select(list(cases.values()), list(cases), UNCERTAIN)
     bands = {"verdict": (verdict, ""), **{name: (found[name], unit) for name, unit in UNITS.items()}}
     return Map(verdict, bands, tuple(notes))
 

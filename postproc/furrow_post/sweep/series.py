@@ -121,7 +121,8 @@ class SweepPoint:
         found = [Summary(run.folder).parts for run in self.runs]
         if None in found:
             return None
-        mean = pandas.DataFrame([{**one.forces, WHOLE: one.whole, REST: one.unexplained} for one in found if one]).fillna(0.0).mean()
+        rows = [{**one.forces, WHOLE: one.whole, REST: one.unexplained} for one in found if one]
+        mean = pandas.DataFrame(rows).fillna(0.0).mean()
         return ResistanceParts(mean.pop(WHOLE), mean.drop(REST).to_dict(), mean[REST])
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Values of the option --sweep: "slip=-0.3:0.6:10", "material=a.yaml,b.yaml"; points that fill the box of ranges evenly."""
+"""Values of the option --sweep: "slip=-0.3:0.6:10", "material=a.yaml,b.yaml"; points that fill a box evenly."""
 
 import hashlib
 import itertools

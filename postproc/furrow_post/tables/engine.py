@@ -13,10 +13,12 @@
     blocks: [{runs, measure, columns}, ...]   several groups of runs, each with further keys
     rows: function or "= list"      in place of runs: rows of other numbers
 
-A measure is a function of the run in a file *_measures.py or in the study's evaluate.py, or resistance (furrow-resistance): its
-numbers, or a list of them, one per row. An expression sees them, `reference` (columns of reference.csv), the names of
-RUN, the functions of evaluate.py, and the constants of the study and of `with`. An argument that begins with "=" is an expression. "*": measure has
-a column for each of its numbers. A table made of others has
+A measure is a function of the run in a file *_measures.py or in the study's evaluate.py, or resistance
+(furrow-resistance): its numbers, or a list of them, one per row. An expression sees them, `reference` (columns of
+reference.csv), the names of RUN, the functions of evaluate.py, and the constants of the study and of `with`. An
+argument that begins with "=" is an expression. "*": measure has a column for each of its numbers.
+
+A table made of others has
 
     of: file or [files]     of the study, or ../other_study/file; texts: columns that stay text as a stored file has them
     do: [{operation: {argument: value}}, ...]   of operations.py, or a function of evaluate.py

@@ -149,7 +149,7 @@ def against(frame: pandas.DataFrame, known: Known, base: str, by: Names = ()) ->
 
 
 def size_series(
-    frame: pandas.DataFrame, known: Known, size: str, values: Names | Mapping[str, str | None], by: Names = (), least: int = 3
+    frame: pandas.DataFrame, known: Known, size: str, values: Names | Columns, by: Names = (), least: int = 3
 ) -> pandas.DataFrame:
     """Each quantity of each group extrapolated to zero size of cells or grains, a row for each.
 
@@ -166,7 +166,8 @@ def size_series(
                 columns = [list(map(float, there[name])) for name in (size, quantity, *([error] if error else []))]
                 series = grid_convergence(*columns)
                 found = {name: getattr(series, name) for name in copied}
-                made.append({**key, "quantity": quantity, **found, "runs": len(there), "finest": series.sizes[0], "at": series})
+                found |= {"runs": len(there), "finest": series.sizes[0], "at": series}
+                made.append({**key, "quantity": quantity, **found})
     return pandas.DataFrame(made)
 
 
@@ -297,14 +298,18 @@ def identify(
         columns = {**{what: what for what in goals}, **one.get("columns", {})}
         if not all(run in made_runs.index and not made_runs.failure.get(run) for line in one["runs"] for run in line):
             continue
-        found = {what: np.array([[made_runs[own][run] for run in line] for line in one["runs"]]) for what, own in columns.items()}
-        response = Response(one["values"], one["places"], found)
+        numbers = {
+            what: np.array([[made_runs[column][run] for run in line] for line in one["runs"]])
+            for what, column in columns.items()
+        }
+        response = Response(one["values"], one["places"], numbers)
         for words, condition in choices.items():
             mine = where(frame, known, condition)
             places = list(mine[place])
             if not len(mine) or not response.reaches(places):
                 continue
-            best = response.identify(places, {what: list(mine[what]) if what in mine else known.constants[what] for what in goals}, goals)
+            wanted = {what: list(mine[what]) if what in mine else known.constants[what] for what in goals}
+            best = response.identify(places, wanted, goals)
             others, models = frame.drop(mine.index), one["models"]
             used = float(np.clip(best.value, min(models), max(models)))
             row: Row = {"choice": words, "reading": reading, "count": len(mine), "value": best.value, "low": best.low, "high": best.high, "used": used}
