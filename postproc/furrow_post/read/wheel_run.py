@@ -172,19 +172,13 @@ def _ground_of(soil: Style | None, reference: Grains | None) -> str:
 
 
 def _rig_conditions(rig: Style) -> dict[str, Condition]:
-    gravity = rig.number("gravity")
-    if rig.has("load_force"):
-        load = rig.number("load_force")
-    else:
-        load = rig.number("load_mass", float("nan")) * gravity
+    gravity, unknown = rig.number("gravity"), float("nan")
+    load = rig.number("load_force") if rig.has("load_force") else rig.number("load_mass", unknown) * gravity
     return {
         "load": Condition(load, "N"),
-        "speed": Condition(rig.number("speed", float("nan")), "m/s"),
+        "speed": Condition(rig.number("speed", unknown), "m/s"),
         "mode": Condition(rig.text("mode")),
-        "slip_angle": Condition(rig.number("slip_angle", 0.0), "deg"),
-        "camber": Condition(rig.number("camber", 0.0), "deg"),
-        "slope": Condition(rig.number("slope", 0.0), "deg"),
-        "side_slope": Condition(rig.number("side_slope", 0.0), "deg"),
+        **{angle: Condition(rig.number(angle, 0.0), "deg") for angle in ("slip_angle", "camber", "slope", "side_slope")},
         "slip_definition": Condition(_slip_definition(rig)),
         "travel": Condition(rig.text("travel") if rig.has("travel") else "prescribed"),
         "gravity": Condition(gravity, "m/s2"),
