@@ -5,8 +5,6 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import pandas
-
 from ..analyse.fitter import fit, plain
 from ..analyse.statistics import line_fit
 from ..arrays import Floats
@@ -36,12 +34,16 @@ def together(tests: Sequence[LaboratoryTest]) -> list[LaboratoryQuantity]:
     return []
 
 
+def _column(values: Sequence[dict[str, float]], name: str) -> Floats:
+    return np.array([value[name] for value in values])
+
+
 def _shear_strength(tests: Sequence[LaboratoryTest]) -> list[LaboratoryQuantity]:
     """tau = c + sigma tan(phi)."""
-    values = pandas.DataFrame([values_of(test) for test in tests])
+    values = [values_of(test) for test in tests]
     quantities = []
     for what in ("peak", "residual"):
-        normal, tau = values["normal_stress"].to_numpy(), values[f"{what}_shear"].to_numpy()
+        normal, tau = _column(values, "normal_stress"), _column(values, f"{what}_shear")
         slope, cohesion, covariance = line_fit(normal, tau)
         angle = float(np.degrees(np.arctan(slope)))
         angle_error = float(np.degrees(np.sqrt(covariance[0, 0]) / (1 + slope**2)))
@@ -56,11 +58,11 @@ def _shear_strength(tests: Sequence[LaboratoryTest]) -> list[LaboratoryQuantity]
 
 def _triaxial_strength(tests: Sequence[LaboratoryTest]) -> list[LaboratoryQuantity]:
     """s1 = s3 N + 2 c sqrt(N), N = tan(45 + phi/2)^2."""
-    values = pandas.DataFrame([values_of(test) for test in tests])
-    lateral = values["lateral_stress_end"].to_numpy()
+    values = [values_of(test) for test in tests]
+    lateral = _column(values, "lateral_stress_end")
     quantities = []
     for what, deviator in (("peak", "peak_deviator"), ("end", "deviator_end")):
-        slope, intercept, covariance = line_fit(lateral, lateral + values[deviator].to_numpy())
+        slope, intercept, covariance = line_fit(lateral, lateral + _column(values, deviator))
         root = math.sqrt(slope)
         angle = float(np.degrees(2 * np.arctan(root) - np.pi / 2))
         angle_error = float(np.degrees(np.sqrt(covariance[0, 0]) / (root * (1 + slope))))

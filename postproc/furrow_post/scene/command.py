@@ -11,10 +11,10 @@ from typing import Any
 from ..errors import Interrupted, ResultsError
 from ..programs import results_folder
 from ..run.script import RESERVED, check_variables, script_variables
+from ..run.case import RESULTS, continued_script
 from ..run.executor import Failed
 from ..run.process import CHECKPOINT
 from ..run.tools import Tools
-from ..sweep.cases import RESULTS, continued_script
 from ..sweep.sweep_plan import Plan
 from .catalogue import Variables, head_lines, quick_variables, script_of
 from .one import SceneRun, ranks_remark, require_folder, run_scenes, show, words_of

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultsError
-from ..run.case import FOLDER, Case
+from ..run.case import FOLDER, Case, scene_case
 from ..run.record import is_busy
 from ..run.executor import Executor, Failed
 from ..run.tools import Tools
-from ..sweep.cases import scene_case
 from .catalogue import Variables, is_shipped
 from .restart import continuation, write_command
 

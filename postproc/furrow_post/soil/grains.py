@@ -13,7 +13,6 @@ from ..programs import inputs_folder
 from ..read.soil_card import EARTH, NoResult
 from ..run.case import Case
 from ..run.executor import Executor
-from ..run.reader import read_facts
 from ..run.script import script_variables
 from .fits import PlateCurve, ShearCurve
 from .grain_cone import GrainCone
@@ -234,7 +233,8 @@ class GrainBench:
 
 def bulk_density(folder: Path) -> float:
     """Bulk density of the bed of a run [kg/m3]."""
-    return float(read_facts(folder)["bulk"])
+    words = (folder / "facts.txt").read_text(encoding="utf-8").split()
+    return float(words[words.index("bulk") + 1])
 
 
 def plate_name(size: float) -> str:

@@ -18,7 +18,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
-import pandas
 
 from ..analyse.budget import Budget
 from ..analyse.whole_error import Families, budgets
@@ -29,7 +28,6 @@ from ..run.process import SCREEN
 from ..run.record import FAILED, FINISHED, read_record
 from .sweep_plan import Plan, Point, read_plan
 
-WHOLE, REST = "whole resistance", "unexplained"  # columns next to the parts of a resistance
 WARNED = "WARNING: run_until_steady: "
 
 
@@ -119,11 +117,16 @@ class SweepPoint:
     def parts(self) -> ResistanceParts | None:
         """Parts of the resistance, mean of the packings; None where a run has none."""
         found = [Summary(run.folder).parts for run in self.runs]
-        if None in found:
+        known = [one for one in found if one is not None]
+        if len(known) < len(found):
             return None
-        rows = [{**one.forces, WHOLE: one.whole, REST: one.unexplained} for one in found if one]
-        mean = pandas.DataFrame(rows).fillna(0.0).mean()
-        return ResistanceParts(mean.pop(WHOLE), mean.drop(REST).to_dict(), mean[REST])
+        names = dict.fromkeys(name for one in known for name in one.forces)
+        n = len(known)
+        return ResistanceParts(
+            sum(one.whole for one in known) / n,
+            {name: sum(one.forces.get(name, 0.0) for one in known) / n for name in names},
+            sum(one.unexplained for one in known) / n,
+        )
 
     @property
     def cpu_time(self) -> float:

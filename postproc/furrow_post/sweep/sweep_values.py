@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Values of the option --sweep: "slip=-0.3:0.6:10", "material=a.yaml,b.yaml"; points that fill a box evenly."""
+"""Values of the option --sweep: "slip=-0.3:0.6:10", "material=a.yaml,b.yaml"."""
 
 import hashlib
 import itertools
@@ -8,12 +8,9 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from scipy.stats import qmc
-
 from ..errors import ResultsError
 
 HOW = "write NAME=FIRST:LAST:COUNT, or NAME=VALUE,VALUE,..."
-HOW_SAMPLED = "with --samples write NAME=FIRST:LAST"
 MOST_POINTS = 10000
 UNSAFE = re.compile(r"[^A-Za-z0-9.+-]+")  # in the name of a folder
 
@@ -100,29 +97,6 @@ def product(variables: Sequence[Variable]) -> list[dict[str, str]]:
     names = [variable.name for variable in variables]
     combinations = itertools.product(*(variable.values for variable in variables))
     return [dict(zip(names, values)) for values in combinations]
-
-
-def sampled(texts: Sequence[str], count: int) -> list[dict[str, str]]:
-    """Name -> value of points that fill the box of NAME=FIRST:LAST,... evenly (Halton's sequence).
-
-    A larger count keeps the points of a smaller one. @raises ResultsError
-    """
-    if count > MOST_POINTS:
-        raise ResultsError(f"--samples {count}: at most {MOST_POINTS}")
-    names, boxes = [], []
-    for text in texts:
-        name, _, values = (part.strip() for part in text.partition("="))
-        ends = [end for end in map(number_of, values.split(":")) if end is not None]
-        if not name or len(ends) != 2 or values.count(":") != 1 or ends[0] == ends[1]:
-            raise ResultsError(f"--sweep '{text}' is no range of two numbers; {HOW_SAMPLED}")
-        names.append(name)
-        boxes.append((min(ends), max(ends)))
-    require_once(names)
-    unit = qmc.Halton(len(names), seed=0).random(count)
-    return [
-        {name: f"{low + u * (high - low):.5g}" for name, (low, high), u in zip(names, boxes, row)}
-        for row in unit
-    ]
 
 
 def folder_name(values: Mapping[str, str]) -> str:

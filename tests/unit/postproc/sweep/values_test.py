@@ -4,6 +4,7 @@
 import unittest
 
 from furrow_post.errors import ResultsError
+from furrow_post.sweep.sampling import sampled
 from furrow_post.sweep.sweep_values import (
     Variable,
     folder_name,
@@ -11,7 +12,6 @@ from furrow_post.sweep.sweep_values import (
     parse_variable,
     parse_variables,
     product,
-    sampled,
 )
 
 # text, values
