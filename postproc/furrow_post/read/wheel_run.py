@@ -30,6 +30,7 @@ STEADY_QUANTITIES = (
 # Those that are means of a channel of the history
 FROM_CHANNELS = ("hub_drop", "force_z", "drawbar_pull", "drive_torque")
 SAME_MEAN = 0.02  # relative difference of means over one window: rows at its ends
+ANGLES = ("slip_angle", "camber", "slope", "side_slope")  # of a rig
 GROUNDS_OF_CELLS = ("continuum", "scm")  # nothing in them is random
 
 
@@ -178,7 +179,7 @@ def _rig_conditions(rig: Style) -> dict[str, Condition]:
         "load": Condition(load, "N"),
         "speed": Condition(rig.number("speed", unknown), "m/s"),
         "mode": Condition(rig.text("mode")),
-        **{angle: Condition(rig.number(angle, 0.0), "deg") for angle in ("slip_angle", "camber", "slope", "side_slope")},
+        **{angle: Condition(rig.number(angle, 0.0), "deg") for angle in ANGLES},
         "slip_definition": Condition(_slip_definition(rig)),
         "travel": Condition(rig.text("travel") if rig.has("travel") else "prescribed"),
         "gravity": Condition(gravity, "m/s2"),

@@ -68,26 +68,19 @@ class Failed(ResultsError):
         self.status = run.record.status or 1
 
 
+@dataclass(eq=False)
 class Executor:
-    """The runs of a list in a results folder.
+    """The runs of a list in a results folder. One counts only while its program and its input files are the same."""
 
-    A run counts only while its program and all its input files are still the same. again: failed runs are
-    repeated; low_priority: runs yield to other work; watch: lines of the program go to the screen, instead
-    of one line per run.
-    """
+    results: Path
+    tools: Tools
+    jobs: int = 1  # runs at a time
+    again: bool = False  # failed runs are repeated
+    low_priority: bool = True  # runs yield to other work
+    watch: bool = False  # lines of the program go to the screen, instead of one line per run
 
-    def __init__(
-        self,
-        results: Path,
-        tools: Tools,
-        jobs: int = 1,
-        again: bool = False,
-        low_priority: bool = True,
-        watch: bool = False,
-    ) -> None:
-        self.results, self.tools = results.resolve(), tools
-        self.jobs, self.again = jobs, again
-        self.low_priority, self.watch = low_priority, watch
+    def __post_init__(self) -> None:
+        self.results = self.results.resolve()
 
     def folder(self, case: Case) -> Path:
         return self.results / case.name

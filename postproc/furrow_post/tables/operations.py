@@ -235,7 +235,7 @@ def stack(frame: pandas.DataFrame, known: Known, /, keep: Names, **columns: Sequ
     made = [
         {**{name: row[name] for name in _listed(keep)}, **{new: row.get(one, one) for new, one in zip(columns, kth)}}
         for row in frame.to_dict("records")
-        for kth in zip(*columns.values())
+        for kth in zip(*columns.values(), strict=True)
     ]
     return pandas.DataFrame(made)
 
