@@ -72,9 +72,9 @@ class Made:
         self.executor = executor
         self.records: dict[str, Record] = {}
         for planned in plans:
-            record = executor.record(planned.run)
-            if record:
-                self.records[planned.run.name] = record
+            run = executor.ended(planned.run)
+            if run and not run.error:
+                self.records[run.name] = run.record
         self.plans = [planned for planned in plans if planned.run.name in self.records]
 
     def folder(self, planned: Planned) -> Path:

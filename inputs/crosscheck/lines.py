@@ -9,7 +9,7 @@ from furrow_post.analyse.judgement import judge
 from furrow_post.analyse.plates import pressure_at
 from furrow_post.analyse.verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, Agreement, Entry, Quantity
 from furrow_post.formatting import in_unit, percent
-from furrow_post.study.tables import markdown
+from furrow_post.csv_table import markdown
 
 OutputRow = dict[str, str]
 

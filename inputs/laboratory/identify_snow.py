@@ -34,7 +34,7 @@ from furrow_post.cli.parameters import Given, argument, command, option
 from furrow_post.formatting import yaml_text
 from furrow_post.read.laboratory import LaboratoryTest
 from furrow_post.run.tools import Tools
-from furrow_post.study.tables import markdown
+from furrow_post.csv_table import markdown
 
 TESTS = (  # of a record
     "tests of a record: run.py TEST --ground snow_bonded -v slenderness 3 -v rate 2 OPTIONS -o results/snow/TEST",

@@ -13,7 +13,7 @@ import numpy as np
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import in_cells, read_rows, write_rows
 from furrow_post.errors import ResultsError, content_of
-from furrow_post.laboratory.quantity import around_peak
+from furrow_post.laboratory.curve_tests import around_peak
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve
 
 LEVELS = (3e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5, 1e6)  # [Pa] axial stresses of the oedometer

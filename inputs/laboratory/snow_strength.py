@@ -31,10 +31,9 @@ from furrow_post.arguments import path
 from furrow_post.arrays import Floats
 from furrow_post.cli.main import start
 from furrow_post.cli.parameters import Given, command, option
-from furrow_post.csv_table import read_rows
+from furrow_post.csv_table import markdown, read_rows
 from furrow_post.figures.style import KILOPASCAL, RUN_COLOURS, annotate_panel, save, use_style
 from furrow_post.run.tools import Tools
-from furrow_post.study.tables import markdown
 
 GROUNDS = ("snow_bonded", "snow_bonded_slab")
 KINDS = ("tension", "shear")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""CSV files with a head of comment lines ("# ..."), as all tables of the project have; LIGGGHTS's
-tables of numbers."""
+"""CSV files with a head of comment lines ("# ..."), as all tables of the project have; LIGGGHTS's tables of numbers;
+tables for people: aligned text, and Markdown."""
 
 import csv
 import io
@@ -66,6 +66,14 @@ def read_numbers(path: Path) -> list[dict[str, float]]:
         raise ResultsError(f"{path}: {error}; {TABLE}") from error
 
 
+def number_or_text(text: str) -> float | str:
+    """A cell that may be either."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
 def read_columns(path: Path) -> dict[str, Floats]:
     """Columns of a table of numbers. @raises ResultsError"""
     rows = read_numbers(path)
@@ -113,3 +121,29 @@ def rows_text(rows: Sequence[Mapping[str, Any]], comments: Sequence[str] = ()) -
     writer.writeheader()
     writer.writerows(rows)
     return file.getvalue()
+
+
+def aligned(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Rows under the names of their columns, numbers with six digits; empty where one is not."""
+
+    def text(value: Any) -> str:
+        return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+    names = column_names(rows)
+    cells = [[text(row.get(name, "")) for name in names] for row in rows]
+    return "\n".join(in_columns([names, *cells]))
+
+
+def in_columns(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Lines of cells, each column as wide as its widest cell."""
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    return ["  ".join(cell.rjust(width) for cell, width in zip(row, widths)) for row in rows]
+
+
+def markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    """Lines of a table."""
+
+    def line(cells: Sequence[str]) -> str:
+        return "| " + " | ".join(cells) + " |"
+
+    return [line(head), "|---" * len(head) + "|", *(line(row) for row in rows)]

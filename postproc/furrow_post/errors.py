@@ -2,7 +2,7 @@
 """Errors that end a program with a message instead of a traceback."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -15,6 +15,12 @@ CONTENT_ERRORS = (
 
 class ResultsError(Exception):
     """Something asked for is not in the results; the message names file and remedy."""
+
+
+def refuse_others(where: str, given: Iterable[object], known: Iterable[str]) -> None:
+    """@raises ResultsError for keys of a mapping that nothing reads"""
+    if unknown := sorted(map(str, set(given) - set(known))):
+        raise ResultsError(f"{where} has unknown keys {unknown}; allowed are {', '.join(sorted(known))}")
 
 
 class Interrupted(Exception):

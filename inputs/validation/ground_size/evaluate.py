@@ -20,7 +20,7 @@ def distance(v: Any, edge: str) -> float:
     return float(places[edge])
 
 
-def effects(frame: pandas.DataFrame, tables: Any, constants: Any) -> pandas.DataFrame:
+def effects(frame: pandas.DataFrame, known: Any) -> pandas.DataFrame:
     """A row for each kind of ground, body, edge and quantity: a fit to the ground with the clearest changes, 0 where none is clear."""
     rows: list[dict[str, Any]] = []
     sizes = frame.assign(size=frame["change"].abs() / np.hypot(frame["error"].to_numpy(float), 0.3 * NOISE))

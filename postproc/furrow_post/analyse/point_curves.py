@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Floats
 from ..programs import find_program
 from ..run.case import point_text
-from ..run.conversation import Conversation
+from ..run.tools import Conversation
 from .fitter import NotComputed, Parameter
 from .law_fit import Curve
 

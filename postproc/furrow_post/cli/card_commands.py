@@ -8,16 +8,14 @@ from pathlib import Path
 
 from ..arguments import at_least, number, path, positive
 from ..errors import ResultsError
-from ..read.soil_card import Fitted, PressureSinkage, Range, SoilCard, markdown, read_card
+from ..read.soil_card import EARTH, Fitted, PressureSinkage, Range, SoilCard, markdown, read_card
 from ..soil.exports import EXPORTS
 from ..soil import grains
 from ..soil.instruments import Bench, card_executor
 from ..soil.make import CLASSES, compression, from_bekker, from_cone, from_strength
-from ..soil.material import OF_GRAINS, NewMaterial, find_ground
-from ..soil.oedometer import read_oedometer
-from ..soil.virtual_oedometer import oedometer_misfit
+from ..soil.material import OF_GRAINS, NewMaterial, find_ground, require_plausible
+from ..soil.oedometer import oedometer_misfit, read_oedometer
 from ..soil.testing import FULL, QUICK, cone_misfit, default_folder, make_card, make_grain_card, plate_misfit
-from ..soil.units import EARTH, require_plausible
 from .parameters import Given, argument, command, flag, option, repeated, target_option
 
 SIZES = (0.1, 0.15, 0.2)  # [m]

@@ -8,7 +8,7 @@ from ..analyse.compaction import Compaction, read_compaction, report, write_comp
 from ..analyse.half_space import ELASTIC, SOEHNE
 from ..figures.compaction_figure import draw_compaction
 from ..formatting import value_text
-from ..study.tables import in_columns
+from ..csv_table import in_columns
 from .comparing import beside_first, folders, folders_argument
 from .parameters import Given, command, target_option
 

@@ -13,7 +13,7 @@ from ..analyse.terrain_values import CARD, TerrainValues, terrain, terrain_of_ca
 from ..arguments import at_least, between, number, positive
 from ..errors import ResultsError
 from ..read.soil_card import read_card
-from ..soil.units import require_plausible
+from ..soil.material import require_plausible
 from .parameters import Given, argument, command, flag, option
 
 OPTIONS = {  # option -> unit and meaning

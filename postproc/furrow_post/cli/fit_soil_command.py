@@ -6,9 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from ..arguments import path
-from ..csv_table import write_rows
+from ..csv_table import in_columns, write_rows
 from ..formatting import in_unit
-from ..study.tables import in_columns
 from ..surrogate.surrogate_figures import draw_posterior
 from ..surrogate.model import read_surrogate
 from ..surrogate.posterior import identify, read_tests

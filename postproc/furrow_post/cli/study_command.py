@@ -87,8 +87,8 @@ def make(folder: Path, given: Given) -> int:
     if given.check and given.whole:
         given.names = ["*"]
     # A list of studies does not wait for pandas and matplotlib
-    loading = importlib.import_module("..tables.loading", __package__)
-    return carry_out(loading.load_study(folder), given)
+    engine = importlib.import_module("..tables.engine", __package__)
+    return carry_out(engine.load_study(folder), given)
 
 
 def repeated(folder: Path, given: Given) -> int:

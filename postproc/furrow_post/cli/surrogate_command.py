@@ -9,7 +9,7 @@ from ..arguments import path
 from ..errors import ResultsError
 from ..formatting import in_unit, with_error
 from ..run.record import FINISHED, read_record
-from ..study.tables import in_columns
+from ..csv_table import in_columns
 from ..surrogate.surrogate_figures import draw_held_out
 from ..surrogate.gaussian_process import Z_95, HeldOut
 from ..surrogate.model import Surrogate, fit, read_surrogate

@@ -4,14 +4,13 @@
 import json
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from ..read.laboratory import LaboratoryTest, PointRun, read_oedometer_reference
 from ..read.results import require_different
-from .evaluation import evaluate
+from .evaluation import Oedometer, evaluate, reference_error
 from .quantity import LaboratoryQuantity
-from .reference import Oedometer, reference_error
 from .together import together
 
 
@@ -51,17 +50,10 @@ def report_tests(
 def write_json(test: LaboratoryTest, quantities: Sequence[LaboratoryQuantity]) -> None:
     """laboratory.json in the folder of the test; what is not known is null: NaN is no JSON."""
 
-    def number(value: float) -> float | None:
-        return float(value) if math.isfinite(value) else None
+    def known(value: float | str) -> float | str | None:
+        return value if isinstance(value, str) or math.isfinite(value) else None
 
-    content = {
-        q.name: {
-            "value": number(q.value),
-            "error": number(q.error),
-            "unit": q.unit,
-            "meaning": q.meaning,
-        }
-        for q in quantities
-    }
+    entries = {q.name: {key: known(value) for key, value in asdict(q).items()} for q in quantities}
+    content = {name: {key: entry[key] for key in entry if key != "name"} for name, entry in entries.items()}
     text = json.dumps({"facts": test.facts, "quantities": content}, indent=1, allow_nan=False)
     (test.folder / "laboratory.json").write_text(text, encoding="utf-8")

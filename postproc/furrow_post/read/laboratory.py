@@ -5,10 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..arrays import Floats
-from ..csv_table import read_columns, read_matrix, read_numbers
+from ..arrays import Fields, Floats
+from ..csv_table import number_or_text, read_columns, read_matrix, read_numbers
 from ..errors import ResultsError, content_of
-from ..fields import Fields
 
 REMEDY = "run the test again, with inputs/laboratory/run.py"
 COLUMNS = {  # of curve.txt, at least
@@ -54,13 +53,8 @@ class LaboratoryTest:
     @property
     def numbers(self) -> dict[str, float]:
         """All facts that are numbers."""
-        found = {}
-        for name, text in self.facts.items():
-            try:
-                found[name] = float(text)
-            except ValueError:
-                continue
-        return found
+        known = {name: number_or_text(text) for name, text in self.facts.items()}
+        return {name: value for name, value in known.items() if isinstance(value, float)}
 
     @property
     def label(self) -> str:

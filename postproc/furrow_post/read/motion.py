@@ -13,8 +13,7 @@ import numpy as np
 
 from ..arrays import Floats, Integers
 from ..errors import ResultsError
-from .results import Results, Surface, read_effective_input, read_surface
-from .styles import Styles
+from .results import Results, Styles, Surface, read_effective_input, read_surface
 from .terrain import is_half, read_terrain_fields, read_terrain_history, terrain_file
 from .vtk import Frames, read_frames, read_vtp
 

@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Reading history.h5, the results file of a run (its layout: src/io/history_file.h)."""
+"""Reading history.h5, the results file of a run (its layout: src/io/history_file.h), with the styles of the run.
+
+The dataset /run/styles is JSON, an array in the order of the script: {"id", "group", "style", "kind", "options"}; the
+page coupling/output/fix_wheel_history.md has the kinds. Options are lists of numbers, booleans or texts, with defaults
+filled in.
+"""
 
 import importlib
 from collections.abc import Sequence
@@ -9,15 +14,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arrays import Floats, Integers, read_only
+from ..arrays import Fields, Floats, Integers, Named, read_only
 from ..errors import ResultsError
-from ..fields import Fields, Named
+from ..json_text import parse_json
 from .hdf5 import opened
-from .styles import Styles
 
 # channel in files of earlier versions -> its name
 FORMER_CHANNELS = {"sinkage": "hub_drop"}
 HISTORY = "history.h5"
+Option = float | int | bool | str  # of a style
 REPEAT = "repeat the run, into a folder of its own"
 
 
@@ -130,6 +135,75 @@ class Grains:
         """Lowest and highest coordinates (3) of the spheres' surfaces [m]."""
         reach = self.radius[:, None]
         return (self.x - reach).min(axis=0), (self.x + reach).max(axis=0)
+
+
+@dataclass(frozen=True)
+class Style:
+    """One fix or command of the script."""
+
+    id: str
+    style: str  # e.g. "terrain/continuum"
+    kind: str  # e.g. "terrain": what it is, whatever its style
+    options: dict[str, list[Option]]  # keyword -> its values, SI units and degrees
+
+    def has(self, keyword: str) -> bool:
+        return keyword in self.options
+
+    def values(self, keyword: str) -> list[Option]:
+        """All values of a keyword. @raises ResultsError where the style has none"""
+        if keyword not in self.options:
+            raise ResultsError(
+                f"{self.style} '{self.id}': the results have no value of '{keyword}'"
+            )
+        return self.options[keyword]
+
+    def number(self, keyword: str, default: float | None = None) -> float:
+        """The only value of a keyword. @raises ResultsError for a text, or without a default"""
+        if default is not None and keyword not in self.options:
+            return default
+        value = self.values(keyword)[0]
+        if isinstance(value, str):
+            raise ResultsError(f"{self.style} '{self.id}': '{keyword}' is '{value}', not a number")
+        return float(value)
+
+    def text(self, keyword: str) -> str:
+        return str(self.values(keyword)[0])
+
+    def flag(self, keyword: str) -> bool:
+        """Value of a yes/no keyword; no where it is not there."""
+        return self.options.get(keyword, [False])[0] is True
+
+
+def _style_of(entry: dict[str, Any]) -> Style:
+    """@raises KeyError, TypeError, ValueError where the entry is no style"""
+    identity, style, kind = names = [entry[key] for key in ("id", "style", "kind")]
+    options = dict(entry["options"])
+    for keyword, values in options.items():
+        if not isinstance(values, list) or not values:
+            raise ValueError(f"'{keyword}' of {style} has no values")
+    if not all(isinstance(name, str) for name in names):
+        raise TypeError(f"{names} are no texts")
+    return Style(identity, style, kind, options)
+
+
+class Styles:
+    """The styles of a run in the order of its script."""
+
+    def __init__(self, styles: Sequence[Style]) -> None:
+        self._styles = tuple(styles)
+
+    @classmethod
+    def from_json(cls, text: str) -> "Styles":
+        """@raises ValueError, KeyError, TypeError where the text is not such an array"""
+        return cls([_style_of(entry) for entry in parse_json(text)])
+
+    def of_kind(self, kind: str) -> Style | None:
+        """The first of a kind, or None."""
+        return next((style for style in self._styles if style.kind == kind), None)
+
+    def of_style(self, name: str) -> Style | None:
+        """The first of a style, or None."""
+        return next((style for style in self._styles if style.style == name), None)
 
 
 class Results:

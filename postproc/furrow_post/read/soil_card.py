@@ -2,33 +2,23 @@
 """A soil card: parameters of vehicle codes with standard errors and the range where they hold.
 
 A card that a person writes may have the values alone, in other units too. The terrain file of Chrono's SCM is
-a card as well.
+a card as well. The fields of the classes below are the keys of the file; their metadata have units and meanings.
 """
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import yaml
 
 from ..arrays import Floats
+from ..csv_table import markdown as markdown_table
 from ..errors import ResultsError, content_of
 from ..json_text import parse_json
 
-UNITS = {  # of the parameters; lists of two numbers have the unit of the last column of the page
-    "k_c": "N/m^(n+1)",
-    "k_phi": "N/m^(n+2)",
-    "n": "",
-    "c": "Pa",
-    "phi": "degree",
-    "K": "m",
-    "speed_stress": "Pa",
-    "index": "Pa",
-    "gradient": "Pa/m",
-}
 REMEDY = "write it with furrow-post card make"
 SCALES = {"": 1.0, "k": 1e3, "M": 1e6}  # before a unit
 OTHER_UNITS = {  # unit of a parameter -> others, and their size
@@ -38,8 +28,8 @@ OTHER_UNITS = {  # unit of a parameter -> others, and their size
 }
 STIFFNESS = 1e8  # [Pa/m] of a card that has none, as of fix terrain/scm
 CHRONO = {  # key of Chrono's "Soil parameters" -> name
-    "Bekker Kc": "k_c",
     "Bekker Kphi": "k_phi",
+    "Bekker Kc": "k_c",
     "Bekker n exponent": "n",
     "Mohr cohesive limit": "c",
     "Mohr friction limit": "phi",
@@ -50,8 +40,6 @@ CHRONO = {  # key of Chrono's "Soil parameters" -> name
 EARTH = 9.80665  # [m/s2]
 RFT_PLATE = 0.875  # stress under a level plate over strength and depth, resistive force theory [Agarwal2023]
 SMALLEST_K = 5e-4  # [m] that a soil has
-
-
 INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
 REACHED = 0.98  # of it, by the last row of a test
 STANDARD_CONE = 0.02027  # [m] base of 323 mm2, ASABE S313.3
@@ -77,12 +65,13 @@ class Range:
 class PressureSinkage:
     """p = (k_c/b + k_phi) z^n of M. G. Bekker (1969); b is the radius of a round plate."""
 
-    k_c: Fitted  # [N/m^(n+1)]
-    k_phi: Fitted  # [N/m^(n+2)]
-    n: Fitted
-    sinkage: Range  # [m]
-    pressure: Range  # [Pa]
-    radii: Range  # [m]
+    instrument: ClassVar[str] = "plates"
+    k_c: Fitted = field(metadata={"unit": "N/m^(n+1)"})
+    k_phi: Fitted = field(metadata={"unit": "N/m^(n+2)"})
+    n: Fitted = field(metadata={"unit": ""})
+    sinkage: Range = field(metadata={"meaning": "sinkage of the plates", "unit": "m"})
+    pressure: Range = field(metadata={"meaning": "pressure under the plates", "unit": "Pa"})
+    radii: Range = field(metadata={"meaning": "radius of the plates", "unit": "m"})
     residual: float  # rms, over the greatest pressure of each plate
 
     def at(self, sinkage: Floats, radius: float) -> Floats:
@@ -103,12 +92,13 @@ class PressureSinkage:
 class Shear:
     """tau = (c + sigma tan phi)(1 - exp(-j/K)) of Z. Janosi and B. Hanamoto (1961)."""
 
-    c: Fitted  # [Pa]
-    phi: Fitted  # [degrees]
-    K: Fitted  # [m]
-    speed_stress: Fitted  # [Pa] of the grid at the speed of the ring; a part of the fit
-    normal: Range  # [Pa]
-    displacement: Range  # [m]
+    instrument: ClassVar[str] = "ring"
+    c: Fitted = field(metadata={"unit": "Pa"})
+    phi: Fitted = field(metadata={"unit": "degree"})
+    K: Fitted = field(metadata={"unit": "m"})
+    speed_stress: Fitted = field(metadata={"unit": "Pa"})  # of the grid at the speed of the ring; a part of the fit
+    normal: Range = field(metadata={"meaning": "normal stress under the ring", "unit": "Pa"})
+    displacement: Range = field(metadata={"meaning": "shear displacement", "unit": "m"})
     residual: float  # rms, over the greatest shear stress
 
     def at(self, displacement: Floats, normal: Floats) -> Floats:
@@ -121,11 +111,16 @@ class Shear:
 class Cone:
     """Cone index: mean pressure on the base of a cone. Another size has another index."""
 
-    index: Fitted  # [Pa] mean over `depth`
-    gradient: Fitted  # [Pa/m] of the pressure over depth
-    depth: Range  # [m]
+    instrument: ClassVar[str] = "cone"
+    index: Fitted = field(metadata={"unit": "Pa"})  # mean over `depth`
+    gradient: Fitted = field(metadata={"unit": "Pa/m"})  # of the pressure over depth
+    depth: Range = field(metadata={"meaning": "depth of the cone of {0.size_mm:.4g} mm and {0.angle:g}°", "unit": "m"})
     size: float  # diameter of the base [m]
     angle: float  # of the tip [degrees]
+
+    @property
+    def size_mm(self) -> float:
+        return 1e3 * self.size
 
     @property
     def spread(self) -> float:
@@ -141,11 +136,9 @@ class Cone:
         return text
 
 
-SECTIONS: dict[str, tuple[type, str]] = {
-    "pressure_sinkage": (PressureSinkage, "plates"),
-    "shear": (Shear, "ring"),
-    "cone": (Cone, "cone"),
-}
+SECTIONS: dict[str, Any] = {"pressure_sinkage": PressureSinkage, "shear": Shear, "cone": Cone}
+PARAMETERS = [one for part in SECTIONS.values() for one in fields(part) if one.type is Fitted]
+UNITS = {one.name: str(one.metadata["unit"]) for one in PARAMETERS}
 
 
 @dataclass(frozen=True)
@@ -173,19 +166,22 @@ class SoilCard:
     c2: float = math.nan
     contact: Mapping[str, Any] | None = None  # with steel and rubber, as a material file has it
 
+    @property
+    def parts(self) -> dict[str, PressureSinkage | Shear | Cone | NoResult]:
+        """Section -> its result."""
+        return {name: getattr(self, name) for name in SECTIONS}
+
     def failures(self) -> dict[str, str]:
         """Instrument -> why it has no result."""
-        parts = {instrument: getattr(self, name) for name, (_, instrument) in SECTIONS.items()}
-        return {name: part.reason for name, part in parts.items() if isinstance(part, NoResult)}
+        parts = self.parts.items()
+        return {SECTIONS[name].instrument: part.reason for name, part in parts if isinstance(part, NoResult)}
 
     def bekker_and_shear(self) -> tuple[PressureSinkage, Shear]:
         """Pressure-sinkage and shear, which vehicle codes need. @raises ResultsError where plates or ring failed"""
         plate, shear = self.pressure_sinkage, self.shear
-        for part, (_, instrument) in zip((plate, shear), SECTIONS.values()):
-            if isinstance(part, NoResult):
-                raise ResultsError(
-                    f"{self.title}: has no values of the {instrument} ({part.reason}); give them by hand"
-                )
+        for instrument, reason in self.failures().items():
+            if instrument != Cone.instrument:
+                raise ResultsError(f"{self.title}: has no values of the {instrument} ({reason}); give them by hand")
         assert isinstance(plate, PressureSinkage) and isinstance(shear, Shear)
         return plate, shear
 
@@ -219,13 +215,8 @@ class SoilCard:
 
     def parameters(self) -> dict[str, Fitted]:
         """Name -> value and standard error, of the instruments that have a result."""
-        found = {}
-        for part in (self.pressure_sinkage, self.shear, self.cone):
-            for field in fields(part):
-                value = getattr(part, field.name)
-                if isinstance(value, Fitted):
-                    found[field.name] = value
-        return found
+        found = {one.name: getattr(part, one.name) for part in self.parts.values() for one in fields(part)}
+        return {name: value for name, value in found.items() if isinstance(value, Fitted)}
 
     def texts(self) -> dict[str, str]:
         """Name -> value and error for a person."""
@@ -233,22 +224,13 @@ class SoilCard:
 
     def ranges(self) -> list[tuple[str, Range, str]]:
         """Meaning, range, unit."""
-        plate, shear, cone = self.pressure_sinkage, self.shear, self.cone
-        spans: list[tuple[str, Range, str]] = []
-        if isinstance(plate, PressureSinkage):
-            spans += [
-                ("sinkage of the plates", plate.sinkage, "m"),
-                ("pressure under the plates", plate.pressure, "Pa"),
-                ("radius of the plates", plate.radii, "m"),
-            ]
-        if isinstance(shear, Shear):
-            spans += [
-                ("normal stress under the ring", shear.normal, "Pa"),
-                ("shear displacement", shear.displacement, "m"),
-            ]
-        if isinstance(cone, Cone):
-            spans.append((f"depth of the cone of {1e3 * cone.size:.4g} mm and {cone.angle:g}°", cone.depth, "m"))
-        return [(meaning, span, unit) for meaning, span, unit in spans if math.isfinite(span.high)]
+        found = [
+            (str(one.metadata["meaning"]).format(part), getattr(part, one.name), str(one.metadata["unit"]))
+            for part in self.parts.values()
+            for one in fields(part)
+            if one.type is Range
+        ]
+        return [one for one in found if math.isfinite(one[1].high)]
 
     def report(self) -> str:
         """Lines for a person."""
@@ -273,56 +255,39 @@ def shown(fitted: Fitted) -> str:
 def markdown(cards: Sequence[SoilCard]) -> str:
     """A table of cards: value and error of each parameter, cards as rows."""
     names = [name for name in UNITS if name not in ("gradient", "speed_stress")]
-    units = [f" [{UNITS[name]}]" if UNITS[name] else "" for name in names]
-    lines = [
-        "| ground | " + " | ".join(f"`{n}`{unit}" for n, unit in zip(names, units)) + " |",
-        "|---" * (len(names) + 1) + "|",
-    ]
-    for card in cards:
-        texts = card.texts()
-        cells = [Path(card.ground).stem, *(texts.get(name, "none") for name in names)]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+    head = ["ground", *(f"`{name}`" + (f" [{UNITS[name]}]" if UNITS[name] else "") for name in names)]
+    rows = [[Path(card.ground).stem, *(card.texts().get(name, "none") for name in names)] for card in cards]
+    return "\n".join(markdown_table(head, rows))
 
 
 def _as_yaml(part: Any) -> dict[str, Any]:
+    """Section of a part; unknown numbers are left out."""
     if isinstance(part, NoResult):
         return {"failed": part.reason}
     content: dict[str, Any] = {}
-    for field in fields(part):
-        value = getattr(part, field.name)
+    for one in fields(part):
+        value = getattr(part, one.name)
         if isinstance(value, Fitted):
-            content[field.name] = {"value": value.value}
-            if math.isfinite(value.error):
-                content[field.name]["error"] = value.error
-            if UNITS[field.name]:
-                content[field.name]["unit"] = UNITS[field.name]
-        elif isinstance(value, Range):
-            if math.isfinite(value.high):
-                content[field.name] = [value.low, value.high]
-        elif math.isfinite(value):
-            content[field.name] = value
+            known = {"error": value.error} if math.isfinite(value.error) else {}
+            unit = {"unit": UNITS[one.name]} if UNITS[one.name] else {}
+            content[one.name] = {"value": value.value, **known, **unit}
+        elif math.isfinite(value.high if isinstance(value, Range) else value):
+            content[one.name] = [value.low, value.high] if isinstance(value, Range) else value
     return content
 
 
 def write_card(card: SoilCard, path: Path) -> None:
-    content = {
-        "title": card.title,
-        "ground": card.ground,
-        "density": card.density,
-        "stiffness": card.stiffness,
-        "gravity": card.gravity,
-        **{name: _as_yaml(getattr(card, name)) for name in SECTIONS},
-        "notes": list(card.notes),
-        **({"contact": dict(card.contact)} if card.contact else {}),
-    }
-    head = (
+    head = ("title", "ground", "density", "stiffness", "gravity")
+    content: dict[str, Any] = {name: getattr(card, name) for name in head}
+    content |= {name: _as_yaml(part) for name, part in card.parts.items()} | {"notes": list(card.notes)}
+    content |= {"contact": dict(card.contact)} if card.contact else {}
+    comment = (
         "# Soil card, SI units and degrees, written by furrow-post card make. value and error: fit and\n"
         "# standard error. Lists of two numbers: range of the tests. inputs/soils/README.md\n"
         "# explains every key.\n"
     )
     text = yaml.safe_dump(content, sort_keys=False, default_flow_style=None, width=100)
-    path.write_text(head + text, encoding="utf-8")
+    path.write_text(comment + text, encoding="utf-8")
 
 
 def read_card(path: Path | str) -> SoilCard:
@@ -330,27 +295,27 @@ def read_card(path: Path | str) -> SoilCard:
     path = Path(path)
     with content_of(path, REMEDY):
         text = path.read_text(encoding="utf-8-sig")
-        if path.suffix == ".json":
-            return _of_chrono(path, text)
         try:
-            content = yaml.safe_load(text)
+            content = _of_chrono(path, text) if path.suffix == ".json" else yaml.safe_load(text)
         except yaml.YAMLError as error:
             raise ResultsError(f"{path}: is no YAML; {REMEDY}") from error
         if not isinstance(content, dict):
             raise ResultsError(f"{path}: has no keys; {REMEDY}")
-        parts = {name: _read_part(path, kind, name, content.get(name)) for name, (kind, _) in SECTIONS.items()}
-        _refuse_others(path, "the card", content, [*(field.name for field in fields(SoilCard)), "damping"])
-        c1, c2 = (_finite(f"{path}: {name}", content[name]) if name in content else math.nan for name in ("c1", "c2"))
+        parts = {name: _read_part(path, kind, name, content.get(name)) for name, kind in SECTIONS.items()}
+        _refuse_others(path, "the card", content, [*(one.name for one in fields(SoilCard)), "damping"])
+        numbers: dict[str, Any] = {"density": math.nan, "stiffness": STIFFNESS, "c1": math.nan, "c2": math.nan}
+        given = [name for name in numbers if name in content]
+        numbers |= {name: _finite(f"{path}: {name}", content[name]) for name in (*given, "gravity")}
+        if numbers["gravity"] <= 0:
+            raise ResultsError(
+                f"{path}: gravity is {content['gravity']}; allowed: a number > 0 [m/s2], 9.80665 on the Earth; {REMEDY}"
+            )
         return SoilCard(
             str(content.get("title", path.stem)),
             str(content.get("ground", "")),
-            _finite(f"{path}: density", content["density"]) if "density" in content else math.nan,
-            _finite(f"{path}: stiffness", content.get("stiffness", STIFFNESS)),
-            _gravity(path, content["gravity"]),
+            **numbers,
             **parts,
             notes=tuple(str(note) for note in content.get("notes", ())),
-            c1=c1,
-            c2=c2,
             contact=contact_of(path, content),
         )
 
@@ -363,8 +328,8 @@ def _refuse_others(path: Path, where: str, content: dict[str, Any], known: Seque
         )
 
 
-def _of_chrono(path: Path, text: str) -> SoilCard:
-    """The terrain file of Chrono's co-simulation with "Soil parameters". Its comments are no JSON."""
+def _of_chrono(path: Path, text: str) -> dict[str, Any]:
+    """Content of a card from the terrain file of Chrono's co-simulation, whose comments are no JSON."""
     lines = [line for line in text.splitlines() if not line.lstrip().startswith("//")]
     try:
         content = parse_json("\n".join(lines))
@@ -378,21 +343,12 @@ def _of_chrono(path: Path, text: str) -> SoilCard:
     if lacking:
         raise ResultsError(f"{path}: \"Soil parameters\" have no \"{lacking[0]}\"")
     values = {CHRONO[key]: _finite(f"{path}: {key}", value) for key, value in soil.items()}
-    without = {"error": math.nan}
-    parts = {
-        name: _read_part(path, kind, name, {key: {"value": values[key], **without} for key in keys})
-        for (name, (kind, _)), keys in zip(SECTIONS.items(), (("k_c", "k_phi", "n"), ("c", "phi", "K")))
+    found = {
+        name: {one.name: values.pop(one.name) for one in fields(kind) if one.name in values}
+        for name, kind in SECTIONS.items()
     }
-    return SoilCard(
-        path.stem,
-        "",
-        math.nan,
-        values.get("stiffness", STIFFNESS),
-        EARTH,
-        **parts,
-        cone=NoResult("the card has none"),
-        notes=("of Chrono, which states no gravity: that of the Earth",),
-    )
+    notes = ["of Chrono, which states no gravity: that of the Earth"]
+    return {**values, **{name: part for name, part in found.items() if part}, "gravity": EARTH, "notes": notes}
 
 
 def contact_of(path: Path, content: Mapping[str, Any]) -> dict[str, Any] | None:
@@ -409,13 +365,6 @@ def contact_of(path: Path, content: Mapping[str, Any]) -> dict[str, Any] | None:
     return found
 
 
-def _gravity(path: Path, given: object) -> float:
-    number = _finite(f"{path}: gravity", given)
-    if number <= 0:
-        raise ResultsError(f"{path}: gravity is {given}; allowed: a number > 0 [m/s2], 9.80665 on the Earth; {REMEDY}")
-    return number
-
-
 def _read_part(path: Path, kind: Any, section: str, content: dict[str, Any] | None) -> Any:
     """Part of a card from its section. Errors, ranges and residuals that a person leaves out are unknown."""
     if content is None and kind is Cone:
@@ -424,39 +373,30 @@ def _read_part(path: Path, kind: Any, section: str, content: dict[str, Any] | No
         raise ResultsError(f"{path}: has no '{section}'; {REMEDY}")
     if "failed" in content:
         return NoResult(str(content["failed"]))
-    _refuse_others(path, section, content, [field.name for field in fields(kind)])
+    _refuse_others(path, section, content, [one.name for one in fields(kind)])
+    given: dict[str, Any] = {"speed_stress": 0.0, **content}
     values: dict[str, Any] = {}
-    for field in fields(kind):
-        where = f"{path}: {section}.{field.name}"
-        given = content.get(field.name)
-        if field.type is Fitted:
-            if given is None and field.name == "speed_stress":
-                given = 0.0
-            if given is None:
+    for one in fields(kind):
+        where, value = f"{path}: {section}.{one.name}", given.get(one.name)
+        if one.type is Fitted:
+            if value is None:
                 raise ResultsError(f"{where} is missing; {REMEDY}")
-            values[field.name] = _fitted(where, UNITS[field.name], given if isinstance(given, dict) else {"value": given})
-        elif field.type is Range:
-            low, high = (_finite(where, number) for number in given) if given else (0.0, math.inf)
-            values[field.name] = Range(low, high)
+            values[one.name] = _fitted(where, UNITS[one.name], value if isinstance(value, dict) else {"value": value})
+        elif one.type is Range:
+            values[one.name] = Range(*(_finite(where, number) for number in value)) if value else Range(0.0, math.inf)
         else:
-            values[field.name] = math.nan if given is None and kind is not Cone else _finite(where, given)
+            values[one.name] = math.nan if value is None and kind is not Cone else _finite(where, value)
     return kind(**values)
 
 
 def _fitted(where: str, unit: str, given: dict[str, Any]) -> Fitted:
     """Value and error in the unit of the parameter."""
-    scale = _scale(where, unit, str(given.get("unit", unit)))
-    error = float(given.get("error", math.nan))
-    return Fitted(scale * _finite(where, given["value"]), scale * error)
-
-
-def _scale(where: str, unit: str, given: str) -> float:
-    """Size of a unit in that of the parameter."""
     known = {prefix + unit: scale for prefix, scale in SCALES.items()} if unit[:1] in ("N", "P") else {unit: 1.0}
     known |= OTHER_UNITS.get(unit, {})
-    if given not in known:
-        raise ResultsError(f"{where} has the unit '{given}'; allowed: {', '.join(map(repr, known))}; {REMEDY}")
-    return known[given]
+    of = str(given.get("unit", unit))
+    if of not in known:
+        raise ResultsError(f"{where} has the unit '{of}'; allowed: {', '.join(map(repr, known))}; {REMEDY}")
+    return Fitted(known[of] * _finite(where, given["value"]), known[of] * float(given.get("error", math.nan)))
 
 
 def _finite(where: str, value: object) -> float:

@@ -6,9 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..arrays import Booleans, Floats, Integers
+from ..arrays import Booleans, Fields, Floats, Integers
 from ..errors import ResultsError
-from ..fields import Fields
 from .hdf5 import opened
 from .results import HISTORY, MIRROR, Surface, read_surface, require_layout, require_same_run
 

@@ -14,8 +14,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ResultsError
-from .results import Grains, Results
-from .styles import Style
+from .results import Grains, Results, Style
 from ..run.record import FINISHED, read_record
 from ..run.summary import SteadyValue, Summary
 from .terrain import FILE, read_terrain_fields, terrain_file
@@ -31,6 +30,7 @@ STEADY_QUANTITIES = (
 # Those that are means of a channel of the history
 FROM_CHANNELS = ("hub_drop", "force_z", "drawbar_pull", "drive_torque")
 SAME_MEAN = 0.02  # relative difference of means over one window: rows at its ends
+ANGLES = ("slip_angle", "camber", "slope", "side_slope")  # of a rig
 GROUNDS_OF_CELLS = ("continuum", "scm")  # nothing in them is random
 
 
@@ -173,19 +173,13 @@ def _ground_of(soil: Style | None, reference: Grains | None) -> str:
 
 
 def _rig_conditions(rig: Style) -> dict[str, Condition]:
-    gravity = rig.number("gravity")
-    if rig.has("load_force"):
-        load = rig.number("load_force")
-    else:
-        load = rig.number("load_mass", float("nan")) * gravity
+    gravity, unknown = rig.number("gravity"), float("nan")
+    load = rig.number("load_force") if rig.has("load_force") else rig.number("load_mass", unknown) * gravity
     return {
         "load": Condition(load, "N"),
-        "speed": Condition(rig.number("speed", float("nan")), "m/s"),
+        "speed": Condition(rig.number("speed", unknown), "m/s"),
         "mode": Condition(rig.text("mode")),
-        "slip_angle": Condition(rig.number("slip_angle", 0.0), "deg"),
-        "camber": Condition(rig.number("camber", 0.0), "deg"),
-        "slope": Condition(rig.number("slope", 0.0), "deg"),
-        "side_slope": Condition(rig.number("side_slope", 0.0), "deg"),
+        **{angle: Condition(rig.number(angle, 0.0), "deg") for angle in ANGLES},
         "slip_definition": Condition(_slip_definition(rig)),
         "travel": Condition(rig.text("travel") if rig.has("travel") else "prescribed"),
         "gravity": Condition(gravity, "m/s2"),

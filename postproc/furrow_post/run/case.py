@@ -6,7 +6,7 @@ import os
 import re
 import shlex
 from collections.abc import Hashable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import product
 from pathlib import Path
@@ -16,7 +16,7 @@ import yaml
 
 from ..errors import ResultsError
 from ..formatting import yaml_text
-from .script import script_variables
+from .script import as_word, script_variables
 
 Value = str | float | int | Path
 
@@ -26,6 +26,8 @@ SCRIPT = ".lig"
 DEFAULT = re.compile(r"^variable\s+\w+\s+index.*|#.*", re.MULTILINE)
 VARIABLE = re.compile(r"\$\{(\w+)\}")
 FILE_NAME = re.compile(r"[^\s,:;=\"'()&|]+\.[A-Za-z]\w*")
+RESULTS = "results"  # the variable of a script that is its results folder
+CONTINUED = "until_steady.lig"  # the script of a run that goes on until it is steady
 FOLDER = "{folder}"  # in an argument, a variable or a file's text: the folder of the run
 
 
@@ -192,7 +194,49 @@ def script_case(
     """
     log_file = f"{FOLDER}/log.liggghts" if log else "none"
     arguments = ("-in", script, "-log", log_file)
-    return Case(name, "furrow", arguments, {"results": FOLDER, **variables}, **more)
+    return Case(name, "furrow", arguments, {RESULTS: FOLDER, **variables}, **more)
+
+
+def continued_script(script: Path, error: float, time_limit: float) -> str:
+    """A script that runs another one, and on until hub drop and resistance are steady.
+
+    @raises ResultsError for a path that LIGGGHTS cannot include
+    """
+    if len(str(script).split()) > 1:
+        raise ResultsError(
+            f"--until-steady: {script} has blanks in its path, from which LIGGGHTS cannot include; "
+            "move it"
+        )
+    limit = f" wall_time {time_limit:.10g}" if time_limit else ""
+    return f"include {script}\nrun_until_steady error {error:.10g}{limit}\n"
+
+
+def scene_case(
+    name: str,
+    script: Path,
+    variables: Mapping[str, str],
+    until_steady: float,
+    steady_limit: float,
+    **more: Any,
+) -> Case:
+    """A run of a scene; until_steady: relative error, 0: as long as the script lasts; steady_limit: its time
+    limit [s], 0: none; more: further members of the Case"""
+    run: Path | str = script
+    if until_steady:
+        run = f"{FOLDER}/{CONTINUED}"
+        more["reads"] = (script,)
+        more["files"] = {CONTINUED: continued_script(script, until_steady, steady_limit)}
+    known = script_variables(script, variables)
+    case = script_case(
+        name,
+        run,
+        {name: as_word(script, value) for name, value in variables.items()},
+        log=True,
+        **more,
+    )
+    if RESULTS in known.settable:
+        return case
+    return replace(case, variables={name: value for name, value in case.variables.items() if name != RESULTS})
 
 
 def laboratory_case(

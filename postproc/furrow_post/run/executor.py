@@ -3,7 +3,7 @@
 
 import enum
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from datetime import datetime, timezone
@@ -12,10 +12,9 @@ from pathlib import Path
 from ..errors import Interrupted, ResultsError
 from ..formatting import duration
 from .case import FOLDER, Case, Value
-from .claim import claimed, is_busy
 from .process import ERRORS, Ending, Job, Processes, output_lines
 from .progress import Progress
-from .record import FAILED, FINISHED, Record, digest, digests, forget, read_record
+from .record import FAILED, FINISHED, Record, claimed, digest, digests, forget, is_busy, read_record
 from .tools import Tools
 
 LOOK_EVERY = 1.0  # [s] at what is running
@@ -69,51 +68,34 @@ class Failed(ResultsError):
         self.status = run.record.status or 1
 
 
+@dataclass(eq=False)
 class Executor:
-    """The runs of a list in a results folder.
+    """The runs of a list in a results folder. One counts only while its program and its input files are the same."""
 
-    A run counts only while its program and all its input files are still the same. again: failed runs are
-    repeated; low_priority: runs yield to other work; watch: lines of the program go to the screen, instead
-    of one line per run.
-    """
+    results: Path
+    tools: Tools
+    jobs: int = 1  # runs at a time
+    again: bool = False  # failed runs are repeated
+    low_priority: bool = True  # runs yield to other work
+    watch: bool = False  # lines of the program go to the screen, instead of one line per run
 
-    def __init__(
-        self,
-        results: Path,
-        tools: Tools,
-        jobs: int = 1,
-        again: bool = False,
-        low_priority: bool = True,
-        watch: bool = False,
-    ) -> None:
-        self.results, self.tools = results.resolve(), tools
-        self.jobs, self.again = jobs, again
-        self.low_priority, self.watch = low_priority, watch
+    def __post_init__(self) -> None:
+        self.results = self.results.resolve()
 
     def folder(self, case: Case) -> Path:
         return self.results / case.name
 
-    def record(self, case: Case) -> Record | None:
-        """Record of the finished run, or None."""
-        return self._valid(case, FINISHED)
+    def ended(self, case: Case) -> Run | None:
+        """The finished run of this very case, else the failed one, whose error says why, or None."""
+        valid = (record for record in self._stored(case) if not self._changed(case, record))
+        return next((Run(case, self.folder(case), record) for record in valid), None)
 
-    def failure(self, case: Case) -> Record | None:
-        """Record of the failed run, whose error says why, or None."""
-        return self._valid(case, FAILED)
-
-    def ended(self, case: Case) -> Record | None:
-        """Record of the run, finished or failed, or None."""
-        return self.record(case) or self.failure(case)
-
-    def _valid(self, case: Case, file: str) -> Record | None:
-        """The record in the folder, if it is that of this very case."""
-        record = self._stored(case, file)
-        return record if record and not self._changed(case, record) else None
-
-    def _stored(self, case: Case, file: str) -> Record | None:
-        """The record of a run with these arguments, variables and texts, whatever has changed since."""
-        record = read_record(self.folder(case) / file)
-        return record if record and record.job == case.identity(self.tools.root) else None
+    def _stored(self, case: Case) -> Iterator[Record]:
+        """Records of a run with these arguments, variables and texts, whatever has changed since."""
+        for file in (FINISHED, FAILED):
+            record = read_record(self.folder(case) / file)
+            if record and record.job == case.identity(self.tools.root):
+                yield record
 
     def _changed(self, case: Case, record: Record) -> list[str]:
         """Names of the program and of input files that differ from those of a run."""
@@ -134,7 +116,7 @@ class Executor:
 
     def outdated(self, cases: Sequence[Case]) -> str:
         """A sentence about stored runs that do not count, because something has changed; empty where all count."""
-        stored = [(case, self._stored(case, FINISHED) or self._stored(case, FAILED)) for case in cases]
+        stored = [(case, next(self._stored(case), None)) for case in cases]
         former = [(record, names) for case, record in stored if record and (names := self._changed(case, record))]
         if not former:
             return ""
@@ -146,9 +128,8 @@ class Executor:
         )
 
     def state(self, case: Case) -> State:
-        if self.record(case):
-            return State.DONE
-        return State.FAILED if self.failure(case) else State.MISSING
+        run = self.ended(case)
+        return State.MISSING if run is None else State.FAILED if run.error else State.DONE
 
     def missing(self, cases: Sequence[Case]) -> list[Case]:
         """Cases that run() would make."""
@@ -163,7 +144,7 @@ class Executor:
     def completed(self, cases: Sequence[Case]) -> list[Run]:
         """Makes what is missing; all runs in the order of the cases. @raises Failed for the first failure"""
         self._run(self.missing(cases), None, anew=False, stop=True)
-        runs = [Run(case, self.folder(case), record) for case in cases if (record := self.ended(case))]
+        runs = [run for case in cases if (run := self.ended(case))]
         for run in runs:
             if run.error and not run.case.may_fail:
                 raise Failed(run)
@@ -238,8 +219,10 @@ class Executor:
         """Makes a run, unless another program has made it since this one looked."""
         folder = self.folder(case)
         with claimed(folder, processes.stop):
-            former = None if anew else self.record(case) if self.again else self.ended(case)
-            return former or self._launch(case, folder, processes, progress)
+            former = None if anew else self.ended(case)
+            if former and not (self.again and former.error):
+                return former.record
+            return self._launch(case, folder, processes, progress)
 
     def _launch(self, case: Case, folder: Path, processes: Processes, progress: Progress) -> Record:
         """Makes a run and writes its record.
@@ -257,17 +240,7 @@ class Executor:
         show = progress.printer(case.name)
 
         def attempt(changes: Mapping[str, Value]) -> tuple[Ending, str]:
-            job = Job(
-                case.command(program, folder, changes),
-                folder,
-                case.start_in(folder),
-                show,
-                case.checkpoint,
-                case.keeps_checkpoint,
-                case.time_limit,
-                self.low_priority,
-            )
-            ending = processes.run(job)
+            ending = processes.run(Job(case, case.command(program, folder, changes), folder, show, self.low_priority))
             return ending, _error_of(ending, case, folder)
 
         changes: Mapping[str, Value] = {}

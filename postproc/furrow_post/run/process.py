@@ -20,6 +20,7 @@ from typing import IO, Any
 
 from ..errors import Interrupted
 from ..whole_file import replaced
+from .case import Case
 
 CHECKPOINT = "checkpoint.data"  # the last one that a signal made
 FORCED = "restart_forced_liggghts_*.data"  # as LIGGGHTS names it, where the run was started
@@ -51,16 +52,17 @@ class Stopped(Interrupted):
 
 @dataclass(frozen=True)
 class Job:
-    """A command, where it starts, and how it is watched."""
+    """A command of a case, where it starts, and what takes its lines."""
 
+    case: Case
     command: Sequence[str]
     folder: Path  # of its output
-    start: Path
     show: Callable[[str], None] | None = None  # takes each line for the screen
-    checkpoint: float = 0.0  # [s] between checkpoints; 0: none
-    keeps_checkpoint: bool = False  # moves checkpoints into the folder
-    time_limit: float = math.inf  # [s]
     low_priority: bool = False
+
+    @property
+    def start(self) -> Path:
+        return self.case.start_in(self.folder)
 
 
 @dataclass(frozen=True)
@@ -135,7 +137,7 @@ class Processes:
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         self._running.remove(process)
-        if job.keeps_checkpoint:
+        if job.case.keeps_checkpoint:
             keep_checkpoint(job.start, job.folder, since)
         if not (job.folder / ERRORS).stat().st_size:
             (job.folder / ERRORS).unlink()
@@ -151,14 +153,15 @@ def _watch(process: "subprocess.Popen[bytes]", job: Job, screen: IO[bytes], sinc
     writes it when neighbour lists are due anyway, so it does not change the run. A run that pours
     grains takes no notice, so it is asked again.
     """
-    limit = time.monotonic() + job.time_limit
+    checkpoint = job.case.checkpoint or math.inf  # [s] between checkpoints
+    limit = time.monotonic() + job.case.time_limit
     asked = math.inf
     part = b""
     end = os.pidfd_open(process.pid)
     try:
         ended = False
         while not ended:
-            wait = min(LOOK_EVERY, max(limit - time.monotonic(), 0.0), job.checkpoint or math.inf)
+            wait = min(LOOK_EVERY, max(limit - time.monotonic(), 0.0), checkpoint)
             ended = bool(select.select([end], [], [], wait)[0])
             *lines, part = (part + screen.read() + (b"\n" if ended else b"")).split(b"\n")
             for line in lines:
@@ -170,9 +173,9 @@ def _watch(process: "subprocess.Popen[bytes]", job: Job, screen: IO[bytes], sinc
             if not ended and time.monotonic() >= limit:
                 process.kill()
                 return True
-            if job.checkpoint and not ended:
+            if checkpoint < math.inf and not ended:
                 keep_checkpoint(job.start, job.folder, since)
-                if time.monotonic() - asked >= job.checkpoint:
+                if time.monotonic() - asked >= checkpoint:
                     send(process, signal.SIGUSR1)
                     asked = time.monotonic()
         return False

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from ..csv_table import number_or_text
 from ..errors import ResultsError, content_of
 from .record import FAILED, FINISHED, Record, read_record
 from .summary import Summary, whole_errors
@@ -40,7 +41,7 @@ def read_row(folder: Path) -> Row:
         row.cells.update(_of_record(record))
     if not record or not record.error:
         _add_quantities(row, Summary(folder), whole_errors(folder))
-        row.cells.update(_facts(folder / FACTS))
+        row.cells.update(read_facts(folder))
     if len(row.cells) == 1:
         raise ResultsError(f"{folder}: has no run that came to its end; start the run again")
     if record:
@@ -60,15 +61,9 @@ def read_table(folders: Iterable[Path]) -> pd.DataFrame:
 def _of_record(record: Record) -> dict[str, Cell]:
     variables = record.job.get("variables")
     given = {**(variables if isinstance(variables, Mapping) else {}), **record.changes}
-    cells: dict[str, Cell] = {SET + name: _value(str(text)) for name, text in given.items() if name != "results"}
+    set_by_user = {name: str(text) for name, text in given.items() if name != "results"}
+    cells: dict[str, Cell] = {SET + name: number_or_text(text) for name, text in set_by_user.items()}
     return {**cells, **record.facts}
-
-
-def _value(text: str) -> Cell:
-    try:
-        return float(text)
-    except ValueError:
-        return text
 
 
 def _add_quantities(row: Row, summary: Summary, whole: Mapping[str, float]) -> None:
@@ -81,10 +76,11 @@ def _add_quantities(row: Row, summary: Summary, whole: Mapping[str, float]) -> N
             row.units |= {column: value.unit for column in columns if value.unit}
 
 
-def _facts(path: Path) -> dict[str, Cell]:
-    """Names and values of a test of the laboratory; empty where there is no such file."""
+def read_facts(folder: Path) -> dict[str, Cell]:
+    """Names and values of facts.txt; empty where there is no such file. @raises ResultsError"""
+    path = folder / FACTS
     if not path.is_file():
         return {}
     with content_of(path, "repeat the run: remove its folder"):
         words = path.read_text(encoding="utf-8").split()
-        return {name: _value(text) for name, text in zip(words[::2], words[1::2], strict=True)}
+        return {name: number_or_text(text) for name, text in zip(words[::2], words[1::2], strict=True)}

@@ -1,16 +1,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Record of a run next to its results: run.json when it came to its end, else failed.json."""
+"""The folder of a run: its record, run.json when it came to its end, else failed.json, and the claim of one program."""
 
+import fcntl
 import hashlib
 import json
+import os
 import shutil
-from collections.abc import Iterable, Mapping
+import threading
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from ..errors import Interrupted, ResultsError
+
 FINISHED, FAILED = "run.json", "failed.json"
+CLAIM = "claim"  # empty file in the folder of a run, locked while a program makes that run
+LOOK_EVERY = 0.2  # [s] whether another program has left the folder
 
 
 @lru_cache(maxsize=None)
@@ -47,9 +55,7 @@ class Record:
     wall_time: float  # [s]
     cpu_time: float  # user time [s]
     system_time: float  # [s]
-    facts: Mapping[str, float] = field(
-        default_factory=dict
-    )  # of the last line FACTS name value ...
+    facts: Mapping[str, float] = field(default_factory=dict)  # of the last line FACTS name value ...
     changes: Mapping[str, str] = field(default_factory=dict)  # variables of the second attempt
     stopped: tuple[str, ...] = ()  # errors of attempts before
     error: str = ""  # of a failed run
@@ -93,3 +99,46 @@ def forget(folder: Path, checkpoints: bool) -> None:
             shutil.rmtree(checkpoint)
         else:
             checkpoint.unlink()
+
+
+@contextmanager
+def claimed(folder: Path, stop: threading.Event) -> Iterator[None]:
+    """Waits until no other program makes the run of this folder, and keeps others from it.
+
+    The lock ends with the process, however that ends. On file systems that know no locks there is
+    none. stop: set by others to end the waiting. @raises Interrupted, and ResultsError for a link
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC
+        handle = os.open(folder / CLAIM, flags, 0o666)
+    except OSError as error:
+        message = f"{folder / CLAIM}: cannot be opened ({error.strerror}); remove it"
+        raise ResultsError(message) from error
+    try:
+        while not lock(handle):
+            if stop.wait(LOOK_EVERY):
+                raise Interrupted(f"{folder}: another program is making this run; start again")
+        yield
+    finally:
+        os.close(handle)
+
+
+def is_busy(folder: Path) -> bool:
+    """True where furrow writes to the folder: it then holds a lock of it."""
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        return not lock(handle)
+    finally:
+        os.close(handle)
+
+
+def lock(handle: int) -> bool:
+    """Locks an open file or folder for this process; False while another one holds the lock."""
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:  # no locks here
+        pass
+    return True

@@ -7,7 +7,7 @@ LIGGGHTS takes any name on its command line; one that no line reads changes noth
 import difflib
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..errors import ResultsError
@@ -27,6 +27,8 @@ class ScriptVariables:
     read: frozenset[str]  # used somewhere
     files: tuple[Path, ...]  # the script and what it includes
     not_found: tuple[str, ...]  # included files that could not be read
+    in_paths: Mapping[str, str | None] = field(default_factory=dict)  # given values on which paths of files depend
+    states: Mapping[Path, object] = field(default_factory=dict)  # of the files that the answer depends on
 
     @property
     def settable(self) -> list[str]:
@@ -34,21 +36,13 @@ class ScriptVariables:
         undeclared = {n for n in self.read - self.computed if not n.startswith(OF_BED)}
         return sorted(set(self.defaults) | undeclared)
 
-
-@dataclass(frozen=True)
-class _Answer:
-    """An answer of the program, and what it depends on."""
-
-    variables: ScriptVariables
-    values: Mapping[str, str | None]  # of variables on which paths of included files depend
-    states: Mapping[Path, object]
-
     def holds(self, given: Mapping[str, str]) -> bool:
-        same = all(given.get(name) == value for name, value in self.values.items())
+        """True while the program would answer the same to these values."""
+        same = all(given.get(name) == value for name, value in self.in_paths.items())
         return same and all(_state(path) == state for path, state in self.states.items())
 
 
-_answers: dict[tuple[Path, Path], list[_Answer]] = {}
+_answers: dict[tuple[Path, Path], list[ScriptVariables]] = {}
 
 
 def script_variables(
@@ -62,27 +56,24 @@ def script_variables(
     known = _answers.setdefault((furrow, Path.cwd() / script), [])
     for one in known:
         if one.holds(given):
-            return one.variables
+            return one
     words = [
         word for name, value in given.items() if re.fullmatch(r"\w+", name) and value for word in ("-var", name, value)
     ]
     found = parse_json(answer([furrow, "--variables", script, *words]))
-    variables = ScriptVariables(
-        found["defaults"],
-        frozenset(found["computed"]),
-        frozenset(found["mentioned"]),
-        tuple(map(Path, found["files"])),
-        tuple(found["not_found"]),
-    )
-    watched = [furrow, script, *variables.files, *map(Path, variables.not_found)]
+    files = tuple(map(Path, found["files"]))
     known.append(
-        _Answer(
-            variables,
+        ScriptVariables(
+            found["defaults"],
+            frozenset(found["computed"]),
+            frozenset(found["mentioned"]),
+            files,
+            tuple(found["not_found"]),
             {name: given.get(name) for name in found["in_paths"]},
-            {path: _state(path) for path in watched},
+            {path: _state(path) for path in (furrow, script, *files, *map(Path, found["not_found"]))},
         )
     )
-    return variables
+    return known[-1]
 
 
 def _state(path: Path) -> object:

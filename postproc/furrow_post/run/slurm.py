@@ -127,10 +127,9 @@ def gather(job: ArrayJob, executor: Executor, cases: Sequence[Case]) -> None:
         while left:
             for name in [n for n, case in left.items() if executor.state(case) is not State.MISSING]:
                 case = left.pop(name)
-                record = executor.ended(case)
-                if record:
-                    progress.report(name, executor.folder(case), record)
-            progress.show([executor.folder(case) for case in left.values() if _begun(executor, case)])
+                if run := executor.ended(case):
+                    progress.report(name, run.folder, run.record)
+            progress.show([folder for case in left.values() if (folder := executor.folder(case)).is_dir()])
             if not is_queued(job):
                 ended_at = ended_at or time.monotonic()
                 if time.monotonic() - ended_at > SETTLING:
@@ -143,10 +142,6 @@ def gather(job: ArrayJob, executor: Executor, cases: Sequence[Case]) -> None:
         ) from None
     finally:
         progress.clear()
-
-
-def _begun(executor: Executor, case: Case) -> bool:
-    return executor.folder(case).is_dir()
 
 
 def lost(job: ArrayJob, executor: Executor, cases: Sequence[Case]) -> list[str]:

@@ -11,10 +11,10 @@ from typing import Any
 from ..errors import Interrupted, ResultsError
 from ..programs import results_folder
 from ..run.script import RESERVED, check_variables, script_variables
+from ..run.case import RESULTS, continued_script
 from ..run.executor import Failed
 from ..run.process import CHECKPOINT
 from ..run.tools import Tools
-from ..sweep.continued import RESULTS, continued_script
 from ..sweep.sweep_plan import Plan
 from .catalogue import Variables, head_lines, quick_variables, script_of
 from .one import SceneRun, ranks_remark, require_folder, run_scenes, show, words_of
@@ -132,22 +132,22 @@ def _run(request: Request, post: Post) -> int:
     former = request.former.variables if request.former else []
     variables = [*options.given, *former, *request.preset]
     variables = list({name: (name, value) for name, value in reversed(variables)}.values())[::-1]
-    _run_and_show(_scene_run(request, script, folder, options.scene, variables), options)
+    _run_and_show(_scene_run(request, script, variables), options)
     return 0
 
 
-def _scene_run(request: Request, script: Path, folder: Path, scene: str, variables: Variables) -> SceneRun:
+def _scene_run(request: Request, script: Path, variables: Variables) -> SceneRun:
     options, former = request.options, request.former
     return SceneRun(
         script,
-        folder,
+        request.folder,
         variables,
         former.ranks if former else options.ranks,
         options.until_steady or 0.0,
         options.time_limit or 0.0,
         options.checkpoint or 0.0,
         former.checkpoint if former else None,
-        words_of(scene, variables),
+        words_of(options.scene, variables),
     )
 
 
@@ -160,7 +160,7 @@ def _run_planned(request: Request, script: Path) -> int:
         return 0
     variables = [*options.given, *made.forecast.variables]
     print(f"{called()} {words_of(options.scene, variables)}")
-    _run_and_show(_scene_run(request, script, folder, options.scene, variables), options)
+    _run_and_show(_scene_run(request, script, variables), options)
     print("\n".join(outcome(made, folder)))
     return 0
 

@@ -13,7 +13,7 @@ from ..formatting import duration
 from ..read.wheel_run import cells_or_grains, read_wheel_run
 from ..run.record import digest
 from ..run.script import RESERVED, check_variables, script_variables
-from ..study.tables import in_columns
+from ..csv_table import in_columns
 from .catalogue import Variables, is_shipped, script_of
 from .one import SceneRun, run_missing, words_of
 

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultsError
-from ..run.case import FOLDER, Case
-from ..run.claim import is_busy
-from ..run.executor import Executor, Failed, Run
+from ..run.case import FOLDER, Case, scene_case
+from ..run.record import is_busy
+from ..run.executor import Executor, Failed
 from ..run.tools import Tools
-from ..sweep.continued import scene_case
 from .catalogue import Variables, is_shipped
 from .restart import continuation, write_command
 
@@ -102,33 +101,34 @@ def run_scenes(
 
     @raises ResultsError, Interrupted, Failed
     """
-    executor = Executor(folder, Tools.found(), jobs, low_priority=False, watch=True)
-    cases = []
+    executor, cases = _prepared(folder, scenes, jobs)
     for scene in scenes:
-        require_folder(scene.folder)
-        cases.append(scene.case("" if scene.folder == folder else str(scene.folder.relative_to(folder))))
         if not scene.continue_from:
             write_command(scene.folder.resolve(), scene.script.resolve(), scene.variables, scene.ranks)
     executor.repeat(cases, ended)
-    for case in cases:
-        failure = executor.failure(case)
-        if failure:
-            raise Failed(Run(case, executor.folder(case), failure))
+    _require_done(executor, cases)
 
 
 def run_missing(folder: Path, scenes: Sequence[SceneRun], jobs: int = 1) -> None:
-    """Makes runs whose folders are in a folder, but those that are there with the same inputs.
+    """The same, but those that are there with the same inputs. @raises ResultsError, Interrupted, Failed"""
+    executor, cases = _prepared(folder, scenes, jobs)
+    executor.run(cases)
+    _require_done(executor, cases)
 
-    @raises ResultsError, Interrupted, Failed
-    """
-    executor = Executor(folder, Tools.found(), jobs, low_priority=False, watch=True)
+
+def _prepared(folder: Path, scenes: Sequence[SceneRun], jobs: int) -> tuple[Executor, list[Case]]:
     for scene in scenes:
         require_folder(scene.folder)
-    cases = [scene.case(scene.folder.name) for scene in scenes]
-    executor.run(cases)
+    names = ("" if scene.folder == folder else str(scene.folder.relative_to(folder)) for scene in scenes)
+    executor = Executor(folder, Tools.found(), jobs, low_priority=False, watch=True)
+    return executor, [scene.case(name) for scene, name in zip(scenes, names)]
+
+
+def _require_done(executor: Executor, cases: Sequence[Case]) -> None:
+    """@raises Failed for the first run that stopped with an error"""
     for case in cases:
-        if failure := executor.failure(case):
-            raise Failed(Run(case, executor.folder(case), failure))
+        if (run := executor.ended(case)) and run.error:
+            raise Failed(run)
 
 
 def show(folder: Path, quick: bool, shown: bool = True) -> None:

@@ -3,7 +3,7 @@
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from ..errors import ResultsError
@@ -21,18 +21,20 @@ def called() -> str:
 def require_fitting(options: Any) -> None:
     """Completes the options of a run. @raises ResultsError for what they do not allow together"""
     options.given = [(name, value.strip()) for name, value in options.given]
-    _require_one_scene(options)
-    _require_sweep(options)
-
-
-def _require_one_scene(options: Any) -> None:
-    """Makes options.scene one word, or empty. @raises ResultsError"""
     scenes: Sequence[str] = options.scene
     if not all(scene.strip() for scene in scenes):
         raise ResultsError("an argument is empty; name a scene, or leave it out")
     if len(scenes) > 1:
         raise ResultsError(f"'{scenes[0]}' and '{scenes[1]}' are two scenes; name one")
     options.scene = scenes[0] if scenes else ""
+    for broken, message in _rules(options):
+        if broken:
+            raise ResultsError(message)
+    options.ranks = _affordable(options.ranks or 1)
+
+
+def _rules(options: Any) -> Iterator[tuple[Any, str]]:
+    """Conditions that must not hold, and the message of each."""
     of_scenes = {
         "-n": options.ranks,
         "-v": options.given,
@@ -43,40 +45,28 @@ def _require_one_scene(options: Any) -> None:
         "--checkpoint": options.checkpoint,
         "--continue": options.continues,
     }
-    if not options.scene and not options.point:
-        for option, value in of_scenes.items():
-            if value:
-                raise ResultsError(f"{option} belongs to a scene; name one")
-
-
-def _require_sweep(options: Any) -> None:
-    """@raises ResultsError"""
-    if not options.sweep and not options.point:
-        for name in OF_SWEEPS:
-            if getattr(options, name):
-                raise ResultsError(f"--{name} belongs to --sweep; give that too")
-        if options.time_limit and not options.until_steady:
-            raise ResultsError("--time-limit belongs to --until-steady or --sweep; give one of them")
-    _require_plan(options)
-    if options.sweep and (options.continues or options.checkpoint):
-        raise ResultsError(
-            "--checkpoint and --continue belong to one run; a sweep keeps its finished points, so the same "
-            "command resumes it"
-        )
-    options.ranks = _affordable(options.ranks or 1)
-
-
-def _require_plan(options: Any) -> None:
-    """@raises ResultsError"""
+    alone = not options.sweep and not options.point
+    for option, value in of_scenes.items():
+        yield value and not options.scene and not options.point, f"{option} belongs to a scene; name one"
+    for name in OF_SWEEPS:
+        yield alone and getattr(options, name), f"--{name} belongs to --sweep; give that too"
+    yield (
+        alone and options.time_limit and not options.until_steady,
+        "--time-limit belongs to --until-steady or --sweep; give one of them",
+    )
     wanted = "--error" if options.error else "--time" if options.time else ""
-    if options.dry_run and not wanted:
-        raise ResultsError("--dry-run prints the plan for --error or --time; give one of them")
-    if options.sweep and wanted:
-        raise ResultsError(f"{wanted} chooses one run; with --sweep give sizes by -v")
-    if options.continues and (wanted or options.ranks):
-        raise ResultsError(f"--continue takes sizes and ranks from the run; leave out {wanted or '-n'}")
-    if options.quick and wanted:
-        raise ResultsError(f"--quick and {wanted} both choose sizes; give one of them")
+    yield options.dry_run and not wanted, "--dry-run prints the plan for --error or --time; give one of them"
+    yield options.sweep and wanted, f"{wanted} chooses one run; with --sweep give sizes by -v"
+    yield (
+        options.continues and (wanted or options.ranks),
+        f"--continue takes sizes and ranks from the run; leave out {wanted or '-n'}",
+    )
+    yield options.quick and wanted, f"--quick and {wanted} both choose sizes; give one of them"
+    yield (
+        options.sweep and (options.continues or options.checkpoint),
+        "--checkpoint and --continue belong to one run; a sweep keeps its finished points, so the same command "
+        "resumes it",
+    )
 
 
 def _affordable(ranks: int) -> int:

@@ -115,9 +115,9 @@ def _ended(
     executor: Executor, cases: Sequence[Case], remarks: Sequence[str], folder: Path, wanted: Wanted
 ) -> int:
     """Draws what there is, then reports what failed; the exit status."""
-    records = {case.name: executor.failure(case) for case in cases}
-    failures = [f"{name}: {failure.error}" for name, failure in records.items() if failure]
-    done = sum(executor.state(case) is State.DONE for case in cases)
+    runs = [run for case in cases if (run := executor.ended(case))]
+    failures = [f"{run.name}: {run.error}" for run in runs if run.error]
+    done = len(runs) - len(failures)
     trouble = ""
     if done:
         try:

@@ -14,31 +14,47 @@ from pathlib import Path
 
 from ..errors import ResultsError
 from ..analyse.terrain_values import LOOSE_SAND, terrain
-from ..read.soil_card import UNITS, SoilCard
+from ..read.soil_card import CHRONO, UNITS, SoilCard
 
 # Damping of Chrono's sample files [Pa s/m]: a card has none
 CHRONO_DAMPING = 3e4
+ALTAIR_HEAD = """[MDI_HEADER]
+FILE_TYPE = 'rdf'
+FILE_VERSION = 5.00
+FILE_FORMAT = 'ASCII'
+[UNITS]
+LENGTH = 'm'
+FORCE = 'newton'
+ANGLE = 'radians'
+MASS = 'kg'
+TIME = 'sec'
+[MODEL]
+PROPERTY_FILE_FORMAT = 'USER'
+FUNCTION_NAME = 'mbdtire::ROADSUB'
+METHOD = '3D'
+ROAD_TYPE = 'softsoil'
+[PARAMETERS]
+MU = 1.0
+OFFSET = 0.0
+LENGTH = 300.0
+WIDTH = 6.0
+NODES = 1
+MULTIPASS = 'TRUE'
+[PROPERTIES]"""
 
 
 def write_chrono(card: SoilCard, path: Path) -> None:
     """Chrono requires an elastic stiffness above k_phi."""
     card.require_usable()
-    plate, shear = card.bekker_and_shear()
+    plate, _ = card.bekker_and_shear()
+    soil = {name: fitted.value for name, fitted in card.parameters().items()}
+    soil |= {"stiffness": max(card.stiffness, 2 * plate.k_phi.value), "damping": CHRONO_DAMPING}
     content = {
         "Type": "SCM",
         "Description": f"{card.title}; {card.condition()}; Damping is that of Chrono's samples, not of a test",
         "Patch dimensions": {"Length": 10, "Width": 2},
         "Grid spacing": 0.04,
-        "Soil parameters": {
-            "Bekker Kphi": plate.k_phi.value,
-            "Bekker Kc": plate.k_c.value,
-            "Bekker n exponent": plate.n.value,
-            "Mohr cohesive limit": shear.c.value,
-            "Mohr friction limit": shear.phi.value,
-            "Janosi shear coefficient": shear.K.value,
-            "Elastic stiffness": max(card.stiffness, 2 * plate.k_phi.value),
-            "Damping": CHRONO_DAMPING,
-        },
+        "Soil parameters": {key: soil[name] for key, name in CHRONO.items()},
         "Simulation settings": {"Proxy contact radius": 0.002, "Fix proxies": True},
     }
     path.write_text(json.dumps(content, indent=4) + "\n", encoding="utf-8")
@@ -65,35 +81,9 @@ def write_altair(card: SoilCard, path: Path) -> None:
         "C1": (sand.c1, "not of a test: Wong and Reece (1967), loose sand"),
         "C2": (sand.c2, "not of a test: the same"),
     }
-    lines = [
-        f"$ {' '.join(card.title.split())}",
-        f"$ {card.condition()}",
-        "[MDI_HEADER]",
-        "FILE_TYPE = 'rdf'",
-        "FILE_VERSION = 5.00",
-        "FILE_FORMAT = 'ASCII'",
-        "[UNITS]",
-        "LENGTH = 'm'",
-        "FORCE = 'newton'",
-        "ANGLE = 'radians'",
-        "MASS = 'kg'",
-        "TIME = 'sec'",
-        "[MODEL]",
-        "PROPERTY_FILE_FORMAT = 'USER'",
-        "FUNCTION_NAME = 'mbdtire::ROADSUB'",
-        "METHOD = '3D'",
-        "ROAD_TYPE = 'softsoil'",
-        "[PARAMETERS]",
-        "MU = 1.0",
-        "OFFSET = 0.0",
-        "LENGTH = 300.0",
-        "WIDTH = 6.0",
-        "NODES = 1",
-        "MULTIPASS = 'TRUE'",
-        "[PROPERTIES]",
-        *(f"{name} = {value!r} $ {meaning}" for name, (value, meaning) in soil.items()),
-    ]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    lines = [f"$ {' '.join(card.title.split())}", f"$ {card.condition()}"]
+    properties = [f"{name} = {value!r} $ {meaning}" for name, (value, meaning) in soil.items()]
+    path.write_text("\n".join([*lines, ALTAIR_HEAD, *properties, ""]), encoding="utf-8")
 
 
 def write_table(card: SoilCard, path: Path) -> None:

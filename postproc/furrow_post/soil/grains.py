@@ -10,14 +10,13 @@ import numpy as np
 
 from ..errors import ResultsError
 from ..programs import inputs_folder
-from ..run.script import script_variables
-from ..read.soil_card import NoResult
+from ..read.soil_card import EARTH, NoResult
 from ..run.case import Case
 from ..run.executor import Executor
+from ..run.script import script_variables
 from .fits import PlateCurve, ShearCurve
 from .grain_cone import GrainCone
-from .instruments import CONE_ANGLE, cone_curve, instrument_case, mean_radius, read_curve, ring_curve
-from .units import EARTH
+from .instruments import CONE_ANGLE, cone_curve, instrument_case, mean_radius, plate_curves, read_curve, ring_curve
 
 FEWEST_GRAINS = 10.0  # across a plate: below, single grains make the curve
 SIZES = (10.0, 13.0)  # diameters of the plates, in grains
@@ -181,45 +180,29 @@ class GrainBench:
 
     def plates(self, sizes: Sequence[float], seeds: Sequence[int]) -> list[PlateCurve]:
         """Round plates of these diameters [m] on each packing."""
-        cases = [
-            self._case(
-                "grain_plate",
-                plate_name(size),
-                seed,
-                {"size": size, "sinkage": SINKAGE * size, "speed": PLATE_SPEED * self.pace},
-            )
-            for seed in seeds
-            for size in sizes
-        ]
-        rows = [read_curve(run.folder) for run in self.executor.completed(cases)]
-        return [PlateCurve(0.5 * size, curve[:, 1], curve[:, 3]) for size, curve in zip([*sizes] * len(seeds), rows)]
+        speed = PLATE_SPEED * self.pace
+        values = {size: {"size": size, "sinkage": SINKAGE * size, "speed": speed} for size in sizes}
+        cases = [self._case("grain_plate", plate_name(size), seed, values[size]) for seed in seeds for size in sizes]
+        return plate_curves(self.executor, cases, [*sizes] * len(seeds))
 
     def rings(self, pressures: Sequence[float], seeds: Sequence[int]) -> list[ShearCurve]:
         """The ring under these mean pressures [Pa] on each packing."""
         write_ring(self.executor.results / "ring.stl", self.ground.diameter)
         outer, inner = (0.5 * part * self.ground.diameter for part in RING)
         middle, speed = mean_radius(outer, inner), RING_SPEED * self.pace
-        cases = [
-            self._case(
-                "grain_ring",
-                f"ring_{1e-3 * pressure:.3g}kPa",
-                seed,
-                {
-                    "load": pressure * math.pi * (outer**2 - inner**2),
-                    "press_speed": PRESS_SPEED * self.pace,
-                    "press_time": PRESS_TIME / self.pace,
-                    "spin": speed / middle,
-                    "angle": TURN * self.ground.diameter / middle,
-                },
-            )
-            for seed in seeds
-            for pressure in pressures
-        ]
+        every = [(seed, pressure) for seed in seeds for pressure in pressures]
+        cases = []
+        for seed, pressure in every:
+            values = {
+                "load": pressure * math.pi * (outer**2 - inner**2),
+                "press_speed": PRESS_SPEED * self.pace,
+                "press_time": PRESS_TIME / self.pace,
+                "spin": speed / middle,
+                "angle": TURN * self.ground.diameter / middle,
+            }
+            cases.append(self._case("grain_ring", f"ring_{1e-3 * pressure:.3g}kPa", seed, values))
         rows = [read_curve(run.folder) for run in self.executor.completed(cases)]
-        return [
-            ring_curve(curve, outer, inner, speed, pressure)
-            for pressure, curve in zip([*pressures] * len(seeds), rows)
-        ]
+        return [ring_curve(curve, outer, inner, speed, pressure) for (_, pressure), curve in zip(every, rows)]
 
     def cones(self, effort: Packings) -> list[GrainCone]:
         """Cones of several sizes on every packing, until the base is as deep as it is wide; none on

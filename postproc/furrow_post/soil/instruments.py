@@ -82,7 +82,12 @@ def plate_tests(bench: Bench, sizes: Sequence[float], sinkage: float, cells: int
         )
         for size in sizes
     ]
-    rows = [read_curve(run.folder) for run in bench.executor.completed(cases)]
+    return plate_curves(bench.executor, cases, sizes)
+
+
+def plate_curves(executor: Executor, cases: Sequence[Case], sizes: Sequence[float]) -> list[PlateCurve]:
+    """Curves of the plates of these cases, with their diameters [m]."""
+    rows = [read_curve(run.folder) for run in executor.completed(cases)]
     return [PlateCurve(0.5 * size, curve[:, 1], curve[:, 3]) for size, curve in zip(sizes, rows)]
 
 

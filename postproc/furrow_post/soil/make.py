@@ -14,10 +14,9 @@ from scipy.optimize import brentq
 
 from ..arrays import Floats
 from ..errors import ResultsError
-from ..read.soil_card import INDEX_DEPTH
-from .material import NewMaterial, Parameter
+from ..read.soil_card import EARTH, INDEX_DEPTH
+from .material import NewMaterial, Parameter, require_plausible
 from .oedometer import Confined
-from .units import EARTH, require_plausible
 
 POISSON = Parameter(0.25, "0.2 to 0.35 for soil", guessed=True)
 # Ratio of elastic to oedometric modulus: unloading modulus 3 times the secant modulus E_50, T. Schanz,
@@ -27,6 +26,8 @@ REFERENCE = 1e5  # [Pa] of the oedometric modulus
 EXPONENT = 0.5  # M = M_ref (sigma/REFERENCE)^EXPONENT, N. Janbu, ECSMFE (1963), sand
 STRESSES = (5e2, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5)  # [Pa] of a table
 SMALLEST_COHESION = 100.0  # [Pa] d that keeps a free surface together
+# density [kg/m3]
+LOOSE_SAND = Parameter(1600.0, "loose dry sand, K. Terzaghi and R. B. Peck (1967), Table 6.3", guessed=True)
 CAP = Parameter(0.02, "a steep cap: compression at the shear strength", guessed=True)  # R
 
 
@@ -164,6 +165,14 @@ def young_of(confined: Confined) -> Parameter:
     return Parameter(UNLOADING * steepest, f"{UNLOADING:g} times the steepest modulus", True)
 
 
+def given(name: str, value: float | None, otherwise: Parameter) -> Parameter:
+    """A number of the user, or one in its place. @raises ResultsError for a value that soils do not have"""
+    if value is None:
+        return otherwise
+    require_plausible(name, value)
+    return Parameter(value, "given")
+
+
 def compression(oedometer: Confined | None, young: float | None) -> Confined:
     """@raises ResultsError where neither is given"""
     if oedometer:
@@ -177,22 +186,13 @@ def from_strength(
     title: str, c: float, phi: float, density: float, oedometer: Confined | None, young: float | None
 ) -> NewMaterial:
     """c [Pa], phi [degrees], density [kg/m3], and an oedometer, E [Pa] or both."""
-    require_plausible("c", c)
-    require_plausible("phi", phi)
-    require_plausible("density", density)
-    if young is not None:
-        require_plausible("E", young)
+    for name, value in {"c": c, "phi": phi, "density": density, "E": young}.items():
+        if value is not None:
+            require_plausible(name, value)
     confined = compression(oedometer, young)
     elastic = Parameter(young, "given") if young is not None else young_of(confined)
-    strength = Strength(c, phi)
-    return material_of(
-        title,
-        strength,
-        Parameter(density, "given"),
-        confined,
-        elastic,
-        f"c {c:g} Pa, phi {phi:g} degrees",
-    )
+    origin = f"c {c:g} Pa, phi {phi:g} degrees"
+    return material_of(title, Strength(c, phi), Parameter(density, "given"), confined, elastic, origin)
 
 
 def from_bekker(
@@ -210,24 +210,11 @@ def from_bekker(
     which the material shall have the curve."""
     for name, value in (("k_c", k_c), ("k_phi", k_phi), ("Bekker's n", n), ("c", c), ("phi", phi), ("K", K)):
         require_plausible(name, value)
-    if density is not None:
-        require_plausible("density", density)
+    known = given("density", density, LOOSE_SAND)
     confined = confined_of_plate(k_c, k_phi, n, radius)
-    known = (
-        Parameter(density, "given")
-        if density is not None
-        else Parameter(1600.0, "loose dry sand, K. Terzaghi and R. B. Peck (1967), Table 6.3", True)
-    )
     head = (f"K = {K:g} m is not used: the law has no length. The displacement follows from E.",)
-    return material_of(
-        title,
-        Strength(c, phi),
-        known,
-        confined,
-        young_of(confined),
-        f"c {c:g} Pa, phi {phi:g} degrees",
-        head=head,
-    )
+    origin = f"c {c:g} Pa, phi {phi:g} degrees"
+    return material_of(title, Strength(c, phi), known, confined, young_of(confined), origin, head=head)
 
 
 @dataclass(frozen=True)
@@ -305,11 +292,7 @@ def from_cone(title: str, cone_index: float, soil_class: str, density: float | N
         )
     typical = CLASSES[soil_class]
     source = f"typical of {soil_class}, NAVFAC DM-7.02 (1986), Table 1"
-    if density is not None:
-        require_plausible("density", density)
-        known = Parameter(density, "given")
-    else:
-        known = Parameter(typical.density, source, True)
+    known = given("density", density, Parameter(typical.density, source, True))
     weight = float(known.value)
     young = MODULUS_RATIO * cone_index
     shear_modulus = young / (2 * (1 + float(POISSON.value)))
@@ -338,13 +321,5 @@ def from_cone(title: str, cone_index: float, soil_class: str, density: float | N
         f"cone index {cone_index:g} Pa in {soil_class}: c {strength.c:.4g} Pa, phi "
         f"{strength.phi:.4g} degrees, by the cavity of Vesic (1977){factor}",
     )
-    return material_of(
-        title,
-        strength,
-        known,
-        confined,
-        young_of(confined),
-        f"cone index {cone_index:g} Pa and {source}",
-        guessed_strength=True,
-        head=head,
-    )
+    origin = f"cone index {cone_index:g} Pa and {source}"
+    return material_of(title, strength, known, confined, young_of(confined), origin, guessed_strength=True, head=head)

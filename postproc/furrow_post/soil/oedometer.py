@@ -1,22 +1,28 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""An oedometer test from a laboratory's table."""
+"""An oedometer test from a laboratory's table, and the same test on a material point."""
 
 import math
-from collections.abc import Callable
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from ..analyse.measurements import Column, read_as, read_columns
+from ..analyse.point_curves import PointPaths
+from ..analyse.statistics import rms
 from ..arrays import Floats
 from ..errors import ResultsError
-from .units import require_plausible
+from .material import require_plausible
 
 NEEDS = (
     "an oedometer is a table with a column of the stress, such as stress_kPa, and one of the strain (%) or of the "
     "void ratio"
 )
+# keys of columns
+STRESS = re.compile("stress|sigma|pressure|^[ps]$")
+STRAIN = re.compile("strain|^eps")
+VOID_RATIO = re.compile("^(e|voidratio|void)$")
 
 
 @dataclass(frozen=True)
@@ -39,9 +45,9 @@ def read_oedometer(path: Path) -> Confined:
     if not path.is_file():
         raise FileNotFoundError(2, "No such file", str(path))
     columns = read_columns(path)
-    stress_column = _find(path, columns, "stress", _is_stress)
-    strain_column = _find(path, columns, "strain", _is_strain, required=False)
-    ratio_column = None if strain_column else _find(path, columns, "strain", _is_void_ratio)
+    stress_column = _find(path, columns, "stress", STRESS)
+    strain_column = _find(path, columns, "strain", STRAIN, required=False)
+    ratio_column = None if strain_column else _find(path, columns, "strain", VOID_RATIO)
     other = strain_column or ratio_column
     assert stress_column and other
     stress, compression = (c.values for c in read_as(path, {stress_column.heading: "Pa", other.heading: ""}))
@@ -98,13 +104,8 @@ def _confined(path: Path, stress: Floats, strain: Floats, notes: tuple[str, ...]
 
 def _falling(stress: Floats) -> list[tuple[int, int]]:
     """First and last row of each stretch of falling stress."""
-    branches, begin = [], 0
-    for row in range(1, len(stress) + 1):
-        if row == len(stress) or stress[row] >= stress[row - 1]:
-            if row - 1 > begin:
-                branches.append((begin, row - 1))
-            begin = row
-    return branches
+    falls = np.concatenate([[False], np.diff(stress) < 0, [False]]).astype(int)
+    return list(zip(np.flatnonzero(np.diff(falls) == 1), np.flatnonzero(np.diff(falls) == -1)))
 
 
 def _positive(path: Path, name: str, values: Floats, notes: list[str]) -> Floats:
@@ -117,22 +118,10 @@ def _positive(path: Path, name: str, values: Floats, notes: list[str]) -> Floats
     return values
 
 
-def _is_stress(column: Column) -> bool:
-    return any(part in column.key for part in ("stress", "sigma", "pressure")) or column.key in ("p", "s")
-
-
-def _is_strain(column: Column) -> bool:
-    return "strain" in column.key or column.key.startswith("eps")
-
-
-def _is_void_ratio(column: Column) -> bool:
-    return column.key in ("e", "voidratio", "void")
-
-
 def _find(
-    path: Path, columns: list[Column], what: str, fits: Callable[[Column], bool], required: bool = True
+    path: Path, columns: list[Column], what: str, keys: re.Pattern[str], required: bool = True
 ) -> Column | None:
-    found = [column for column in columns if fits(column)]
+    found = [column for column in columns if keys.search(column.key)]
     if len(found) > 1:
         names = ", ".join(f"'{column.heading}'" for column in found)
         raise ResultsError(f"{path}: has the columns {names}, which may all be the {what}; leave one")
@@ -140,3 +129,20 @@ def _find(
         names = ", ".join(f"'{column.heading}'" for column in columns) or "none of numbers"
         raise ResultsError(f"{path}: has no column of the {what}; it has {names}; {NEEDS}")
     return found[0] if found else None
+
+
+def confined_strain(material: Path, stresses: tuple[float, ...]) -> Floats:
+    """Strain (a ratio) at these axial stresses [Pa]. @raises ResultsError where furrow-point stops"""
+    path = f"{{type: confined, stress: {list(stresses)}, steps: 40}}"
+    with PointPaths() as paths:
+        columns = paths(material, path)
+    strain: Floats = np.interp(
+        stresses, columns["axial_stress"], -np.expm1(-columns["axial_strain"])
+    )
+    return strain
+
+
+def oedometer_misfit(material: Path, oedometer: Confined) -> float:
+    """rms of virtual less measured strain over the greatest measured one."""
+    difference = confined_strain(material, oedometer.stress) - np.array(oedometer.strain)
+    return rms(difference) / oedometer.strain[-1]

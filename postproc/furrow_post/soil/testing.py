@@ -27,8 +27,7 @@ from .instruments import (
     ring_tests,
 )
 from .card_page import Curves, draw_card, write_page
-from .material import read_contact
-from .units import usual_ranges
+from .material import read_contact, usual_ranges
 
 Part = TypeVar("Part")
 SINKAGE = 0.3  # of the diameter

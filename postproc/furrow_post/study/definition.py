@@ -31,9 +31,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from ..errors import ResultsError
-from ..run.case import FOLDER, Case, Value
-from ..run.case import point_case, script_case
+from ..errors import ResultsError, refuse_others
+from ..run.case import FOLDER, Case, Value, point_case, script_case
 from ..run.tools import project_root
 from .values import DEFINITION, load_yaml
 
@@ -111,8 +110,7 @@ def _case(
     folder: Path, stage: str, name: str, run: Mapping[str, Any], texts: Mapping[str, str]
 ) -> Case:
     where = f"{folder / DEFINITION}: run '{name}'"
-    if unknown := set(run) - KEYS:
-        raise ResultsError(f"{where} has unknown keys {sorted(unknown)}; allowed are {sorted(KEYS)}")
+    refuse_others(where, run, KEYS)
     if sum(run.get(key) is not None for key in ("script", "point", "program")) != 1:
         raise ResultsError(f"{where}: give one of script, point, program")
     inputs = project_root(folder / DEFINITION) / "inputs"
@@ -130,19 +128,17 @@ def _case(
         is_path = value.startswith("{") and text.startswith("/") and " " not in text
         return Path(text) if is_path else text
 
-    more: dict[str, Any] = {
-        key: run[key] for key in ("what", "time_limit", "may_fail", "ranks") if key in run
-    }
-    more["stage"] = "" if stage == "all" else stage
-    more["fallback"] = {key: filled(value) for key, value in (run.get("fallback") or {}).items()}
+    def all_filled(key: str) -> dict[str, Any]:
+        return {name: filled(value) for name, value in (run.get(key) or {}).items()}
+
+    variables: dict[str, Value] = all_filled("variables")
+    files = {name: str(filled(texts.get(text, text))) for name, text in all_filled("files").items()}
+    for name_of_file, text in files.items():
+        if text.startswith("="):  # a study may hold programs
+            files[name_of_file] = str(eval(text[1:], dict(vars(evaluation_of(folder)))))
+    more: dict[str, Any] = {key: run[key] for key in ("what", "time_limit", "may_fail", "ranks") if key in run}
+    more |= {"stage": "" if stage == "all" else stage, "fallback": all_filled("fallback"), "files": files}
     more["reads"] = tuple(filled(value) for value in run.get("reads") or ())
-    files = {key: str(filled(text)) for key, text in (run.get("files") or {}).items()}
-    more["files"] = {key: str(filled(texts.get(text, text))) for key, text in files.items()}
-    for key, text in more["files"].items():
-        if text.startswith("="):
-            functions = dict(vars(evaluation_of(folder)))
-            more["files"][key] = str(eval(text[1:], functions))  # a study may hold programs
-    variables: dict[str, Value] = {k: filled(v) for k, v in (run.get("variables") or {}).items()}
     if names := run.get("shares"):
         own = run.get("variables") or {}
         more["shares"] = (run.get("script"), *(str(own.get(key, "")) for key in names))
@@ -151,10 +147,9 @@ def _case(
         script = script if isinstance(script, Path) or FOLDER in str(script) else folder / script
         return script_case(name, script, variables, log=bool(run.get("log")), **more)
     if run.get("point") is not None:
-        point = {key: filled(value) for key, value in run["point"].items()}
-        texts_of_run = more.pop("files")
-        title = str(point.get("title", name))
-        case = point_case(name, title, Path(point["material"]), str(point["path"]), **more)
-        return replace(case, files={**case.files, **texts_of_run})
+        point = all_filled("point")
+        del more["files"]
+        case = point_case(name, str(point.get("title", name)), Path(point["material"]), str(point["path"]), **more)
+        return replace(case, files={**case.files, **files})
     arguments = tuple(filled(word) for word in run.get("arguments") or ())
     return Case(name, run["program"], arguments, variables, **more)

@@ -11,6 +11,7 @@ from ..run.tools import answer
 
 __all__ = ["Run", "Runs"]  # what evaluations import
 
+
 class Runs:
     """Runs of all cases of a study."""
 
@@ -20,8 +21,7 @@ class Runs:
     def ended(self, *names: str) -> list[Run]:
         """Whose stage or name is among names, which may be patterns, in the order of the study."""
         chosen = [c for c in self.cases if any(n == c.stage or fnmatch.fnmatchcase(c.name, n) for n in names)]
-        found = ((case, self.executor.ended(case)) for case in chosen)
-        return [Run(case, self.executor.folder(case), record) for case, record in found if record]
+        return [run for case in chosen if (run := self.executor.ended(case))]
 
     def done(self, *names: str) -> list[Run]:
         """The same, without those that failed."""

@@ -10,10 +10,10 @@ from typing import Any
 
 from ..errors import ResultsError
 from ..run.case import Case
+from ..run.executor import Executor
 from ..run.tools import Tools
-from .study_files import Output
-from ..run.executor import Executor, State
 from .runs import Runs
+from .study_files import Output
 
 Evaluation = Callable[[Runs, Output], Sequence[str]]
 
@@ -72,34 +72,28 @@ def carry_out(study: Study, parsed: Any) -> int:
     return _evaluate(study, executor, chosen, parsed.check, parsed.merge)
 
 
-def _evaluate(
-    study: Study, executor: Executor, chosen: Sequence[Case], check: bool, merge: bool
-) -> int:
+def _evaluate(study: Study, executor: Executor, chosen: Sequence[Case], check: bool, merge: bool) -> int:
     """Tables go beside the driver when they are complete, else into the results folder."""
-    states = [executor.state(case) for case in study.cases]
-    complete = not states or State.DONE in states and all(
-        state is State.DONE or (state is State.FAILED and case.may_fail)
-        for case, state in zip(study.cases, states)
+    ended = {case.name: run for case in study.cases if (run := executor.ended(case))}
+    done = [run for run in ended.values() if not run.error]
+    complete = not study.cases or bool(done) and all(
+        case.name in ended and (case.may_fail or not ended[case.name].error) for case in study.cases
     )
     merge = merge and not complete and not check
     beside = (complete or merge) and not check
     with Output(study.folder if beside else executor.results, page=beside, merge=merge) as output:
         missed = list(study.evaluate(Runs(study.cases, executor), output))
-        records = [record for case in study.cases if (record := executor.record(case))]
-        output.publish(records, executor.tools.root)
+        output.publish([run.record for run in done], executor.tools.root)
     if not beside:
-        done = states.count(State.DONE)
-        print(f"{done} of {len(states)} runs are there; tables are in {output.folder}")
-    failed = [case for case in chosen if executor.state(case) is State.FAILED]
-    for case in failed:
-        failure = executor.failure(case)
-        print(f"FAILED: {case.name}: {failure.error if failure else ''}", file=sys.stderr)
-    unexpected = any(not case.may_fail for case in failed)
-    for sentence in missed:
-        print(f"MISSED: {sentence}", file=sys.stderr)
-    if not check:
-        return 1 if unexpected else 0
-    absent = [case for case in chosen if executor.state(case) is State.MISSING]
-    for case in absent:
-        print(f"MISSED: {case.name} was not run", file=sys.stderr)
-    return 1 if unexpected or missed or absent else 0
+        print(f"{len(done)} of {len(study.cases)} runs are there; tables are in {output.folder}")
+    failed = [ended[case.name] for case in chosen if case.name in ended and ended[case.name].error]
+    absent = [case.name for case in chosen if case.name not in ended] if check else []
+    lines = [
+        *(f"FAILED: {run.name}: {run.error}" for run in failed),
+        *(f"MISSED: {sentence}" for sentence in missed),
+        *(f"MISSED: {name} was not run" for name in absent),
+    ]
+    for line in lines:
+        print(line, file=sys.stderr)
+    unexpected = any(not run.case.may_fail for run in failed)
+    return 1 if unexpected or check and (missed or absent) else 0

@@ -8,10 +8,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..csv_table import read_rows, write_rows
+from ..csv_table import aligned, read_rows, write_rows
 from .provenance import origin, read_origins, update_origins
 from ..run.record import Record
-from .tables import aligned
 
 PAGE, SECTION = "README.md", "tables.md"
 BEGIN, END = "<!-- written by the study -->", "<!-- end -->"

@@ -8,7 +8,7 @@ that has the given texts. The tables lie beside the study.yaml.
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ from typing import Any
 import yaml
 
 from ..csv_table import read_rows
-from ..errors import ResultsError, content_of
+from ..errors import ResultsError, content_of, refuse_others
 
 DEFINITION = "study.yaml"
 RESULTS = "results.csv"  # table of a value that names none
@@ -25,6 +25,7 @@ REFERENCES = ("measured", "report", "formula", "ours", "program")  # who gives t
 SOURCES = (  # of errors
     "time average", "cells", "grain size", "domain", "packings", "parameters", "contact", "tests", "none",
 )  # fmt: skip
+TABLE = "table of the study"  # source of an error that has no parts
 NOT_ESTIMATED = "not estimated"
 AGREES, NEAR = 0.10, 0.25  # relative differences
 COVERAGE = 2.0  # standard errors within which values may differ
@@ -100,7 +101,7 @@ class Stored:
 class Part:
     """One part of a standard error: a number, a stored one, or the distance between two stored ones.
 
-    of: one of SOURCES; tests: their number where the value is an rms over tests, whose error is
+    of: one of SOURCES, or TABLE; tests: their number where the value is an rms over tests, whose error is
     the rms over the root of twice the number.
     """
 
@@ -126,9 +127,8 @@ class Value:
 
     id: str
     stored: Stored | None = None
-    error: float | Stored | tuple[Part, ...] | None = None  # standard error, of parts their root sum square
+    error: tuple[Part, ...] | None = None  # of the standard error, their root sum square; None: not estimated
     over: Stored | None = None  # divides the stored number: the value is a ratio
-    next: Stored | None = None  # the same with the next size of cells: its distance is the error
     unit: str = ""
     place: str = ""  # page, table or figure of the source
     group: str = ""
@@ -159,13 +159,7 @@ class Value:
 
     def uncertainty(self) -> float | None:
         """Standard error of the computed value; None where it is not known."""
-        if isinstance(self.error, tuple):
-            return self._sum(self.error)
-        if isinstance(self.error, Stored):
-            return abs(self.error.read())
-        if self.error is not None or self.next is None or self.stored is None:
-            return self.error
-        return abs(self.next.read() - self.stored.read())
+        return None if self.error is None else self._sum(self.error)
 
     def _sum(self, parts: Sequence[Part]) -> float:
         value = self.computed() or 0.0
@@ -173,17 +167,11 @@ class Value:
 
     def time_error(self) -> float:
         """The part of the error that a repeated run may show."""
-        if isinstance(self.error, tuple):
-            return self._sum([part for part in self.error if part.of == "time average"])
-        return (self.uncertainty() or 0.0) if self.error is not None else 0.0
+        return self._sum([part for part in self.error or () if part.of in ("time average", TABLE)])
 
     def sources(self) -> str:
         """Where the error comes from."""
-        if isinstance(self.error, tuple):
-            return "; ".join(part.of for part in self.error)
-        if self.error is not None:
-            return "table of the study"
-        return "cells" if self.next else ""
+        return "; ".join(part.of for part in self.error or ())
 
     def expected(self) -> float | None:
         return self.reference.read() if isinstance(self.reference, Stored) else self.reference
@@ -208,8 +196,7 @@ class Value:
 
     def row(self) -> dict[str, str]:
         """Row of experiments.csv."""
-        cost = self.cost.read() if self.cost else None
-        verdict = self.verdict()
+        verdict, error = self.verdict(), self.uncertainty()
         return {
             "id": self.id,
             "group": self.group,
@@ -218,7 +205,7 @@ class Value:
             "quantity": self.quantity,
             "unit": self.unit,
             "computed": number(self.computed(), 4),
-            "error": self._error_text(),
+            "error": NOT_ESTIMATED if self.stored and error is None else number(error, 2),
             "error_of": self.sources() if self.stored else "",
             "reference": number(self.expected(), 4),
             "reference_error": number(self.expected_error() or None, 2),
@@ -229,16 +216,10 @@ class Value:
             "verdict": verdict,
             "study": self.study,
             "hours": self.hours,
-            "core_s": number(cost),
+            "core_s": number(self.cost.read() if self.cost else None),
             "remark": self.remark,
             "reason": self.reason if verdict in NEED_REASON else "",
         }
-
-
-    def _error_text(self) -> str:
-        if self.stored and self.uncertainty() is None:
-            return NOT_ESTIMATED
-        return number(self.uncertainty(), 2)
 
 
 def number(value: float | None, digits: int = 3) -> str:
@@ -275,81 +256,79 @@ def load_yaml(path: Path) -> dict[str, Any]:
     return content
 
 
-@dataclass(frozen=True)
-class _Reader:
-    """Turns entries of `values` into Values; folder: of the study."""
+STORED_KEYS = ("table", "row", "column", "scale")
+ALLOWED = {
+    "label": LABELS, "reference_of": ("", *REFERENCES), "limit": ("", "upper", "lower"), "without": VERDICTS,
+}  # fmt: skip
 
-    folder: Path
-    name: str
 
-    def stored(self, entry: Any, like: Stored | None, key: str) -> Stored:
-        """entry: a mapping with table, row, column, scale; what it lacks is as in like."""
-        if not isinstance(entry, Mapping):
-            entry = {"column": entry}
-        unknown = set(entry) - {"table", "row", "column", "scale"}
-        if unknown:
-            raise ResultsError(
-                f"{self.folder / DEFINITION}: {key} has unknown keys {sorted(unknown)}; "
-                "allowed are table, row, column, scale"
-            )
-        table = entry.get("table") or (like.table.name if like else RESULTS)
-        row = entry.get("row", like.row if like else {})
-        return Stored(
-            self.folder / str(table),
-            {str(name): str(text) for name, text in row.items()},
-            str(entry.get("column") or (like.column if like else "")),
-            float(entry.get("scale", like.scale if like else 1.0)),
-        )
+def _stored(folder: Path, entry: Any, like: Stored | None, where: str) -> Stored:
+    """entry: a mapping with STORED_KEYS, or a column; keys that it lacks are as in like."""
+    if not isinstance(entry, Mapping):
+        entry = {"column": entry}
+    refuse_others(where, entry, STORED_KEYS)
+    like = like or Stored(folder / RESULTS, {}, "")
+    return Stored(
+        folder / str(entry.get("table") or like.table.name),
+        {str(name): str(text) for name, text in entry.get("row", like.row).items()},
+        str(entry.get("column") or like.column),
+        float(entry.get("scale", like.scale)),
+    )
 
-    def part(self, entry: Mapping[str, Any], like: Stored | None, where: str) -> Part:
-        """entry: `of` with value, or between (two stored numbers), or tests, or a stored number."""
-        of, rest = entry.get("of", ""), {k: v for k, v in entry.items() if k != "of"}
-        if of not in SOURCES:
-            raise ResultsError(f"{where}: of, of a part of its error, is one of {', '.join(SOURCES)}")
-        if set(rest) == {"tests"}:
-            return Part(of, tests=int(rest["tests"]))
-        if set(rest) == {"value"} or not rest:
-            return Part(of, float(rest.get("value", 0.0)))
-        if set(rest) == {"between"} and len(rest["between"]) == 2:
-            first, second = (self.stored(one, like, f"{where}: error") for one in rest["between"])
-            return Part(of, first, second)
-        return Part(of, self.stored(rest, like, f"{where}: error"))
 
-    def value(self, entry: Mapping[str, Any]) -> Value:
-        known = {item.name for item in fields(Value)} | {"table", "row", "column", "scale"}
-        where = f"{self.folder / DEFINITION}: value '{entry.get('id', '')}'"
-        if unknown := set(entry) - known:
-            raise ResultsError(f"{where} has unknown keys {sorted(unknown)}; allowed are {sorted(known)}")
-        if not entry.get("id"):
-            raise ResultsError(f"{where} has no id; give each value one")
-        given = {k: v for k, v in entry.items() if k not in ("table", "row", "column", "scale")}
-        given["id"] = f"{self.name}.{entry['id']}"
-        stored = self.stored(
-            {k: entry[k] for k in ("table", "row", "column", "scale") if k in entry}, None, where
-        ) if "column" in entry else None
-        given["stored"] = stored
-        if isinstance(given.get("error"), Sequence) and not isinstance(given["error"], str):
-            given["error"] = tuple(self.part(entry, stored, where) for entry in given["error"])
-        for key in ("error", "over", "next", "reference", "cost"):
-            if key in given and not isinstance(given[key], tuple) and not isinstance(given[key], (int, float)):
-                one = self.stored(given[key], stored, f"{where}: {key}")
-                if key == "cost" and isinstance(given[key], str):  # in seconds, whatever the value
-                    one = Stored(one.table, one.row, one.column)
-                given[key] = one
-        value = Value(**given)
-        if value.over and value.next:
-            raise ResultsError(f"{where}: next is no error of a ratio; give error in place of it")
-        for key, allowed in (("label", LABELS), ("reference_of", ("", *REFERENCES)),
-                             ("limit", ("", "upper", "lower")), ("without", VERDICTS)):
-            if getattr(value, key) not in allowed:
-                raise ResultsError(f"{where}: {key} is one of {', '.join(filter(None, allowed))}")
-        return value
+def _part(folder: Path, entry: Mapping[str, Any], like: Stored | None, where: str) -> Part:
+    """entry: `of` with value, or between (two stored numbers), or tests, or a stored number."""
+    of, rest = entry.get("of", ""), {k: v for k, v in entry.items() if k != "of"}
+    if of not in SOURCES:
+        raise ResultsError(f"{where}: of, of a part of its error, is one of {', '.join(SOURCES)}")
+    if set(rest) == {"tests"}:
+        return Part(of, tests=int(rest["tests"]))
+    if set(rest) == {"value"} or not rest:
+        return Part(of, float(rest.get("value", 0.0)))
+    if set(rest) == {"between"} and len(rest["between"]) == 2:
+        first, second = (_stored(folder, one, like, f"{where}: error") for one in rest["between"])
+        return Part(of, first, second)
+    return Part(of, _stored(folder, rest, like, f"{where}: error"))
+
+
+def _error(folder: Path, given: dict[str, Any], stored: Stored | None, where: str) -> tuple[Part, ...] | None:
+    """Parts of the keys error and next: the same with the next size of cells, whose distance is the error."""
+    error, following = given.pop("error", None), given.pop("next", None)
+    if error is None and following is not None and stored:
+        return (Part("cells", _stored(folder, following, stored, f"{where}: next"), stored),)
+    if isinstance(error, list):
+        return tuple(_part(folder, entry, stored, where) for entry in error)
+    if error is None or isinstance(error, (int, float)):
+        return None if error is None else (Part(TABLE, error),)
+    return (Part(TABLE, _stored(folder, error, stored, f"{where}: error")),)
+
+
+def _value(folder: Path, entry: Mapping[str, Any]) -> Value:
+    where = f"{folder / DEFINITION}: value '{entry.get('id', '')}'"
+    refuse_others(where, entry, {*(item.name for item in fields(Value)), "next", *STORED_KEYS})
+    if not entry.get("id"):
+        raise ResultsError(f"{where} has no id; give each value one")
+    if "over" in entry and "next" in entry:
+        raise ResultsError(f"{where}: next is no error of a ratio; give error in place of it")
+    given = {k: v for k, v in entry.items() if k not in STORED_KEYS}
+    own = {k: entry[k] for k in STORED_KEYS if k in entry}
+    stored = _stored(folder, own, None, where) if "column" in entry else None
+    given |= {"id": f"{folder.name}.{entry['id']}", "stored": stored, "error": _error(folder, given, stored, where)}
+    for key in ("over", "reference", "cost"):
+        if key in given and not isinstance(given[key], (int, float)):
+            one = _stored(folder, given[key], stored, f"{where}: {key}")
+            # a cost is in seconds and has no scale
+            given[key] = replace(one, scale=1.0) if key == "cost" and isinstance(given[key], str) else one
+    value = Value(**given)
+    for key, allowed in ALLOWED.items():
+        if getattr(value, key) not in allowed:
+            raise ResultsError(f"{where}: {key} is one of {', '.join(filter(None, allowed))}")
+    return value
 
 
 def values_of(folder: Path) -> list[Value]:
     """Values of the study in this folder. @raises ResultsError"""
-    reader = _Reader(folder, folder.name)
-    return [reader.value(entry) for entry in load_yaml(folder / DEFINITION).get("values") or []]
+    return [_value(folder, entry) for entry in load_yaml(folder / DEFINITION).get("values") or []]
 
 
 def study_folders(root: Path) -> list[Path]:

@@ -37,48 +37,35 @@ class Vehicle:
     power: float = math.inf  # [W]
 
 
-@dataclass(frozen=True)
-class Mobility:
-    """Mobility of each cell. SI units."""
-
-    probability: Floats  # that the wheel climbs
-    pull: Floats  # [N], that remains at the wanted speed, 0 where it does not climb
-    energy: Floats  # [J/m], NaN where it does not climb, as all below
-    speed: Floats  # [m/s]
-    slip: Floats
-    hub_drop: Floats  # [m]
+UNITS = {  # of the mobility of a cell
+    "probability": "",  # that the wheel climbs
+    "pull": "N",  # that remains at the wanted speed, 0 where it does not climb
+    "energy": "J/m",  # NaN where it does not climb, as all below
+    "speed": "m/s",
+    "slip": "",
+    "hub_drop": "m",
+}
 
 
-def evaluate(
-    surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats]
-) -> dict[str, Floats]:
+def evaluate(surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats]) -> dict[str, Floats]:
     """Smooth fields over cells. ground: "slope" in degrees and all inputs but slip and load.
 
     Where the wheel does not climb, slip, energy and sinkage are those of the best pull.
     """
-    cells = len(ground["slope"])
-    parts = [
-        _evaluate(
-            surrogate,
-            vehicle,
-            {name: values[k : k + CHUNK // SLIPS] for name, values in ground.items()},
-        )
-        for k in range(0, cells, CHUNK // SLIPS)
-    ]
+    some = CHUNK // SLIPS
+    starts = range(0, len(ground["slope"]), some)
+    chunks = ({name: values[k : k + some] for name, values in ground.items()} for k in starts)
+    parts = [_evaluate(surrogate, vehicle, chunk) for chunk in chunks]
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
-def _evaluate(
-    surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats]
-) -> dict[str, Floats]:
+def _evaluate(surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats]) -> dict[str, Floats]:
     slip_range = surrogate.inputs[surrogate.names.index("slip")]
     slip = np.linspace(slip_range.low, slip_range.high, SLIPS)
     tilt = np.radians(ground["slope"])
     load = vehicle.load * np.cos(tilt)
-    carried = (
-        np.full_like(load, vehicle.load) if "slope" in surrogate.names else load
-    )  # the rig tilts it
-    known = {**ground, "load": carried}
+    # the rig tilts the load of a surrogate over slopes
+    known = {**ground, "load": np.full_like(load, vehicle.load) if "slope" in surrogate.names else load}
     values = {name: known[name][:, None] for name in surrogate.names if name != "slip"}
     x = surrogate.scaled({**values, "slip": slip[None, :]})
     flat = x.reshape(-1, x.shape[-1])
@@ -120,23 +107,20 @@ def _rim_over_speed(slip: Floats) -> Floats:
     return np.where(slip >= 0, 1 / (1 - np.clip(slip, 0, 1)), 1 + np.minimum(slip, 0))
 
 
-def mobility_of(fields: Mapping[str, Floats], vehicle: Vehicle, slope: Floats) -> Mobility:
-    """slope [degrees]"""
+def mobility_of(fields: Mapping[str, Floats], vehicle: Vehicle, slope: Floats) -> dict[str, Floats]:
+    """Mobility of each cell, by the names of UNITS. slope [degrees]"""
     tilt = np.radians(slope)
     load, need = vehicle.load * np.cos(tilt), np.tan(tilt)
-    probability = ndtr((fields["best"] - need) / fields["deviation"])
     climbs = fields["best"] >= need
-
-    def where(values: Floats) -> Floats:
-        return np.where(climbs, values, np.nan)
-
     energy = np.maximum(load * fields["energy"], 0.0)
     with np.errstate(divide="ignore"):
         speed = np.minimum(vehicle.speed, vehicle.power / energy)
-    pull = np.where(climbs, np.maximum(load * (fields["pull"] - need), 0.0), 0.0)
-    return Mobility(
-        probability, pull, where(energy), where(speed), where(fields["slip"]), where(fields["drop"])
-    )
+    moving = {"energy": energy, "speed": speed, "slip": fields["slip"], "hub_drop": fields["drop"]}
+    return {
+        "probability": ndtr((fields["best"] - need) / fields["deviation"]),
+        "pull": np.where(climbs, np.maximum(load * (fields["pull"] - need), 0.0), 0.0),
+        **{name: np.where(climbs, values, np.nan) for name, values in moving.items()},
+    }
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@
 import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -102,10 +102,7 @@ class Surrogate:
             "constants": dict(self.constants),
             "inputs": [
                 {
-                    "name": one.name,
-                    "unit": one.unit,
-                    "low": one.low,
-                    "high": one.high,
+                    **asdict(one),
                     "scale": "logarithmic" if one.logarithmic else "linear",
                     "values": one.physical(first.x[:, k]).tolist(),
                 }

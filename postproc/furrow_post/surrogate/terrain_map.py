@@ -7,13 +7,14 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+import pandas
 from matplotlib.colors import BoundaryNorm, ListedColormap
 
 from ..arrays import Booleans, Floats
 from ..csv_table import in_cells, read_numbers, write_rows
 from ..errors import ResultsError
 from ..figures.style import annotate_panel, panel_letters, save, use_style
-from .mobility import Vehicle, evaluate, mobility_of, tabulate
+from .mobility import UNITS, Vehicle, evaluate, mobility_of, tabulate
 from .model import Surrogate
 from .raster import Raster, write_geotiff
 
@@ -42,8 +43,7 @@ def make_map(
 ) -> Map:
     """rasters: parameter -> values; fixed: cells (None: all) and the parameters that they share"""
     shape = slope.values.shape
-    names = ("probability", "pull", "energy", "speed", "slip", "hub_drop")
-    found = {name: np.full(shape, np.nan) for name in names}
+    found = {name: np.full(shape, np.nan) for name in UNITS}
     notes: list[str] = []
     outside = 0
     for cells, constants in fixed:
@@ -59,8 +59,8 @@ def make_map(
         here |= {name: np.full_like(here["slope"], value) for name, value in constants.items()}
         table = tabulate(surrogate, vehicle, here)
         result = mobility_of(table.at(here), vehicle, here["slope"])
-        for name in names:
-            found[name][usable] = getattr(result, name)
+        for name, values in result.items():
+            found[name][usable] = values
         notes.append(
             f"table of {table.nodes} nodes over {', '.join(table.axes)}: rms error "
             f"{table.errors['best']:.2g} standard deviations of the pull, energy {100 * table.errors['energy']:.2g} %"
@@ -70,15 +70,9 @@ def make_map(
             f"{outside} of {slope.values.size} cells lie outside of the training ranges: no data"
         )
     chance = found["probability"]
-    verdict = np.where(
-        chance >= confidence, GO, np.where(chance <= 1 - confidence, NO_GO, UNCERTAIN)
-    )
-    verdict[np.isnan(chance)] = np.nan
-    units = ("", "N", "J/m", "m/s", "", "m")
-    bands = {
-        "verdict": (verdict, ""),
-        **{name: (found[name], unit) for name, unit in zip(names, units)},
-    }
+    cases = {np.nan: np.isnan(chance), GO: chance >= confidence, NO_GO: chance <= 1 - confidence}
+    verdict = np.select(list(cases.values()), list(cases), UNCERTAIN)
+    bands = {"verdict": (verdict, ""), **{name: (found[name], unit) for name, unit in UNITS.items()}}
     return Map(verdict, bands, tuple(notes))
 
 
@@ -124,13 +118,14 @@ def draw_map(result: Map, like: Raster, target: Path) -> None:
     x0, dx, _, y0, _, dy = like.transform
     extent = np.array([x0, x0 + columns * dx, y0 + rows * dy, y0]) / 1e3
     colours = ListedColormap(["#a3264f", "#f0b55e", "#4d8a4a"])
-    shown = (
-        ("go, uncertain, no-go", result.verdict, colours),
-        ("drawbar pull that remains [N]", result.bands["pull"][0], "viridis"),
-        ("energy per distance [J/m]", result.bands["energy"][0], "magma_r"),
-        ("probability of go", result.bands["probability"][0], "RdYlGn"),
-    )
-    for axes, letter, (title, values, colour) in zip(panels.flat, panel_letters(), shown):
+    shown = {
+        "verdict": ("go, uncertain, no-go", colours),
+        "pull": ("drawbar pull that remains [N]", "viridis"),
+        "energy": ("energy per distance [J/m]", "magma_r"),
+        "probability": ("probability of go", "RdYlGn"),
+    }
+    for axes, letter, (name, (title, colour)) in zip(panels.flat, panel_letters(), shown.items()):
+        values, _ = result.bands[name]
         norm = BoundaryNorm([-0.5, 0.5, 1.5, 2.5], 3) if colour is colours else None
         axes.set_facecolor("0.85")
         image = axes.imshow(
@@ -152,11 +147,9 @@ def write_mobility_table(
     file: Path, surrogate: Surrogate, vehicle: Vehicle, soils: Mapping[str, Mapping[str, float]]
 ) -> int:
     """A row per soil and slope, for tools that read speed, go and pull by soil and slope. @return rows"""
-    rows = []
     inside = SLOPES[_inside(surrogate, vehicle, {"slope": SLOPES})]
-    if not len(inside):
-        soils = {}
-    for soil, parameters in soils.items():
+    tables = []
+    for soil, parameters in soils.items() if len(inside) else ():
         constants = {name: np.full(len(inside), value) for name, value in parameters.items()}
         fields = evaluate(surrogate, vehicle, {"slope": inside, **constants})
         result = mobility_of(fields, vehicle, inside)
@@ -166,22 +159,19 @@ def write_mobility_table(
             "slope_degrees": inside,
             "traction_coefficient": fields["best"],
             "traction_deviation": fields["deviation"],
-            "go_probability": result.probability,
-            "pull_N": result.pull,
-            "speed_m_per_s": result.speed,
-            "energy_J_per_m": result.energy,
-            "slip": result.slip,
-            "hub_drop_m": result.hub_drop,
+            "go_probability": result["probability"],
+            "pull_N": result["pull"],
+            "speed_m_per_s": result["speed"],
+            "energy_J_per_m": result["energy"],
+            "slip": result["slip"],
+            "hub_drop_m": result["hub_drop"],
         }
-        for values in np.column_stack(list(columns.values())).tolist():
-            rows.append({"soil": soil, **in_cells(dict(zip(columns, values)), 6)})
-    write_rows(
-        file,
-        rows,
-        (
-            f"# Mobility of one wheel of {vehicle.load:g} N at {vehicle.speed:g} m/s by a surrogate of Furrow.",
-            "# traction_coefficient: largest drawbar pull over load, with its standard deviation; pull: that remains",
-            "# on the slope; empty: the wheel does not climb. SI units, slope in per cent and degrees.",
-        ),
+        tables.append(pandas.DataFrame({"soil": soil, **columns}))
+    rows = [in_cells(row, 6) for table in tables for row in table.to_dict("records")]
+    comments = (
+        f"# Mobility of one wheel of {vehicle.load:g} N at {vehicle.speed:g} m/s by a surrogate of Furrow.",
+        "# traction_coefficient: largest drawbar pull over load, with its standard deviation; pull: that remains",
+        "# on the slope; empty: the wheel does not climb. SI units, slope in per cent and degrees.",
     )
+    write_rows(file, rows, comments)
     return len(rows)

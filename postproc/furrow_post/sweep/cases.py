@@ -7,15 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultsError
-from ..run.script import (
-    RESERVED,
-    ScriptVariables,
-    check_variables,
-    require_files,
-    script_variables,
-)
-from ..run.case import Case
-from .continued import RESULTS, scene_case
+from ..run.case import RESULTS, Case, scene_case
+from ..run.script import RESERVED, ScriptVariables, check_variables, require_files, script_variables
 from .sweep_plan import Plan, Point, points_of
 from .sampling import sampled
 from .sweep_values import further_seeds, parse_variables, product

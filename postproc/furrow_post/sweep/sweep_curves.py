@@ -10,8 +10,7 @@ import numpy as np
 from ..analyse.conditions import TOLERANCES, answers_of_ground, differ
 from ..errors import ResultsError
 from ..formatting import in_unit
-from .sweep_quantities import Value
-from .series import Series, SweepPoint
+from .series import Series, SweepPoint, Value
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from ..analyse.formulas import require_formulas
 from ..errors import ResultsError
 from ..figures.page import condition_rows, render
 from ..figures.resistance_parts import CAPTION as PARTS_CAPTION
-from ..study.tables import in_columns
+from ..csv_table import in_columns
 from .cone_band import ConeBand, cone_bands
 from .sweep_curves import Figure, arrange
 from .drawing import CAPTION, draw_parts_of_sweep, draw_sweep

@@ -11,7 +11,7 @@ from ..analyse.prediction import Prediction
 from ..analyse.formulas import predictions_for
 from ..errors import ResultsError
 from .sweep_curves import EFFICIENCY, HUB_DROP, PULL, RESISTANCE, TORQUE, Axis, Line
-from .sweep_quantities import speed_over_rim
+from .series import speed_over_rim
 
 
 @dataclass(frozen=True)
@@ -52,17 +52,11 @@ def _value(prediction: Prediction, y: Axis, radius: float) -> float:
     """NaN where the formula has none. Bekker and NRMM speak of wheels that are towed."""
     extra = {result.name: result.value for result in prediction.extra}
     pull, torque = extra.get("drawbar pull", math.nan), extra.get("torque", math.nan)
-    if y == HUB_DROP:
-        return prediction.sinkage
-    if y == RESISTANCE:
-        return prediction.coefficient
-    if y == PULL:
-        return pull / prediction.load
-    if y == TORQUE:
-        return torque / (prediction.load * radius)
     if y == EFFICIENCY and pull > 0 and torque > 0:
         return pull * radius / torque * speed_over_rim(extra["slip"])
-    return math.nan
+    known = {HUB_DROP: prediction.sinkage, RESISTANCE: prediction.coefficient}
+    known |= {PULL: pull / prediction.load, TORQUE: torque / (prediction.load * radius)}
+    return known.get(y, math.nan)
 
 
 def formula_lines(

@@ -5,7 +5,7 @@ import hashlib
 import itertools
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ..errors import ResultsError
@@ -113,11 +113,7 @@ def _safe(value: str) -> str:
 
 def further_seeds(first: int, count: int) -> list[int]:
     """The next primes: seeds of LIGGGHTS are prime numbers."""
-
-    def primes(above: int) -> Iterable[int]:
-        return (n for n in itertools.count(above + 1) if _is_prime(n))
-
-    return list(itertools.islice(primes(first), count))
+    return list(itertools.islice(filter(_is_prime, itertools.count(first + 1)), count))
 
 
 def _is_prime(n: int) -> bool:

@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 
 from ..analyse.budget import Budget
-from ..csv_table import column_names, in_cells, write_rows
+from ..csv_table import column_names, in_cells, number_or_text, write_rows
 from ..formatting import duration, value_text
 from .sweep_curves import CONDITIONS, Figure
 from .series import Series, SweepPoint
@@ -27,63 +27,34 @@ CSV_HEAD = (
 Cell = str | float
 
 
-def table_rows(series: Sequence[Series]) -> list[dict[str, Cell]]:
-    """A row for each point; texts and SI numbers, NaN: not known."""
-    return [_row(one, point) for one in series for point in one.points]
-
-
-def _row(series: Series, point: SweepPoint) -> dict[str, Cell]:
-    row: dict[str, Cell] = {"label": series.label, "folder": point.name}
-    row.update({SET + name: _as_number(value) for name, value in point.values.items()})
-    first = point.runs[0]
-    row["ground"] = first.ground
+def _cells(series: Series, point: SweepPoint) -> dict[str, tuple[Cell, str]]:
+    """Column -> text or SI number, NaN where it is not known, and its unit."""
+    first, quantities = point.runs[0], point.quantities
+    cells: dict[str, tuple[Cell, str]] = {"label": (series.label, ""), "folder": (point.name, "")}
+    cells |= {SET + name: (number_or_text(value), "") for name, value in point.values.items()}
+    cells["ground"] = first.ground, ""
     for name in CONDITIONS:
-        if math.isfinite(point.number(name)) and name not in point.quantities:
-            row[name] = point.number(name)
-    for name, value in point.quantities.items():
-        row[name], row[f"{name}_error"] = value.mean, value.uncertainty
-        row.update({f"{name}_error_{part}": value.parts.part(part) for part in Budget.NAMES})
-    row.update(_parts(point))
-    row["packings"] = float(len(point.runs))
-    row["steady"] = "yes" if point.steady else "no"
-    row["unknown"] = " ".join(point.quantities["net_traction_coefficient"].parts.unknown)
-    row["imposed"] = " ".join(name for name, value in point.quantities.items() if value.imposed)
-    row["cpu_time"] = point.cpu_time
-    return row
-
-
-def _parts(point: SweepPoint) -> dict[str, float]:
-    """Parts of the resistance [N], by column."""
-    parts = point.parts
-    if parts is None:
-        return {}
-    forces = {"whole": parts.whole, **parts.forces, "not accounted for": parts.unexplained}
-    return {PART + name.replace(",", "").replace(" ", "_"): force for name, force in forces.items()}
-
-
-def _as_number(text: str) -> Cell:
-    try:
-        return float(text)
-    except ValueError:
-        return text
-
-
-def units(series: Sequence[Series]) -> dict[str, str]:
-    """Column -> SI unit, of those that have one."""
-    found = {"cpu_time": "s"}
-    for one in series:
-        for point in one.points:
-            for name, condition in point.runs[0].conditions.items():
-                found.setdefault(name, condition.unit)
-            for name, value in point.quantities.items():
-                parts = ("", "_error", *(f"_error_{part}" for part in Budget.NAMES))
-                found.update({name + part: value.unit for part in parts})
-            found.update(dict.fromkeys(_parts(point), "N"))
-    return {name: unit for name, unit in found.items() if unit}
+        if math.isfinite(point.number(name)) and name not in quantities:
+            cells[name] = point.number(name), first.conditions[name].unit
+    for name, value in quantities.items():
+        cells |= {name: (value.mean, value.unit), f"{name}_error": (value.uncertainty, value.unit)}
+        cells |= {f"{name}_error_{part}": (value.parts.part(part), value.unit) for part in Budget.NAMES}
+    if parts := point.parts:
+        forces = {"whole": parts.whole, **parts.forces, "not accounted for": parts.unexplained}
+        cells |= {PART + name.replace(",", "").replace(" ", "_"): (force, "N") for name, force in forces.items()}
+    cells["packings"] = float(len(point.runs)), ""
+    cells["steady"] = "yes" if point.steady else "no", ""
+    cells["unknown"] = " ".join(quantities["net_traction_coefficient"].parts.unknown), ""
+    cells["imposed"] = " ".join(name for name, value in quantities.items() if value.imposed), ""
+    cells["cpu_time"] = point.cpu_time, "s"
+    return cells
 
 
 def write_table(series: Sequence[Series], csv: Path, hdf5: Path) -> None:
-    rows, unit = table_rows(series), units(series)
+    """A row for each point."""
+    cells = [_cells(one, point) for one in series for point in one.points]
+    unit = {name: unit for row in cells for name, (_, unit) in row.items() if unit}
+    rows = [{name: value for name, (value, _) in row.items()} for row in cells]
     names = [name for name in column_names(rows) if not _is_unknown_part(name, rows)]
     rows = [{name: row[name] for name in names if name in row} for row in rows]
     listed = [name for name in names if name in unit and "_error" not in name]

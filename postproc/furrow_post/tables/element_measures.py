@@ -9,8 +9,7 @@ import numpy as np
 from ..analyse.evaluations import last_piece_of, path_states, plate_curve, pressure_near, whole_plate_curve
 from ..analyse.statistics import rms
 from ..csv_table import read_columns
-from ..laboratory.evaluation import evaluate
-from ..laboratory.reference import reference_error
+from ..laboratory.evaluation import evaluate, reference_error
 from ..read.laboratory import LaboratoryTest, cell_curve, read_oedometer_reference
 from ..run.executor import Run
 from ..soil import fits, instruments

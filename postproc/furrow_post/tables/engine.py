@@ -13,10 +13,12 @@
     blocks: [{runs, measure, columns}, ...]   several groups of runs, each with further keys
     rows: function or "= list"      in place of runs: rows of other numbers
 
-A measure is a function of the run in measures.py or in the study's evaluate.py, or resistance (furrow-resistance): its
-numbers, or a list of them, one per row. An expression sees them, `reference` (columns of reference.csv), the names of
-RUN, the functions of evaluate.py, and the constants of the study and of `with`. An argument that begins with "=" is an expression. "*": measure has
-a column for each of its numbers. A table made of others has
+A measure is a function of the run in a file *_measures.py or in the study's evaluate.py, or resistance
+(furrow-resistance): its numbers, or a list of them, one per row. An expression sees them, `reference` (columns of
+reference.csv), the names of RUN, the functions of evaluate.py, and the constants of the study and of `with`. An
+argument that begins with "=" is an expression. "*": measure has a column for each of its numbers.
+
+A table made of others has
 
     of: file or [files]     of the study, or ../other_study/file; texts: columns that stay text as a stored file has them
     do: [{operation: {argument: value}}, ...]   of operations.py, or a function of evaluate.py
@@ -30,6 +32,7 @@ Such a table is made of the cells that its sources store; one whose name has no 
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
+from inspect import isfunction, signature
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -37,14 +40,15 @@ from typing import Any
 import pandas
 
 from ..csv_table import read_comments, rows_text
-from ..errors import ResultsError
-from ..study.study_files import Output
+from ..errors import ResultsError, refuse_others
+from ..study.definition import cases_of, evaluation_of
 from ..study.runs import Run, Runs
-from . import measures, panels
-from .expressions import filled, value_of
-from .frames import Row, cell, frame_of, plain, read_frame, rows_of
-from .identification import identify
-from .operations import OPERATIONS, cells, select
+from ..study.study import Study
+from ..study.study_files import Output
+from ..study.values import DEFINITION, load_yaml
+from . import element_measures, ground_measures, panels, tyre_measures, wheel_measures
+from .frames import Row, cell, filled, frame_of, plain, read_frame, rows_of, value_of
+from .operations import OPERATIONS, Known, cells, select, transpose
 
 RUN = "name, last, what, arguments, stage, seconds, cpu, cpu_time, error, v (variables), facts"
 BLOCK_KEYS = {"runs", "rows", "failed", "measure", "expand", "let", "where", "columns", "with"}
@@ -54,6 +58,15 @@ LIMIT_KEYS = {"table", "where", "holds", "message", "least", "absent", "key", "r
 
 Spec = Mapping[str, Any]
 
+# Functions of the files *_measures.py whose first argument is a run, or all runs of the study
+MEASURES: Mapping[str, Callable[..., Any]] = {
+    name: value
+    for module in (element_measures, ground_measures, tyre_measures, wheel_measures)
+    for name, value in vars(module).items()
+    if isfunction(value) and value.__module__ == module.__name__ and not name.startswith("_")
+    if next(iter(signature(value).parameters)) in ("run", "runs")
+}
+
 
 class Variables(SimpleNamespace):
     """Variables of a run's script as it was started."""
@@ -62,31 +75,23 @@ class Variables(SimpleNamespace):
         return getattr(self, name, default)
 
 
-class Tables(Mapping[str, pandas.DataFrame]):
+class Tables(dict[str, pandas.DataFrame]):
     """Tables by file name: those made in this evaluation, else those stored next to study.yaml. A table whose name has
     no ending is made of others and not stored."""
 
     def __init__(self, engine: "Engine") -> None:
-        self.engine, self.folder = engine, engine.folder
-        self.made: dict[str, pandas.DataFrame] = {}
+        super().__init__()
+        self.engine = engine
 
-    def __getitem__(self, name: str) -> pandas.DataFrame:
-        if name in self.made:
-            return self.made[name]
-        path = self.folder / name
+    def __missing__(self, name: str) -> pandas.DataFrame:
+        path = self.engine.folder / name
         if "of" in self.engine.tables.get(name, {}) and not path.suffix:
-            self.made[name] = self.engine.derived(name, self)
-            return self.made[name]
-        if not path.is_file():
+            self[name] = self.engine.derived(name, self)
+        elif path.is_file():
+            self[name] = read_frame(path)
+        else:
             raise ResultsError(f"{path}: no such table; the study lists its tables before it uses them")
-        self.made[name] = read_frame(path)
-        return self.made[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.made)
-
-    def __len__(self) -> int:
-        return len(self.made)
+        return self[name]
 
 
 class Engine:
@@ -103,9 +108,7 @@ class Engine:
             self.constants["reference"] = SimpleNamespace(**columns)
         self.constants = filled(self.constants, self.constants, self.where("constants"))
         for name, spec in self.tables.items():
-            if unknown := set(spec) - TABLE_KEYS:
-                allowed = ", ".join(sorted(TABLE_KEYS))
-                raise ResultsError(f"{self.where(name)} has unknown keys {sorted(unknown)}; allowed are {allowed}")
+            refuse_others(self.where(name), spec, TABLE_KEYS)
 
     @property
     def tables(self) -> Mapping[str, Spec]:
@@ -115,6 +118,10 @@ class Engine:
     def where(self, name: str) -> str:
         return f"{self.folder / 'study.yaml'}: {name}"
 
+    def names(self, spec: Spec, tables: Mapping[str, pandas.DataFrame]) -> Row:
+        """Names in expressions of a table or block: constants of the study and its own, and all tables."""
+        return {**self.constants, "tables": tables, **(spec.get("with") or {})}
+
     def function(self, name: str, known: Mapping[str, Callable[..., Any]], what: str) -> Callable[..., Any]:
         """Function of evaluate.py, or of the package. @raises ResultsError"""
         found = getattr(self.module, name, None) or known.get(name)
@@ -122,6 +129,14 @@ class Engine:
             raise ResultsError(f"{self.where(what)}: there is no {name}; known are {', '.join(sorted(known))}")
         function: Callable[..., Any] = found
         return function
+
+    def measure(self, name: str, runs: Runs, what: str) -> Callable[..., Any]:
+        """Measure of evaluate.py or of the package; resistance: lines that furrow-resistance prints, a row for each."""
+
+        def resistance(run: Run, options: Sequence[object] = ("--csv",)) -> list[Row]:
+            return [dict(line) for line in runs.resistance(run, *options)]
+
+        return self.function(name, {**MEASURES, "resistance": resistance}, what)
 
     # ---- rows of runs
 
@@ -143,13 +158,13 @@ class Engine:
             for run in self.chosen(runs, block):
                 yield from self.rows_of_run(runs, run, block, name, tables)
             return
-        names = {**self.constants, "tables": tables, **(block.get("with") or {})}
+        names = self.names(block, tables)
         made = block["rows"]
         if isinstance(made, str) and made.startswith("="):
             rows = filled(made, names, self.where(name))
         else:
             called = filled({made: {}} if isinstance(made, str) else made, names, self.where(name))
-            rows = [row for one, given in called.items() for row in self.function(one, measures.ROWS, name)(runs, **given)]
+            rows = [row for one, given in called.items() for row in self.function(one, MEASURES, name)(runs, **given)]
         for row in rows:
             yield cells({**names, **row}, block["columns"], self.where(name)) if block.get("columns") else row
 
@@ -161,43 +176,40 @@ class Engine:
         self, runs: Runs, run: Run, block: Spec, name: str, tables: Mapping[str, pandas.DataFrame]
     ) -> Iterator[Row]:
         where = f"{self.where(name)}, run {run.name}"
-        names = {**self.constants, "tables": tables, **(block.get("with") or {}), **names_of(run)}
-        parts: list[Row] = [{}]
+        names = {**self.names(block, tables), **names_of(run)}
         columns = block.get("columns") or {}
-        if run.error and block["failed"] != "all":
+        whole = not run.error or block["failed"] == "all"  # with all columns
+        if not whole:
             columns = {column: columns[column] for column in block["failed"]}
+        try:
+            found = [{**names, **part} for part in self.measured(runs, run, block, name, names)]
+        except ResultsError:
+            if not run.error:
+                raise
+            found = [] if whole else [names]  # it failed before it had any
+        else:
+            if "expand" in block:
+                found = [{**one, **more} for one in found for more in value_of(block["expand"], one, where)]
+        for known in found:
+            if whole:
+                known |= cells(known, block.get("let") or {}, where)
+            if value_of(block.get("where", True), known, where):
+                row: Row = {}
+                for column, text in columns.items():
+                    row |= known[f"all of {text}"] if column == "*" else cells({**row, **known}, {column: text}, where)
+                yield row
+
+    def measured(self, runs: Runs, run: Run, block: Spec, name: str, names: Row) -> list[Row]:
+        """Numbers of all measures of a block, each row of one with each row of the others."""
+        parts: list[Row] = [{}]
         wanted = block.get("measure") or {}
         for one, arguments in ({wanted: {}} if isinstance(wanted, str) else wanted).items():
-            if not parts:
-                break  # a measure without rows
-            measure = self.function(one, of_runs(runs), name)
-            try:
-                found = measure(run, **filled(arguments or {}, {**names, **parts[0]}, where))
-            except ResultsError:
-                if not run.error:
-                    raise
-                break  # it failed before it had any
-            several = found if isinstance(found, list) else [found]
-            parts = [{**part, **more, f"all of {one}": more} for part in parts for more in several]
-        else:
-            known = [{**names, **part} for part in parts]
-            if "expand" in block:
-                known = [{**one, **more} for one in known for more in value_of(block["expand"], one, where)]
-            yield from self.made_rows(run, block, columns, known, where)
-            return
-        if parts and run.error and block["failed"] != "all":
-            yield from self.made_rows(run, block, columns, [names], where)
-
-    def made_rows(self, run: Run, block: Spec, columns: Spec, parts: Sequence[Row], where: str) -> Iterator[Row]:
-        for known in parts:
-            if not run.error or block["failed"] == "all":
-                known |= cells(known, block.get("let") or {}, where)
-            if not value_of(block.get("where", True), known, where):
-                continue
-            row: Row = {}
-            for column, text in columns.items():
-                row |= known[f"all of {text}"] if column == "*" else cells({**row, **known}, {column: text}, where)
-            yield row
+            if parts:  # else a measure has no rows
+                given = filled(arguments or {}, {**names, **parts[0]}, f"{self.where(name)}, run {run.name}")
+                found = self.measure(one, runs, name)(run, **given)
+                several = found if isinstance(found, list) else [found]
+                parts = [{**part, **more, f"all of {one}": more} for part in parts for more in several]
+        return parts
 
     # ---- tables of tables
 
@@ -220,16 +232,16 @@ class Engine:
         frame = pandas.concat(
             [read_frame(self.folder / one, texts) if texts else tables[one] for one in sources], ignore_index=True
         )
-        constants = {**self.constants, "tables": tables, **(spec.get("with") or {})}
+        known = Known(tables, self.names(spec, tables))
         for step in spec.get("do") or []:
             if not len(frame):
                 return frame
             for one, arguments in ({step: {}} if isinstance(step, str) else step).items():
-                operation = self.function(one, {**OPERATIONS, "identify": identify}, name)
+                operation = self.function(one, OPERATIONS, name)
                 given = {"condition": arguments} if isinstance(arguments, str) else arguments or {}
-                frame = operation(frame, tables, constants, **filled(given, constants, self.where(name)))
+                frame = operation(frame, known, **filled(given, known.constants, self.where(name)))
         if len(frame) and spec.get("columns"):
-            frame = select(frame, tables, constants, **{str(name): text for name, text in spec["columns"].items()})
+            frame = select(frame, known, **{str(name): text for name, text in spec["columns"].items()})
         return frame
 
     def text(self, name: str, tables: Tables) -> str:
@@ -249,7 +261,7 @@ class Engine:
         for name, spec in self.tables.items():
             if not Path(name).suffix:
                 if "of" not in spec:
-                    tables.made[name] = frame_of(self.rows(runs, name, tables))
+                    tables[name] = frame_of(self.rows(runs, name, tables))
                 continue
             if "of" in spec:
                 rows = rows_of(self.derived(name, tables))
@@ -259,10 +271,10 @@ class Engine:
             else:
                 rows = self.rows(runs, name, tables)
                 if key := spec.get("transpose"):
-                    rows = rows_of(OPERATIONS["transpose"](pandas.DataFrame(rows, dtype=object), {}, {}, key)) if rows else []
+                    rows = rows_of(transpose(pandas.DataFrame(rows, dtype=object), Known({}, {}), key)) if rows else []
                 known = output.known(name, rows)
             output.table(name, rows, self.comments(name, self.folder / name))
-            tables.made[name] = frame_of(known)
+            tables[name] = frame_of(known)
         for name, spec in (self.content.get("figures") or {}).items():
             self.draw(name, spec, runs, tables, output)
         return list(self.missed(tables))
@@ -291,15 +303,14 @@ class Engine:
 
     def curve(self, runs: Runs, name: str, run: Run, arguments: Spec) -> Row:
         """Numbers of a run for a line of a figure; columns of several rows."""
-        measure = self.function(name, of_runs(runs), "figures")
+        measure = self.measure(name, runs, "figures")
         found = measure(run, **filled(arguments, {**self.constants, **names_of(run)}, "figures"))
         return {str(key): column.to_numpy() for key, column in pandas.DataFrame(found).items()} if isinstance(found, list) else dict(found)
 
     def missed(self, tables: Tables) -> Iterator[str]:
         """A sentence for each limit that is missed."""
         for limit in self.content.get("limits") or []:
-            if unknown := set(limit) - LIMIT_KEYS:
-                raise ResultsError(f"{self.where('limits')} have unknown keys {sorted(map(str, unknown))}; allowed are {sorted(LIMIT_KEYS)}")
+            refuse_others(self.where("a limit"), limit, LIMIT_KEYS)
             frame = self.made_or_stored(limit["table"], tables)
             if "repeats" in limit:
                 yield from self.changed(limit, frame)
@@ -348,11 +359,14 @@ def names_of(run: Run) -> Row:
     }
 
 
-def of_runs(runs: Runs) -> Mapping[str, measures.Measure]:
-    """All measures of the package."""
+def load_study(folder: Path) -> Study:
+    """A study with its runs and its evaluation: the tables of study.yaml, or evaluate(runs, output) of evaluate.py.
 
-    def resistance(run: Run, options: Sequence[object] = ("--csv",)) -> list[Row]:
-        """Lines that furrow-resistance prints with these options, a row for each."""
-        return [dict(line) for line in runs.resistance(run, *options)]
-
-    return {**measures.MEASURES, "resistance": resistance}
+    @raises ResultsError
+    """
+    folder = folder.resolve()
+    content = load_yaml(folder / DEFINITION)
+    module = evaluation_of(folder)
+    cases = tuple(module.cases()) if module and hasattr(module, "cases") else cases_of(folder, content)
+    evaluate = getattr(module, "evaluate", None) or Engine(folder, content, module).evaluate
+    return Study(folder, cases, evaluate, content.get("checked"))

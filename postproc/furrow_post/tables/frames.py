@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tables as pandas data frames. Cells are numbers and text as the CSV file has them."""
+"""Tables as pandas data frames, whose cells are numbers and text as the CSV file has them; Python expressions in a
+study.yaml, such as "round(1e3 * sinkage_m, 1)"."""
 
+import math
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -8,7 +11,10 @@ from typing import Any
 import numpy as np
 import pandas
 
+from ..analyse.statistics import block_mean, drift, rms
 from ..csv_table import read_rows
+from ..errors import ResultsError
+from ..study.values import NOT_ESTIMATED
 
 Row = dict[str, Any]
 
@@ -43,17 +49,61 @@ def read_frame(path: Path, texts: Sequence[str] = ()) -> pandas.DataFrame:
     return frame_of(read_rows(path), texts)
 
 
-def is_missing(value: Any) -> bool:
-    """None or NaN."""
-    return value is None or (isinstance(value, float) and value != value)
-
-
 def plain(value: Any) -> Any:
     """A Python number of a numpy scalar; missing values are empty text."""
     value = value.item() if isinstance(value, np.generic) else value
-    return "" if is_missing(value) else value
+    return "" if value is None or isinstance(value, float) and value != value else value
 
 
 def rows_of(frame: pandas.DataFrame) -> list[Row]:
     """Rows for a CSV file."""
     return [{name: plain(value) for name, value in row.items()} for row in frame.to_dict("records")]
+
+
+def rounded(value: Any, digits: int | None = None) -> Any:
+    """The decimal number nearest to a value; NaN stays NaN."""
+    number = float(value)
+    return number if math.isnan(number) else round(number, digits)
+
+
+def number(cell: Any) -> float:
+    """A cell of a column that may be empty or not estimated; NaN of such a cell."""
+    return math.nan if cell in ("", NOT_ESTIMATED) else float(cell)
+
+
+def whole(cell: Any) -> Any:
+    """A cell of a column of whole numbers that may be empty."""
+    return "" if math.isnan(number(cell)) else int(number(cell))
+
+
+FUNCTIONS: Mapping[str, Any] = {
+    **{name: getattr(math, name) for name in ("sqrt", "exp", "log", "hypot", "sin", "cos", "tan", "radians", "degrees", "pi", "nan", "isnan")},
+    "round": rounded, "number": number, "whole": whole, "mean": np.mean, "rms": rms, "block_mean": block_mean, "drift": drift, "np": np, "re": re,
+}  # fmt: skip  # next to Python's own
+
+
+def value_of(text: Any, names: Mapping[str, Any], where: str) -> Any:
+    """The value of an expression; what is no text is a value already.
+
+    @raises NameError for a name that is not known, ResultsError for any other fault
+    """
+    if not isinstance(text, str):
+        return text
+    try:
+        return eval(text, {**FUNCTIONS, **names})  # a study may hold programs, too
+    except NameError:
+        raise
+    except Exception as error:
+        known = ", ".join(sorted(map(str, names)))
+        raise ResultsError(f"{where}: '{text}' fails ({error}); known names are {known}") from error
+
+
+def filled(arguments: Any, names: Mapping[str, Any], where: str) -> Any:
+    """Arguments of a measure, in which a text that begins with "=" is an expression."""
+    if isinstance(arguments, Mapping):
+        return {key: filled(value, names, where) for key, value in arguments.items()}
+    if isinstance(arguments, list):
+        return [filled(value, names, where) for value in arguments]
+    if isinstance(arguments, str) and arguments.startswith("="):
+        return value_of(arguments[1:].strip(), names, where)
+    return arguments

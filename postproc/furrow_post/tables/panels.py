@@ -38,9 +38,8 @@ from ..study.runs import Run, Runs
 from ..sweep.sweep_curves import CONDITIONS, HUB_DROP, PULL, SLIP, TORQUE, Curve, Figure, Line
 from ..sweep.drawing import draw_sweep
 from ..sweep.series import read_series
-from .expressions import value_of
-from .frames import Row
-from .operations import groups, where
+from .frames import Row, value_of
+from .operations import Known, arrays, groups, where
 from .tyre_measures import tyre_print
 
 Spec = Mapping[str, Any]
@@ -48,8 +47,7 @@ Spec = Mapping[str, Any]
 
 def listed(names: str | Sequence[str]) -> list[str]:
     """Names of one or several; the stage "all" of a study.yaml has no name in its runs."""
-    found = [names] if isinstance(names, str) else [str(one) for one in names]
-    return ["" if one == "all" else one for one in found]
+    return ["" if one == "all" else str(one) for one in ([names] if isinstance(names, str) else names)]
 
 
 @dataclass(frozen=True)
@@ -102,7 +100,7 @@ def draw_line(axes: Axes, line: Spec, sources: Sources) -> None:
         low, high = (value_of(end, sources.constants, "figures") for end in line["band"])
         axes.axhspan(low, high, label=line.get("label"), **{"color": "0.9", "zorder": 0, **look})
         return
-    for names, own in arrays(line, sources):
+    for names, own in named_arrays(line, sources):
         values = {}
         for key in ("x", "y", "xerr", "yerr"):
             if key in line:
@@ -115,7 +113,7 @@ def draw_line(axes: Axes, line: Spec, sources: Sources) -> None:
             axes.plot(values["x"], values["y"], *([given.pop("mark")] if "mark" in given else []), label=label, **given)
 
 
-def arrays(line: Spec, sources: Sources) -> Iterator[tuple[Row, Row]]:
+def named_arrays(line: Spec, sources: Sources) -> Iterator[tuple[Row, Row]]:
     """Names of each line, and its further looks."""
     looks = line.get("looks") or {}
     if "runs" in line:
@@ -130,13 +128,12 @@ def arrays(line: Spec, sources: Sources) -> Iterator[tuple[Row, Row]]:
         return
     frame = sources.tables[line["table"]]
     if "where" in line:
-        frame = where(frame, sources.tables, sources.constants, line["where"])
+        frame = where(frame, Known(sources.tables, sources.constants), line["where"])
     if "sort" in line:
         frame = frame.sort_values(line["sort"], kind="stable")
     for key, rows in groups(frame, line.get("by", [])):
         cell = next(iter(key.values()), "")
-        columns = {str(name): rows[name].to_numpy() for name in rows}
-        yield {**sources.constants, **columns, **key}, looks.get(cell, {})
+        yield {**sources.constants, **arrays(rows), **key}, looks.get(cell, {})
 
 
 # ---- figures of one kind

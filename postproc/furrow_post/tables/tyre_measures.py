@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Measures of tyres on a rigid plane by furrow-tyre, and of their treads: contact stress, lift, shift, profile."""
 
-import csv
 import math
 from collections.abc import Mapping, Sequence
 from itertools import combinations
@@ -12,7 +11,7 @@ import numpy as np
 
 from ..analyse.evaluations import AGAIN, tyre_states
 from ..arrays import Floats
-from ..csv_table import read_columns
+from ..csv_table import read_columns, read_rows
 from ..errors import ResultsError, content_of
 from ..read.results import Results
 from ..read.terrain import read_terrain_fields
@@ -189,12 +188,18 @@ def shift_on_plane(run: Run, pressure: float, load: float, around: int) -> Row:
 
 def shift_in_run(run: Run, around: int) -> Row:
     """Shift at the end of a run [mm]."""
+    nodes, x, z = _nodes_at_the_end(run)
+    axle = np.array([x, 0.0, z])
+    return shift(tread_nodes(nodes, axle), axle, around)
+
+
+def _nodes_at_the_end(run: Run) -> tuple[Floats, float, float]:
+    """Nodes (n, 3) of the tyre at the end of a run, x and z of its axle [m]. @raises ResultsError without a surface"""
     results = Results(run.folder)
     surface = results.surface()
     if surface is None:
         raise ResultsError(f"{results.file}: has no surface of the tyre")
-    axle = np.array([results.columns["x"][-1], 0.0, results.columns["z"][-1]])
-    return shift(tread_nodes(surface.x, axle), axle, around)
+    return surface.x, float(results.columns["x"][-1]), float(results.columns["z"][-1])
 
 
 MODE_KINDS = {  # waves around the tread, whether it moves along the axle
@@ -209,10 +214,9 @@ def modes(run: Run, pressure: float) -> list[Row]:
     """mode, frequency [Hz]: the lowest of each kind of the inflated tyre without load."""
     file = run.folder / f"{pressure:.0f}kPa_0N_modes.csv"
     found: dict[str, float] = {}
-    with content_of(file, AGAIN), open(file, encoding="utf-8") as lines:
-        for mode in csv.DictReader(line for line in lines if not line.startswith("#")):
-            kind = MODE_KINDS.get((mode["waves"], float(mode["axial"]) > 0.5))
-            if kind:
+    with content_of(file, AGAIN):
+        for mode in read_rows(file):
+            if kind := MODE_KINDS.get((mode["waves"], float(mode["axial"]) > 0.5)):
                 found.setdefault(kind, float(mode["frequency_Hz"]))
     return [{"mode": kind, "frequency": frequency} for kind, frequency in found.items()]
 
@@ -227,12 +231,9 @@ def shift_by_mode(run: Run, pressure: float, load: float, mass: float) -> Row:
 def come_in(run: Run, around: int, across: int) -> Row:
     """largest [m], at [degrees from straight down]: how far the middle of the tread of a shell tyre, half a model, has
     come in at the end."""
-    results = Results(run.folder)
-    history, surface = results.columns, results.surface()
-    if surface is None:
-        raise ResultsError(f"{results.file}: has no surface of the tyre")
-    tread = surface.x[: around * across].reshape(around, across, 3)[:, 0]
-    x, z = tread[:, 0] - history["x"][-1], tread[:, 2] - history["z"][-1]
+    nodes, axle_x, axle_z = _nodes_at_the_end(run)
+    tread = nodes[: around * across].reshape(around, across, 3)[:, 0]
+    x, z = tread[:, 0] - axle_x, tread[:, 2] - axle_z
     radius, angle = np.hypot(x, z), np.degrees(np.arctan2(x, -z))
     inwards = np.median(radius[np.abs(angle) > 120]) - radius
     most = int(np.argmax(inwards))

@@ -14,7 +14,7 @@ from ..run.summary import Summary
 from ..read.terrain import read_terrain_history
 from ..read.wheel_run import read_wheel_run
 from ..run.executor import Run
-from ..sweep.sweep_quantities import quantities as quantities_of
+from ..sweep.series import quantities as quantities_of
 from .frames import Row
 
 

@@ -15,7 +15,7 @@ from furrow_post.csv_table import read_rows
 from furrow_post.figures.page import results_tables, run_values
 from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
 from furrow_post.scene.scene_summary import verdict_line
-from furrow_post.sweep.sweep_quantities import quantities
+from furrow_post.sweep.series import quantities
 from support.command import SOURCE
 from support.folder import FolderTest
 from support.runs import write_run

@@ -35,11 +35,11 @@ class MatrixTest(unittest.TestCase):
         plate = {"test": "plate", "at": "60 mm at 10 mm", "quantity": "pressure"}
         rows = [("norsand", 0, 0.54), ("cap", 0, 0.5), ("grains", 0, 0.49), ("grains", 0, 0.51)]
         cells = [("norsand", 0.01, 1000.0), ("norsand", 0.015, 1200.0), ("cap", 0.01, 800.0)]
-        tables.made["values"] = pandas.DataFrame(
+        tables["values"] = pandas.DataFrame(
             [{**plate, "source": s, "size": size, "value": v} for s, size, v in (*cells, ("grains", 0, 1000.0))]
             + [{**test, "source": s, "size": size, "value": v} for s, size, v in rows]
         )
-        tables.made["cone_of_grains"] = pandas.DataFrame(study.cone_of_card(None))
+        tables["cone_of_grains"] = pandas.DataFrame(study.cone_of_card(None))
         row, other = engine.derived("results.csv", tables).to_dict("records")
         labels = row["test"], row["norsand_label"], row["cap_label"]
         self.assertEqual(labels, ("extension", "known", "fitted"))

@@ -30,7 +30,7 @@ class ComparisonTest(unittest.TestCase):
         engine = Engine(folder, load_yaml(folder / DEFINITION), study)
         tables = Tables(engine)
         loads = {"plate_1": (10.0, 9.0), "plate_2": (12.0, 9.0)}
-        tables.made["curves"] = pandas.DataFrame(
+        tables["curves"] = pandas.DataFrame(
             [
                 {"test": "plate", "run": run, "program": program, "x": x, "axial": load}
                 for run, pair in loads.items()
@@ -38,7 +38,7 @@ class ComparisonTest(unittest.TestCase):
                 for x in (0.001, 0.006)
             ]
         )
-        tables.made["means"] = pandas.DataFrame(
+        tables["means"] = pandas.DataFrame(
             engine.rows(study.Runs([], None), "means", tables)
         )
         row = engine.derived("grains", tables).to_dict("records")[0]

@@ -13,7 +13,7 @@ from furrow_post.run.process import ERRORS, SCREEN
 from furrow_post.run.tools import OTHERS, Tools
 from furrow_post.run.record import Record
 from furrow_post.study.study import Study
-from furrow_post.tables.loading import load_study
+from furrow_post.tables.engine import load_study
 from support.command import SOURCE
 from support.evaluation import run_study
 from support.faults import FaultsTest, outcome

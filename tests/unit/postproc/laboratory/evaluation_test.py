@@ -13,9 +13,8 @@ import numpy as np
 from furrow_post.arrays import Floats
 from furrow_post.cli.main import main
 from furrow_post.errors import ResultsError
-from furrow_post.laboratory.evaluation import evaluate, values_of
+from furrow_post.laboratory.evaluation import evaluate, reference_error, values_of
 from furrow_post.laboratory.quantity import LaboratoryQuantity
-from furrow_post.laboratory.reference import reference_error
 from furrow_post.laboratory.together import together
 from furrow_post.read.laboratory import LaboratoryTest, read_oedometer_reference
 from support.folder import FolderTest

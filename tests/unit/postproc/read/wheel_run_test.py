@@ -8,8 +8,7 @@ import numpy as np
 
 from furrow_post.analyse.density import ground_points
 from furrow_post.errors import ResultsError
-from furrow_post.read.results import Grains, Results, Surface
-from furrow_post.read.styles import Styles
+from furrow_post.read.results import Grains, Results, Styles, Surface
 from furrow_post.read.wheel_run import read_wheel_run
 from support.folder import FolderTest
 from support.runs import RADIUS, rig, rigid_wheel, style, write_grains, write_run

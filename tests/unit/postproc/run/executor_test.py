@@ -6,14 +6,15 @@ import json
 import os
 import signal
 import threading
+import time
 import unittest
 from dataclasses import replace
 from pathlib import Path
 from unittest import mock
 
 from furrow_post.errors import ResultsError
-from furrow_post.run.case import FOLDER
-from furrow_post.run.claim import CLAIM, claimed
+from furrow_post.run.case import FOLDER, Case
+from furrow_post.run.record import CLAIM, Record, claimed
 from furrow_post.errors import Interrupted
 from furrow_post.run import executor as module
 from furrow_post.run.executor import Executor, Failed, State
@@ -28,13 +29,17 @@ class ExecutorTest(FolderTest):
         self.results = self.folder / "results"
         self.executor = Executor(self.results, self.tree.tools)
 
+    def record(self, case: Case) -> Record:
+        run = self.executor.ended(case)
+        assert run
+        return run.record
+
     def test_what_is_there_is_not_made_again(self) -> None:
         cases = [self.tree.case("a", value=2), self.tree.case("b/c")]
         self.executor.run(cases)
         self.executor.run(cases)
         self.assertEqual(sorted(self.tree.starts()), ["a", "c"])
-        record = self.executor.record(cases[0])
-        assert record
+        record = self.record(cases[0])
         self.assertEqual(record.facts, {"steps": 10.0, "value": 2.0})  # of the last line FACTS
         self.assertEqual(record.error, "")
         self.assertGreater(record.wall_time, 0.0)
@@ -45,8 +50,7 @@ class ExecutorTest(FolderTest):
         changed = self.tree.case("a", value=3)
         self.assertEqual(self.executor.state(changed), State.MISSING)
         self.executor.run([changed])
-        record = self.executor.record(changed)
-        assert record
+        record = self.record(changed)
         self.assertEqual(record.facts["value"], 3.0)
 
     def test_a_folder_that_another_run_writes_to(self) -> None:
@@ -113,9 +117,7 @@ class ExecutorTest(FolderTest):
         cases = [self.tree.case("bad", fail="it broke"), self.tree.case("good")]
         self.executor.run(cases)
         self.assertEqual([self.executor.state(c) for c in cases], [State.FAILED, State.DONE])
-        self.assertIsNone(self.executor.record(cases[0]))
-        failure = self.executor.failure(cases[0])
-        assert failure
+        failure = self.record(cases[0])
         self.assertEqual(failure.error, "ERROR: it broke (made.cpp:1)")
         self.assertFalse((self.results / "bad" / "run.json").exists())
 
@@ -136,8 +138,7 @@ class ExecutorTest(FolderTest):
     def test_message_on_stderr_is_the_error_of_other_programs(self) -> None:
         case = self.tree.case("a", status=3)
         self.executor.run([case])
-        failure = self.executor.failure(case)
-        assert failure
+        failure = self.record(case)
         self.assertEqual(failure.error, f"furrow: {self.results / 'a'} is bad")
 
     def test_a_list_that_must_be_complete_ends_with_its_first_failure(self) -> None:
@@ -159,16 +160,14 @@ class ExecutorTest(FolderTest):
         """The record keeps what stopped the first attempt."""
         case = replace(self.tree.case("a", status=1), fallback={"status": 0})
         self.executor.run([case])
-        record = self.executor.record(case)
-        assert record
+        record = self.record(case)
         self.assertEqual(record.stopped, (f"furrow: {self.results / 'a'} is bad",))
         self.assertEqual(record.variable("status"), "0")
 
     def test_failure_of_the_second_attempt(self) -> None:
         case = replace(self.tree.case("a", fail="it broke"), fallback={"fail": "again"})
         self.executor.run([case])
-        failure = self.executor.failure(case)
-        assert failure
+        failure = self.record(case)
         self.assertEqual(failure.stopped, ("ERROR: it broke (made.cpp:1)",))
         self.assertEqual(failure.error, "ERROR: again (made.cpp:1)")
         self.assertEqual(len(self.tree.starts()), 2)
@@ -176,8 +175,7 @@ class ExecutorTest(FolderTest):
     def test_time_limit(self) -> None:
         case = replace(self.tree.case("a", sleep=30), time_limit=2.0, fallback={"sleep": 0})
         self.executor.run([case])
-        failure = self.executor.failure(case)
-        assert failure
+        failure = self.record(case)
         self.assertEqual(failure.error, "time limit of 2 s")
         self.assertEqual(len(self.tree.starts()), 1)  # no second attempt: it would take as long
 
@@ -200,8 +198,7 @@ class ExecutorTest(FolderTest):
     def test_a_crash_is_a_failure(self) -> None:
         case = self.tree.case("a", signal=int(signal.SIGSEGV))
         self.executor.run([case])
-        failure = self.executor.failure(case)
-        assert failure
+        failure = self.record(case)
         self.assertEqual(failure.error, "stopped with status -11")
 
     def test_what_is_shared_is_made_by_one(self) -> None:
@@ -250,9 +247,16 @@ class ExecutorTest(FolderTest):
     def test_run_whose_inputs_change_meanwhile_does_not_count(self) -> None:
         """The record has the files as they were when the program started."""
         case = self.tree.case("a", sleep=0.5)
-        changes = threading.Timer(0.2, self.tree.script.write_text, ["run 2\n"])
+
+        def change() -> None:
+            while not self.tree.starts():
+                time.sleep(0.02)
+            self.tree.script.write_text("run 2\n")
+
+        changes = threading.Thread(target=change)
         changes.start()
         self.executor.run([case])
+        changes.join()
         self.assertEqual(self.executor.state(case), State.MISSING)
 
     def test_files_are_written_with_the_folder_of_the_run(self) -> None:

@@ -69,7 +69,7 @@ with open(f"{results}/curve.txt", "w") as file:
     file.write("# LIGGGHTS\\n# columns\\n")
     file.writelines(" ".join(map(str, row)) + "\\n" for row in rows)
 with open(f"{results}/facts.txt", "w") as file:
-    file.write("test bulk 1330")
+    file.write("test plate bulk 1330")
 with open("LOG", "a") as log:
     log.write(name + "\\n")
 sys.exit(STATUS)

@@ -19,8 +19,7 @@ from furrow_post.soil.make import (
     from_strength,
 )
 from furrow_post.soil.material import read_material
-from furrow_post.soil.oedometer import read_oedometer
-from furrow_post.soil.virtual_oedometer import confined_strain, oedometer_misfit
+from furrow_post.soil.oedometer import confined_strain, oedometer_misfit, read_oedometer
 from support.command import SOURCE, run_card
 from support.folder import FolderTest
 

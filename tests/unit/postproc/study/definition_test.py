@@ -9,7 +9,7 @@ from furrow_post.errors import ResultsError
 from furrow_post.cli.study_command import study_folders
 from furrow_post.run.case import Case
 from furrow_post.study.definition import cases_of
-from furrow_post.tables.loading import load_study
+from furrow_post.tables.engine import load_study
 from support.command import SOURCE
 
 TEXT = """

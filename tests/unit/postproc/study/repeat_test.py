@@ -9,7 +9,7 @@ from pathlib import Path
 from furrow_post.cli.study_command import study_folders
 from furrow_post.errors import ResultsError
 from furrow_post.study.repeat import difference, known_cost
-from furrow_post.study.values import Registry, Stored, Value, values_of
+from furrow_post.study.values import TABLE, Part, Registry, Stored, Value, values_of
 from support.command import SOURCE, run_post
 from support.folder import FolderTest
 
@@ -53,8 +53,8 @@ class GuardTest(FolderTest):
         ours = Stored(stored / "results.csv", {"run": "a"}, "z")
         value = Value("study.z", ours, reference=1.1)
         known = Stored(ours.table, ours.row, "f")
-        limit = Value("study.z", ours, error=known, reference=1.1, limit="upper")
-        noisy = Value("study.z", ours, error=Stored(ours.table, ours.row, "e"), reference=1.1)
+        limit = Value("study.z", ours, error=(Part(TABLE, known),), reference=1.1, limit="upper")
+        noisy = Value("study.z", ours, error=(Part(TABLE, Stored(ours.table, ours.row, "e")),), reference=1.1)
         for number, (again, given, expected) in enumerate((
             ("1.02", value, ""),
             ("1.04", value, "1.04, not 1 ± 0.03"),

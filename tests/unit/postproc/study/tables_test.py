@@ -5,9 +5,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from furrow_post.csv_table import read_comments, read_numbers, read_rows, write_rows
+from furrow_post.csv_table import aligned, markdown, read_comments, read_numbers, read_rows, write_rows
 from furrow_post.errors import ResultsError
-from furrow_post.study.tables import aligned, markdown
 
 ROWS: list[dict[str, object]] = [{"run": "a", "value": 1 / 3}, {"run": "long", "error": "stopped"}]
 

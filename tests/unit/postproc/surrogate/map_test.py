@@ -79,12 +79,12 @@ class MapTest(FolderTest):
             for k, slope in enumerate(slopes):
                 margin, slip, energy = closed_form(float(slope), phi)
                 self.assertAlmostEqual(
-                    result.pull[k], max(margin, 0) * LOAD * np.cos(np.radians(slope)), delta=1.5
+                    result["pull"][k], max(margin, 0) * LOAD * np.cos(np.radians(slope)), delta=1.5
                 )
-                self.assertEqual(result.probability[k] > 0.5, margin > 0)
+                self.assertEqual(result["probability"][k] > 0.5, margin > 0)
                 if margin > 0.01:
-                    self.assertAlmostEqual(result.slip[k], slip, delta=0.003)
-                    self.assertAlmostEqual(result.energy[k], energy, delta=0.01 * energy)
+                    self.assertAlmostEqual(result["slip"][k], slip, delta=0.003)
+                    self.assertAlmostEqual(result["energy"][k], energy, delta=0.01 * energy)
                     drop = float(
                         wheel(
                             np.array(slip),
@@ -92,9 +92,9 @@ class MapTest(FolderTest):
                             np.array(phi),
                         )[HUB_DROP]
                     )
-                    self.assertAlmostEqual(result.hub_drop[k], drop, delta=2e-4)
+                    self.assertAlmostEqual(result["hub_drop"][k], drop, delta=2e-4)
                 elif margin < -0.01:
-                    self.assertTrue(np.isnan(result.energy[k]))
+                    self.assertTrue(np.isnan(result["energy"][k]))
 
     def test_load_that_follows_another_input_is_refused(self) -> None:
         whole = made_surrogate()
@@ -109,9 +109,9 @@ class MapTest(FolderTest):
             mobility_of(evaluate(made_surrogate(), one, ground), one, ground["slope"])
             for one in (free, limited)
         ]
-        self.assertEqual(of[0].speed[0], SPEED)
-        self.assertAlmostEqual(of[1].speed[0], 60.0 / of[0].energy[0], places=6)
-        self.assertLess(of[1].pull[0], of[0].pull[0])
+        self.assertEqual(of[0]["speed"][0], SPEED)
+        self.assertAlmostEqual(of[1]["speed"][0], 60.0 / of[0]["energy"][0], places=6)
+        self.assertLess(of[1]["pull"][0], of[0]["pull"][0])
 
     def test_table_is_within_its_tolerance_of_the_surrogate(self) -> None:
         random = np.random.default_rng(0)

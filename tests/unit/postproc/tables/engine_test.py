@@ -79,16 +79,16 @@ class EngineTest(unittest.TestCase):
         (self.folder / "t.csv").write_text("run,load\nstored,60\n", encoding="utf-8")
         engine = self.engine(text)
         tables = Tables(engine)
-        tables.made["t.csv"] = frame_of([])
+        tables["t.csv"] = frame_of([])
         self.assertEqual(list(engine.missed(tables)), ["stored: 60"])
-        tables.made["t.csv"] = frame_of([{"run": "a", "load": 20.0}])
+        tables["t.csv"] = frame_of([{"run": "a", "load": 20.0}])
         self.assertEqual(list(engine.missed(tables)), ["a: 20.0", "no large load"])
 
     def test_a_limit_of_repetition_names_what_changed(self) -> None:
         (self.folder / "t.csv").write_text("run,load\na,60\n", encoding="utf-8")
         engine = self.engine("limits: [{table: t.csv, key: run, repeats: [load], within: 0.01}]")
         tables = Tables(engine)
-        tables.made["t.csv"] = frame_of([{"run": "a", "load": 61.0}, {"run": "new", "load": 1.0}])
+        tables["t.csv"] = frame_of([{"run": "a", "load": 61.0}, {"run": "new", "load": 1.0}])
         self.assertEqual(
             list(engine.missed(tables)), ["a: load 61.0 was 60; the table is of another program"]
         )

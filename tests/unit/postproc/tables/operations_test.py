@@ -8,12 +8,12 @@ from typing import Any
 
 from furrow_post.errors import ResultsError
 from furrow_post.tables.frames import frame_of, rows_of
-from furrow_post.tables.operations import OPERATIONS
+from furrow_post.tables.operations import OPERATIONS, Known
 
 
 def done(name: str, rows: list[dict[str, Any]], others: dict[str, Any] | None = None, **arguments: Any) -> list[dict[str, Any]]:
     tables = {key: frame_of(value) for key, value in (others or {}).items()}
-    return rows_of(OPERATIONS[name](frame_of(rows), tables, {}, **arguments))
+    return rows_of(OPERATIONS[name](frame_of(rows), Known(tables, {}), **arguments))
 
 
 class FramesTest(unittest.TestCase):

@@ -57,7 +57,7 @@ class StoredTablesTest(unittest.TestCase):
             rows = read_rows(folder / "experiments.csv")
             next(row for row in rows if row["id"] == unknown)["error"] = NOT_ESTIMATED
             tables = Tables(engine)
-            tables.made["experiments.csv"] = frame_of(rows)
+            tables["experiments.csv"] = frame_of(rows)
             with self.subTest(unknown=unknown):
                 self.assertEqual([row["error"] for row in rows_of(engine.derived("plates", tables))], kept)
 

@@ -1,17 +1,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tests in a periodic cell: oedometer, triaxial, extension, plane strain, free sides, tension.
+"""Tests with a curve: oedometer, triaxial, extension, plane strain, free sides and tension of a periodic cell; a
+sheared layer; a plate.
 
-Stress and strain: compression positive.
+Stress and strain: compression positive. The standard errors of means are those of blocks of the curve, those of fits
+come from the covariance of the residuals.
 """
 
 import math
 
 import numpy as np
 
+from ..analyse.fitter import Parameter, fit
 from ..analyse.statistics import block_mean, line_fit
 from ..arrays import Booleans, Floats
 from ..read.laboratory import LaboratoryTest, cell_curve
-from .quantity import LaboratoryQuantity, around_peak, degrees
+from .quantity import LaboratoryQuantity
+
+quantity = LaboratoryQuantity  # as lists of them have it
+
+REACHED = 0.95  # of the peak: a strength that is then kept, or grows slowly, has been reached there
 
 
 def oedometer(test: LaboratoryTest) -> list[LaboratoryQuantity]:
@@ -22,13 +29,8 @@ def oedometer(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     lateral = 0.5 * (stress[loading, 0] + stress[loading, 1]) / np.maximum(axial[loading], 1e-30)
     late = axial[loading] > 0.5 * axial.max()
     quantities = [
-        LaboratoryQuantity("initial_density", density[0], 0.0, "kg/m3", "at the start of the test"),
-        LaboratoryQuantity(
-            "K0",
-            *block_mean(lateral[late]),
-            "",
-            "lateral over axial stress, upper half of the stress",
-        ),
+        quantity("initial_density", density[0], 0.0, "kg/m3", "at the start of the test"),
+        quantity("K0", *block_mean(lateral[late]), "", "lateral over axial stress, upper half of the stress"),
     ]
     rising = np.log(np.maximum.accumulate(np.maximum(axial[loading], 1.0)))
     for level in np.geomspace(1e3, 1e6, 7):
@@ -39,13 +41,9 @@ def oedometer(test: LaboratoryTest) -> list[LaboratoryQuantity]:
         if len(near) > 4:
             slope, _, covariance = line_fit(strain[loading, 2][near], axial[loading][near])
             error = float(np.sqrt(covariance[0, 0]))
-            quantities.append(
-                LaboratoryQuantity(f"modulus_{name}", slope, error, "Pa", "confined modulus")
-            )
+            quantities.append(quantity(f"modulus_{name}", slope, error, "Pa", "confined modulus"))
         value = float(np.interp(np.log(level), rising, density[loading]))
-        quantities.append(
-            LaboratoryQuantity(f"density_{name}", value, 0.0, "kg/m3", "under this axial stress")
-        )
+        quantities.append(quantity(f"density_{name}", value, 0.0, "kg/m3", "under this axial stress"))
     return quantities
 
 
@@ -64,7 +62,6 @@ def triaxial(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     secant = float(deviator[half] / max(strain[half, 2], 1e-12))
     slope, _, covariance = line_fit(strain[around, 2], strain.sum(axis=1)[around])
     inertial = float(np.mean(rows[1:, 8]))
-    quantity = LaboratoryQuantity
     at_strain = f"at an axial strain of {strain[peak, 2]:.3f}"
     no_cohesion = "without cohesion: sin = (s1 - s3)/(s1 + s3)"
     over_strains = f"mean over strains above {last_strain:.3f}"
@@ -92,9 +89,7 @@ def extension(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     axial, lateral = stress[:, 2], 0.5 * (stress[:, 0] + stress[:, 1])
     return [
         *_strength(test, 0, lateral, axial),
-        LaboratoryQuantity(
-            "axial_stress_end", *block_mean(axial[_end(strain, 0)]), "Pa", "the smallest, there"
-        ),
+        quantity("axial_stress_end", *block_mean(axial[_end(strain, 0)]), "Pa", "the smallest, there"),
     ]
 
 
@@ -104,7 +99,6 @@ def plane_strain(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     end = _end(strain, 2)
     across, middle, axial = stress[:, 0], stress[:, 1], stress[:, 2]
     share = (middle - across) / np.maximum(axial - across, 1e-30)
-    quantity = LaboratoryQuantity
     of_middle = "(s2 - s3)/(s1 - s3), there; s2 is that of the width kept"
     return [
         *_strength(test, 2, axial, across),
@@ -118,7 +112,6 @@ def unconfined(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     strain, stress, density = cell_curve(test.curve())
     _require_compressed(strain, stress)
     axial, lateral = strain[:, 2], strain[:, :2].mean(axis=1)
-    quantity = LaboratoryQuantity
     quantities = [quantity("initial_density", density[0], 0.0, "kg/m3", "at the start of the test")]
     for level in (0.05, 0.1, 0.2, 0.4):
         near = np.flatnonzero(np.abs(axial - level) < 0.1 * level)
@@ -143,11 +136,59 @@ def tension(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     if not (pulled.max() > 0 and pull.max() > 0):
         raise ValueError("the cell is not pulled, or bears nothing")
     peak = int(np.argmax(pull))
-    quantity = LaboratoryQuantity
     at_strain = f"at an axial strain of {pulled[peak]:.2g}"
     return [
         quantity("initial_density", density[0], 0.0, "kg/m3", "at the start of the test"),
         quantity("tensile_strength", float(pull[peak]), math.nan, "Pa", at_strain),
+    ]
+
+
+def shear(test: LaboratoryTest) -> list[LaboratoryQuantity]:
+    rows = test.curve()
+    _, stress, density = cell_curve(rows)
+    travel, tau, normal = rows[:, 8], rows[:, 9], stress[:, 2]
+    peak, window, largest = around_peak(tau)
+    first = max(peak - window // 2, 0)
+    around, end = slice(first, first + window), travel > 0.6 * travel[-1]
+    angle = np.arctan2(tau, normal)
+    rise = slice(0, peak + 1)
+    start = (float(largest), float(max(travel[peak] / 3, 1e-6)))
+    janosi = [Parameter("tau_max", "Pa", start[0], 0.0, np.inf), Parameter("K", "m", start[1], 1e-9, np.inf)]
+    top, length = fit(janosi, lambda x: _janosi(travel[rise], *x) - tau[rise], known=False).parameters
+    reached = float(travel[np.argmax(tau > REACHED * largest)])
+    gap = test.numbers.get("gap", math.nan)  # of results before there was one: none
+    at_travel = f"at a displacement of {travel[peak] * 1e3:.2f} mm"
+    of_gap = f"displacement over gap where {REACHED:.0%} of the peak are first borne"
+    fitted = "of tau_max (1 - exp(-j/K)), fitted up to the peak"
+    return [
+        quantity("initial_density", density[0], 0.0, "kg/m3", "after consolidation"),
+        quantity("normal_stress", *block_mean(normal), "Pa", "mean of the test"),
+        quantity("peak_shear", *block_mean(tau[around]), "Pa", at_travel),
+        quantity("strain_at_peak", reached / gap, math.nan, "", of_gap),
+        quantity("residual_shear", *block_mean(tau[end]), "Pa", "over the last 40 % of the travel"),
+        quantity("friction_angle_peak", *degrees(angle[around]), "deg", "without cohesion: tan = tau/sigma"),
+        quantity("friction_angle_end", *degrees(angle[end]), "deg", "the same, residual"),
+        quantity("janosi_K", length.value, length.deviation, "m", fitted),
+        quantity("janosi_tau_max", top.value, top.deviation, "Pa", "of that fit"),
+    ]
+
+
+def plate(test: LaboratoryTest) -> list[LaboratoryQuantity]:
+    """Bekker's p = k z^n of one plate."""
+    rows = test.curve()
+    z, pressure = rows[:, 1], rows[:, 3]
+    if not (z.max() > 0 and pressure.max() > 0):
+        raise ValueError("the plate does not come into the ground, or carries nothing")
+    size = test.number("size")
+    late = (z > 0.1 * z.max()) & (pressure > 0)
+    n, log_k, covariance = line_fit(np.log(z[late]), np.log(pressure[late]))
+    k = math.exp(log_k)
+    n_error, log_k_error = (float(e) for e in np.sqrt(np.diag(covariance)))
+    at_end = f"at {z[-1] * 1e3:.1f} mm"
+    return [
+        quantity("bekker_n", n, n_error, "", "of p = k z^n, from 10 % of the sinkage on"),
+        quantity("bekker_k", k, k * log_k_error, "Pa/m^n", f"plate of {size * 1e3:g} mm"),
+        quantity("pressure_end", float(pressure[-1]), math.nan, "Pa", at_end),
     ]
 
 
@@ -164,7 +205,6 @@ def _strength(
     peak, window, _ = around_peak(angle)
     around = slice(max(peak - window, 0), peak + window + 1)
     end = _end(strain, driven)
-    quantity = LaboratoryQuantity
     no_cohesion = "without cohesion: sin = (s1 - s3)/(s1 + s3)"
     at_strain = f"{no_cohesion}, at a strain of {strain[peak, driven]:.3f}"
     over_strains = f"{no_cohesion}, mean over the last 15 % of strain"
@@ -183,7 +223,7 @@ def _strength(
 def _dilation_at_end(strain: Floats, end: Booleans, driven: int) -> LaboratoryQuantity:
     slope, _, covariance = line_fit(strain[end, driven], strain.sum(axis=1)[end])
     meaning = "volume growth per driven strain at the end"
-    return LaboratoryQuantity("dilation_end", -slope, float(np.sqrt(covariance[0, 0])), "", meaning)
+    return quantity("dilation_end", -slope, float(np.sqrt(covariance[0, 0])), "", meaning)
 
 
 def _end(strain: Floats, driven: int) -> Booleans:
@@ -204,3 +244,22 @@ def _stress_ratio(stress: Floats) -> Floats:
     q = np.sqrt(1.5) * np.linalg.norm(stress - p[:, None], axis=1)
     ratio: Floats = q / np.maximum(p, 1e-30)
     return ratio
+
+
+def _janosi(travel: Floats, top: float, length: float) -> Floats:
+    """tau = tau_max (1 - exp(-j/K)) of Z. Janosi and B. Hanamoto (1961)."""
+    tau: Floats = top * (1 - np.exp(-travel / length))
+    return tau
+
+
+def degrees(radians: Floats) -> tuple[float, float]:
+    """Mean and standard error in degrees."""
+    mean, error = block_mean(radians)
+    return float(np.degrees(mean)), float(np.degrees(error))
+
+
+def around_peak(values: Floats) -> tuple[int, int, float]:
+    """Place of the peak of a smoothed curve, half the width about it, and the smoothed peak."""
+    window = max(len(values) // 40, 3)
+    smooth = np.convolve(values, np.ones(window) / window, mode="valid")
+    return int(np.argmax(smooth)) + window // 2, window, float(smooth.max())
