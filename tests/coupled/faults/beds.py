@@ -68,8 +68,8 @@ def refused(furrow, table, beds):
     table.check("folder", bed("bed . depth 0.1"), 1, "cannot read")
     average = "\nvariable one equal 1\nfix curve all ave/time 1 10 10 v_one"
     table.check("average after the bed", bed(whole + average), 0, "LEVEL")
-    table.check("no such style after the bed", bed(whole + "\nfix soil all terrain/continum depth 1"), 1,
-                "line 2 of this script, before the bed is made: fix style 'terrain/continum' does not exist")
+    misspelled = run_script(furrow, table.folder, whole + "\nfix soil all terrain/continum depth 1", FURROW_CACHE="new")
+    table.check("no such style after the bed", misspelled, 1, "before the bed is made: fix style 'terrain/continum' does not exist")
     clay = os.path.join(beds, "..", "materials", "contact", "clay_soft.yaml")
     table.check("adhesion to grains", bed(f"{whole} contact {clay}"), 0, "WARNING: command bed, keyword 'contact': the shear_limit that",
                 "has for rubber and steel has no effect on grains")
