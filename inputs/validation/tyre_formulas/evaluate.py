@@ -6,8 +6,8 @@ from functools import cache
 from statistics import fmean
 from typing import Any
 
-from furrow_post.analyse.cone_formulas import Formulas, formulas_for
-from furrow_post.analyse.whole_error import budgets_of
+from furrow_post.laws.cone_formulas import Formulas, formulas_for
+from furrow_post.uncertainty.whole_error import budgets_of
 from furrow_post.cli.answer_command import Compared, EstimatedTyre, compared, estimate_tyre
 from furrow_post.errors import ResultsError
 from furrow_post.run.summary import Summary

@@ -20,8 +20,8 @@ from ..errors import ResultsError
 from ..formatting import with_error
 from ..read.results import Results
 from ..read.terrain import Outline, Terrain, is_half, read_terrain_fields
-from .half_space import ELASTIC, SOEHNE, below_ellipse, below_point_loads
-from .statistics import block_mean
+from ..laws.half_space import ELASTIC, SOEHNE, below_ellipse, below_point_loads
+from ..uncertainty.statistics import block_mean
 
 TOUCHING = 0.1  # of the largest surface stress: what more stress counts as contact
 TOUCHING_RANGE = (0.05, 0.2)  # the same, whose areas give the error of the area

@@ -15,17 +15,17 @@ from ..errors import ResultsError
 from ..formatting import percent
 from ..read.wheel_run import WheelRun
 from ..run.summary import SteadyValue
-from . import cost_table
-from .budget import Budget
+from ..uncertainty import cost_table
+from ..uncertainty.budget import Budget
 from .conditions import TOLERANCES, Difference, incomparable
 from .density import track_density
-from .judgement import judge, summed_up
+from ..uncertainty.judgement import judge, summed_up
 from .measured import measured_entries
-from .prediction import Prediction
-from .statistics import commonest
-from .verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, TRACK_DENSITY, Entry, Quantity, Verdict
+from ..laws.prediction import Prediction
+from ..uncertainty.statistics import commonest
+from ..uncertainty.verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, TRACK_DENSITY, Entry, Quantity, Verdict
 from .wheel_histories import settling_curve
-from .whole_error import Families, budget_of, budgets
+from ..uncertainty.whole_error import Families, budget_of, budgets
 
 NAME_IN_RUN = {"sinkage": "hub_drop", "coefficient": "resistance_coefficient"}
 

@@ -11,10 +11,10 @@ import numpy as np
 from ..csv_table import in_cells, write_rows
 from ..formatting import duration
 from .comparison import Comparison, overall, overall_of_best_estimates
-from .budget import Budget
+from ..uncertainty.budget import Budget
 from .density import sections
-from .judgement import remedies
-from .verdict import QUANTITIES, TRACK_DENSITY, Entry
+from ..uncertainty.judgement import remedies
+from ..uncertainty.verdict import QUANTITIES, TRACK_DENSITY, Entry
 from .wheel_histories import cruise_history, settling_curve
 
 SHOWN_CONDITIONS = (

@@ -21,9 +21,9 @@ from ..errors import ResultsError, content_of
 from ..formatting import percent
 from ..read.laboratory import LaboratoryTest, PointRun, cell_curve
 from ..read.wheel_run import GROUNDS_OF_CELLS
-from .judgement import remedies
-from .statistics import commonest, rms
-from .verdict import COVERAGE
+from ..uncertainty.judgement import remedies
+from ..uncertainty.statistics import commonest, rms
+from ..uncertainty.verdict import COVERAGE
 
 PLATE_LEVELS = (0.05, 0.1, 0.2, 0.3, 0.5)  # sinkage over depth of the ground
 STRESS_LEVELS = (2e3, 1e4, 5e4, 1e5, 2e5, 5e5)  # [Pa]

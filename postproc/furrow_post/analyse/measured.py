@@ -10,8 +10,8 @@ import numpy as np
 from ..csv_table import read_numbers
 from ..errors import ResultsError
 from ..read.wheel_run import WheelRun
-from .budget import Budget
-from .verdict import MEASURED, QUANTITIES, Entry
+from ..uncertainty.budget import Budget
+from ..uncertainty.verdict import MEASURED, QUANTITIES, Entry
 
 ROUNDING = 1e-9  # of a ratio of two decimal numbers
 

@@ -9,10 +9,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .budget import Budget
+from ..uncertainty.budget import Budget
 from .curves import Curve
-from .grid_convergence import grid_convergence, mean_shift, noise_of, pooled_scatter, same_size
-from .verdict import BEST, RUN, Entry, Quantity
+from ..uncertainty.grid_convergence import grid_convergence, mean_shift, noise_of, pooled_scatter, same_size
+from ..uncertainty.verdict import BEST, RUN, Entry, Quantity
 
 
 def pressure_at(sinkage: float) -> Quantity:

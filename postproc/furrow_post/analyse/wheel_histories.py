@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..read.wheel_run import WheelRun
-from .statistics import moving_mean
+from ..uncertainty.statistics import moving_mean
 
 
 class Stage(enum.IntEnum):

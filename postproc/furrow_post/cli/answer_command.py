@@ -4,11 +4,11 @@
 from pathlib import Path
 from typing import NamedTuple
 
-from ..analyse.cone_formulas import Formulas, Tyre, formulas_for
-from ..analyse.tyre_estimate import Catalogue
-from ..analyse.tyre_fit import PlateTest, fit_tyre, press
-from ..analyse.tyre_size import read_size
-from ..analyse.whole_error import budgets_of
+from ..laws.cone_formulas import Formulas, Tyre, formulas_for
+from ..laws.tyre_estimate import Catalogue
+from ..laws.tyre_fit import PlateTest, fit_tyre, press
+from ..laws.tyre_size import read_size
+from ..uncertainty.whole_error import budgets_of
 from ..csv_table import write_rows
 from ..arguments import between, fraction, path, positive, seconds
 from ..programs import results_folder

@@ -5,7 +5,7 @@
 import numpy as np
 
 from ..analyse.compaction import Compaction, read_compaction, report, write_compaction
-from ..analyse.half_space import ELASTIC, SOEHNE
+from ..laws.half_space import ELASTIC, SOEHNE
 from ..figures.compaction_figure import draw_compaction
 from ..formatting import value_text
 from ..study.tables import in_columns

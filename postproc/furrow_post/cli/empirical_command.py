@@ -7,9 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
-from ..analyse import cone_formulas, empirical
-from ..analyse.prediction import Prediction
-from ..analyse.terrain_values import CARD, TerrainValues, terrain, terrain_of_card, with_stress_place
+from ..laws import cone_formulas, empirical
+from ..laws.prediction import Prediction
+from ..laws.terrain_values import CARD, TerrainValues, terrain, terrain_of_card, with_stress_place
 from ..arguments import at_least, between, number, positive
 from ..errors import ResultsError
 from ..read.soil_card import read_card
@@ -169,7 +169,7 @@ METHODS = {
     *(option(f"--{name}", name, parse=number, help=unit) for name, unit in GROUND.items()),
     option(
         "--terrain",
-        help="name in furrow_post/analyse/terrains.csv, e.g. 'LETE sand', or a soil card's file (YAML, or Chrono's JSON)",
+        help="name in furrow_post/laws/terrains.csv, e.g. 'LETE sand', or a soil card's file (YAML, or Chrono's JSON)",
     ),
     option(
         "--surface",

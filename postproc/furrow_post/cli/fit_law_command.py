@@ -5,9 +5,9 @@ import importlib
 import sys
 from pathlib import Path
 
-from ..analyse.law_fit import fit_law
-from ..analyse.law_fit_report import report, write_fit
-from ..analyse.point_curves import PROGRAM, PointCurves
+from ..laws.law_fit import fit_law
+from ..laws.law_fit_report import report, write_fit
+from ..laws.point_curves import PROGRAM, PointCurves
 from ..arguments import path
 from .parameters import Given, argument, command, flag, target_option
 

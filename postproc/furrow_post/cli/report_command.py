@@ -8,7 +8,7 @@ from pathlib import Path
 
 from markupsafe import Markup
 
-from ..analyse import cost_table
+from ..uncertainty import cost_table
 from ..analyse.comparison import Comparison
 from ..analyse.comparison_report import parts_cell, write_comparison
 from ..errors import ResultsError

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..analyse.compaction import Compaction
-from ..analyse.half_space import ELASTIC, SOEHNE
+from ..laws.half_space import ELASTIC, SOEHNE
 from .style import CENTIMETRE, KILOPASCAL, RUN_COLOURS, annotate_panel, save, use_style
 
 

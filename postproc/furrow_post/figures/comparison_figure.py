@@ -15,7 +15,7 @@ from matplotlib.image import AxesImage
 
 from ..analyse.comparison import Comparison, overall
 from ..analyse.density import Section, sections
-from ..analyse.verdict import BARS, BEST, COEFFICIENT, COVERAGE, FORMULA, HUB_DROP, MEASURED, QUANTITIES, RUN, Quantity
+from ..uncertainty.verdict import BARS, BEST, COEFFICIENT, COVERAGE, FORMULA, HUB_DROP, MEASURED, QUANTITIES, RUN, Quantity
 from ..analyse.wheel_histories import cruise_history, settling_curve
 from ..read.wheel_run import WheelRun
 from .style import (

@@ -11,8 +11,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from ..analyse.comparison import Comparison, overall
 from ..analyse.comparison_report import findings, parts_cell
-from ..analyse.verdict import QUANTITIES
-from ..analyse.whole_error import budgets, headline
+from ..uncertainty.verdict import QUANTITIES
+from ..uncertainty.whole_error import budgets, headline
 from ..formatting import duration, in_unit
 from ..read.wheel_run import WheelRun
 from ..run.summary import Summary

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from ..analyse.statistics import block_mean, line_fit
+from ..uncertainty.statistics import block_mean, line_fit
 from ..arrays import Booleans, Floats
 from ..read.laboratory import LaboratoryTest, cell_curve
 from .quantity import LaboratoryQuantity, around_peak, degrees

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from ..analyse.statistics import line_fit
+from ..uncertainty.statistics import line_fit
 from ..read.laboratory import LaboratoryTest
 from .quantity import LaboratoryQuantity
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..analyse.statistics import block_mean
+from ..uncertainty.statistics import block_mean
 from ..arrays import Floats
 
 

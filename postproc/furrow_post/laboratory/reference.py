@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from ..analyse.statistics import rms
+from ..uncertainty.statistics import rms
 from ..errors import ResultsError
 from ..read.laboratory import LaboratoryTest, cell_curve
 from .quantity import LaboratoryQuantity

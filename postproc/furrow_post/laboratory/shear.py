@@ -4,8 +4,8 @@
 import math
 
 import numpy as np
-from ..analyse.fitter import Parameter, fit
-from ..analyse.statistics import block_mean
+from ..laws.fitter import Parameter, fit
+from ..uncertainty.statistics import block_mean
 from ..arrays import Floats
 from ..read.laboratory import LaboratoryTest, cell_curve
 from .quantity import LaboratoryQuantity, around_peak, degrees

@@ -4,10 +4,10 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..analyse.convergence import ENDING as CONVERGENCE
-from ..analyse.convergence import RELATIVE, SceneConvergence, of_runs, places, values_of
-from ..analyse.material_error import ENDING as MATERIAL
-from ..analyse.material_error import SceneMaterial, found_file, require_intervals, varied_text
+from ..uncertainty.convergence import ENDING as CONVERGENCE
+from ..uncertainty.convergence import RELATIVE, SceneConvergence, of_runs, places, values_of
+from ..uncertainty.material_error import ENDING as MATERIAL
+from ..uncertainty.material_error import SceneMaterial, found_file, require_intervals, varied_text
 from ..errors import ResultsError
 from ..formatting import duration
 from ..read.wheel_run import cells_or_grains, read_wheel_run

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..analyse.budget import Budget
-from ..analyse.convergence import convergence_of
-from ..analyse.whole_error import SNOW, budgets, budgets_of
+from ..uncertainty.budget import Budget
+from ..uncertainty.convergence import convergence_of
+from ..uncertainty.whole_error import SNOW, budgets, budgets_of
 from ..errors import ResultsError
 from ..formatting import duration
 from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun, read_wheel_run

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..analyse.measurements import Column, read_as, read_columns
+from ..laws.measurements import Column, read_as, read_columns
 from ..arrays import Floats
 from ..errors import ResultsError
 from .units import require_plausible

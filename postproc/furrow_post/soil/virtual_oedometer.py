@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..analyse.point_curves import PointPaths
-from ..analyse.statistics import rms
+from ..laws.point_curves import PointPaths
+from ..uncertainty.statistics import rms
 from ..arrays import Floats
 from .oedometer import Confined
 

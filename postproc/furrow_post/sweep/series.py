@@ -11,7 +11,7 @@ from ..read.wheel_run import WheelRun, read_wheel_run
 from ..run.process import SCREEN
 from ..run.record import FAILED, FINISHED, read_record
 from .sweep_plan import Plan, read_plan
-from ..analyse.whole_error import Families
+from ..uncertainty.whole_error import Families
 from .sweep_quantities import Value, quantities
 
 WARNED = "WARNING: run_until_steady: "

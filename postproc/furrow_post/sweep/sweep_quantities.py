@@ -17,8 +17,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..analyse.budget import Budget
-from ..analyse.whole_error import Families, budgets
+from ..uncertainty.budget import Budget
+from ..uncertainty.whole_error import Families, budgets
 from ..run.summary import Summary
 from ..read.wheel_run import WheelRun
 

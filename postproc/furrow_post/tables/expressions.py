@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..analyse.statistics import block_mean, drift, rms
+from ..uncertainty.statistics import block_mean, drift, rms
 from ..errors import ResultsError
 from ..study.values import NOT_ESTIMATED
 

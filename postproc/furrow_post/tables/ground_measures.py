@@ -9,9 +9,9 @@ import numpy as np
 
 from ..analyse.displacement import displacements
 from ..analyse.evaluations import whole_plate_curve
-from ..analyse.half_space import ELASTIC, below_point_loads
+from ..laws.half_space import ELASTIC, below_point_loads
 from ..analyse.rut import bow_wave, rut_densities, rut_depth, share_left
-from ..analyse.statistics import block_mean, place_of_greatest
+from ..uncertainty.statistics import block_mean, place_of_greatest
 from ..arrays import Booleans, Floats
 from ..laboratory.deposit import outer_radius, slope_angle
 from ..read.results import MIRROR, Results

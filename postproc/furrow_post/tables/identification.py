@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pandas
 
-from ..analyse.response import Response
-from ..analyse.statistics import rms
+from ..laws.response import Response
+from ..uncertainty.statistics import rms
 from .frames import Row
 from .operations import Tables, where
 
@@ -23,7 +23,7 @@ def identify(
     goals: Mapping[str, float],
     place: str,
 ) -> pandas.DataFrame:
-    """A row for each reading and each choice of measured rows whose places its runs reach (analyse/response.py).
+    """A row for each reading and each choice of measured rows whose places its runs reach (laws/response.py).
 
     runs: tables with a row for each run; readings: name -> values (of the parameter), places, runs (names by value and
     place), columns (quantity -> column of a run that is read as such), models (value -> model of the frame's columns

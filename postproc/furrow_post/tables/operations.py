@@ -13,8 +13,8 @@ import numpy as np
 import pandas
 
 from ..analyse import evaluations
-from ..analyse.grid_convergence import grid_convergence
-from ..analyse.statistics import rms
+from ..uncertainty.grid_convergence import grid_convergence
+from ..uncertainty.statistics import rms
 from ..errors import ResultsError
 from .expressions import value_of
 from .frames import Row

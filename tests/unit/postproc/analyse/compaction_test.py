@@ -11,7 +11,7 @@ from scipy.integrate import simpson
 from scipy.optimize import brentq
 
 from furrow_post.analyse.compaction import read_compaction
-from furrow_post.analyse.half_space import ELASTIC, SOEHNE, below_ellipse, below_point_loads
+from furrow_post.laws.half_space import ELASTIC, SOEHNE, below_ellipse, below_point_loads
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError

@@ -9,13 +9,13 @@ import numpy as np
 
 from furrow_post.analyse import comparison, comparison_report, conditions
 from furrow_post.analyse.comparison import Comparison, best_estimates, overall, overall_of_best_estimates
-from furrow_post.analyse.budget import Budget
-from furrow_post.analyse.cost_table import families
+from furrow_post.uncertainty.budget import Budget
+from furrow_post.uncertainty.cost_table import families
 from furrow_post.analyse.curves import Curve, CurveKind, compare_curves
 from furrow_post.analyse.density import height_left
-from furrow_post.analyse.judgement import judge, remedies
-from furrow_post.analyse.prediction import Prediction
-from furrow_post.analyse.verdict import BEST, COEFFICIENT, FORMULA, HUB_DROP, MEASURED, RUN, Agreement, Entry, Quantity
+from furrow_post.uncertainty.judgement import judge, remedies
+from furrow_post.laws.prediction import Prediction
+from furrow_post.uncertainty.verdict import BEST, COEFFICIENT, FORMULA, HUB_DROP, MEASURED, RUN, Agreement, Entry, Quantity
 from furrow_post.errors import ResultsError
 from furrow_post.read.results import Results, Surface
 from furrow_post.run.summary import SteadyValue

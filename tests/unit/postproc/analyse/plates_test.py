@@ -8,8 +8,8 @@ import numpy as np
 
 from furrow_post.analyse import plates
 from furrow_post.analyse.curves import Curve, CurveKind
-from furrow_post.analyse.verdict import BEST, RUN
-from furrow_post.analyse.grid_convergence import grid_convergence
+from furrow_post.uncertainty.verdict import BEST, RUN
+from furrow_post.uncertainty.grid_convergence import grid_convergence
 
 
 def plate_curve(label: str, factor: float, box: float = 0.8, **facts: float) -> Curve:

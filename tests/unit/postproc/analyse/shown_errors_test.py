@@ -10,7 +10,7 @@ from unittest.mock import patch
 from furrow_post.analyse import comparison
 from furrow_post.analyse.comparison import compare
 from furrow_post.analyse.comparison_report import comparison_report, table_rows
-from furrow_post.analyse.whole_error import budgets, headline, read_series, report
+from furrow_post.uncertainty.whole_error import budgets, headline, read_series, report
 from furrow_post.csv_table import read_rows
 from furrow_post.figures.page import results_tables, run_values
 from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run

@@ -5,7 +5,7 @@ import math
 import unittest
 from typing import Any
 
-from furrow_post.analyse import cost_table
+from furrow_post.uncertainty import cost_table
 from furrow_post.csv_table import read_rows
 from furrow_post.study.definition import evaluation_of
 from support.command import SOURCE

@@ -5,9 +5,9 @@ import math
 import sys
 import unittest
 
-from furrow_post.analyse.budget import Budget
+from furrow_post.uncertainty.budget import Budget
 from furrow_post.analyse.plates import pressure_at
-from furrow_post.analyse.verdict import BEST, COEFFICIENT, FORMULA, HUB_DROP, RUN, Entry
+from furrow_post.uncertainty.verdict import BEST, COEFFICIENT, FORMULA, HUB_DROP, RUN, Entry
 from furrow_post.csv_table import read_comments, read_rows
 from support.command import SOURCE
 from support.tables import row

@@ -6,8 +6,8 @@ import unittest
 from dataclasses import replace
 from unittest import mock
 
-from furrow_post.analyse.budget import Budget
-from furrow_post.analyse.whole_error import budgets
+from furrow_post.uncertainty.budget import Budget
+from furrow_post.uncertainty.whole_error import budgets
 from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
 from furrow_post.scene import wanted_error
 from furrow_post.scene.wanted_error import Forecast, Plan, outcome

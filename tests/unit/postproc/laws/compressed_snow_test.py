@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from furrow_post.analyse.compressed_snow import CompressedSnow
+from furrow_post.laws.compressed_snow import CompressedSnow
 from furrow_post.arrays import Floats
 from support.evaluation import evaluation
 

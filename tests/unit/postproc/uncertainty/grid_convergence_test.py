@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from furrow_post.analyse.grid_convergence import (
+from furrow_post.uncertainty.grid_convergence import (
     Convergence,
     grid_convergence,
     mean_shift,

@@ -4,7 +4,7 @@
 import unittest
 from pathlib import Path
 
-from furrow_post.analyse.tyre_size import read_size
+from furrow_post.laws.tyre_size import read_size
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 

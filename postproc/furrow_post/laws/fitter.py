@@ -23,7 +23,7 @@ from scipy.stats import norm
 
 from ..arrays import Booleans, Floats
 from ..errors import ResultsError
-from .statistics import rms
+from ..uncertainty.statistics import rms
 
 # A direction with a singular value below this part of the largest is within the noise of the slopes
 LEAST_SINGULAR = 1e-5

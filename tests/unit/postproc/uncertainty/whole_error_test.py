@@ -11,11 +11,11 @@ from unittest import mock
 
 import numpy as np
 
-from furrow_post.analyse import convergence, model_error, whole_error
-from furrow_post.analyse.budget import Budget, rounded
-from furrow_post.analyse.cost_table import FamilyKey, families
-from furrow_post.analyse.model_error import Case, Test, leave_one_study_out, read_tests, regimes_of
-from furrow_post.analyse.whole_error import budgets, case_of, headline, of_like_wheels, report
+from furrow_post.uncertainty import convergence, model_error, whole_error
+from furrow_post.uncertainty.budget import Budget, rounded
+from furrow_post.uncertainty.cost_table import FamilyKey, families
+from furrow_post.uncertainty.model_error import Case, Test, leave_one_study_out, read_tests, regimes_of
+from furrow_post.uncertainty.whole_error import budgets, case_of, headline, of_like_wheels, report
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.figures.histories import draw_histories

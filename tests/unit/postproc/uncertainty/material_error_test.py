@@ -7,10 +7,10 @@ from pathlib import Path
 
 import yaml
 
-from furrow_post.analyse import material_error
-from furrow_post.analyse.convergence import places
-from furrow_post.analyse.material_error import SceneMaterial, intervals, require_intervals, varied_text
-from furrow_post.analyse.whole_error import budgets
+from furrow_post.uncertainty import material_error
+from furrow_post.uncertainty.convergence import places
+from furrow_post.uncertainty.material_error import SceneMaterial, intervals, require_intervals, varied_text
+from furrow_post.uncertainty.whole_error import budgets
 from furrow_post.errors import ResultsError
 from furrow_post.read.wheel_run import read_wheel_run
 from furrow_post.run.record import digest

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import Floats
 from .fitter import Fit, Fitted, NotComputed, Parameter, fit
-from .statistics import rms
+from ..uncertainty.statistics import rms
 
 # Values of the parameters -> each curve at its points. @raises NotComputed
 Model = Callable[[Floats], Sequence[Floats]]

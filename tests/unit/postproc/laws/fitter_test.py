@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from furrow_post.analyse.fitter import NotComputed, Parameter, Search, fit, judge, plain
+from furrow_post.laws.fitter import NotComputed, Parameter, Search, fit, judge, plain
 from furrow_post.arrays import Floats
 
 X = np.linspace(0.1, 1.0, 10)

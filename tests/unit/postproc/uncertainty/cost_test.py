@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from furrow_post.analyse import cost_table
+from furrow_post.uncertainty import cost_table
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from support.tables import CONTINUUM, GRAINS, made_runs, row

@@ -6,8 +6,8 @@ import unittest
 
 import numpy as np
 
-from furrow_post.analyse.compressed_snow import cam_clay_confined
-from furrow_post.analyse.response import Identified, Response
+from furrow_post.laws.compressed_snow import cam_clay_confined
+from furrow_post.laws.response import Identified, Response
 
 VALUES, DEPTHS = (1.4, 2.0, 3.3), (0.18, 0.22, 0.38)
 GOALS = {"sinkage": 0.012, "resistance": 0.031, "density": 25.5}

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats
-from .statistics import rms
+from ..uncertainty.statistics import rms
 
 TRIED = 1901  # values between the ends
 

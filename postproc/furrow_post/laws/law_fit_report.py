@@ -14,7 +14,7 @@ from ..formatting import in_unit
 from ..whole_file import replaced
 from .fitter import PARTNER, Fitted
 from .law_fit import LawFit
-from .material_error import BESIDE
+from ..uncertainty.material_error import BESIDE
 from .point_curves import PointCurves
 
 CORRELATED = 0.95  # two parameters are reported together from this on

@@ -15,11 +15,11 @@ import h5py
 import numpy as np
 import yaml
 
-from furrow_post.analyse.fitter import Fitted, NotComputed, Parameter
-from furrow_post.analyse.law_fit import Curve, LawFit, fit_law
-from furrow_post.analyse.law_fit_report import report
-from furrow_post.analyse.material_error import intervals
-from furrow_post.analyse.point_curves import PointCurves
+from furrow_post.laws.fitter import Fitted, NotComputed, Parameter
+from furrow_post.laws.law_fit import Curve, LawFit, fit_law
+from furrow_post.laws.law_fit_report import report
+from furrow_post.uncertainty.material_error import intervals
+from furrow_post.laws.point_curves import PointCurves
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_columns
 from furrow_post.errors import ResultsError

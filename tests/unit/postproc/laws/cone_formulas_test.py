@@ -6,7 +6,7 @@ import unittest
 from collections.abc import Callable
 from pathlib import Path
 
-from furrow_post.analyse.cone_formulas import (
+from furrow_post.laws.cone_formulas import (
     PSI,
     Traction,
     Tyre,
@@ -21,7 +21,7 @@ from furrow_post.analyse.cone_formulas import (
     weight_factor,
     wismer_luth,
 )
-from furrow_post.analyse.prediction import OutOfRange
+from furrow_post.laws.prediction import OutOfRange
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from support.command import run_post

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from furrow_post.analyse import empirical
-from furrow_post.analyse.prediction import OutOfRange
-from furrow_post.analyse.terrain_values import terrain
-from furrow_post.analyse.statistics import rms
+from furrow_post.laws import empirical
+from furrow_post.laws.prediction import OutOfRange
+from furrow_post.laws.terrain_values import terrain
+from furrow_post.uncertainty.statistics import rms
 from furrow_post.csv_table import read_numbers, read_rows
 from furrow_post.errors import ResultsError
 from support.command import SOURCE, run_post

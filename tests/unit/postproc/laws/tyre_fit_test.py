@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from furrow_post.analyse.tyre_estimate import Catalogue, guesses, hub_mass, tyre_sections, tyre_text
-from furrow_post.analyse.tyre_fit import MEASURED, Mesh, NotAtRest, PlateTest, fit_tyre, read_tests
-from furrow_post.analyse.tyre_size import INCH, read_size
+from furrow_post.laws.tyre_estimate import Catalogue, guesses, hub_mass, tyre_sections, tyre_text
+from furrow_post.laws.tyre_fit import MEASURED, Mesh, NotAtRest, PlateTest, fit_tyre, read_tests
+from furrow_post.laws.tyre_size import INCH, read_size
 from furrow_post.errors import ResultsError
 
 KNOWN = Catalogue(read_size("235/75R15"), 241e3, rim_width=6.5 * INCH, diameter=0.737)
