@@ -65,7 +65,7 @@ def combinations() -> Iterator[dict[str, Any]]:
 def formulas(size: str, soil: str, slip: float = SLIP) -> Formulas:
     """Formulas for one tyre on the cone index of one soil."""
     kind, index = SOILS[soil]
-    return formulas_for(kind, 1e3 * index, estimate(size).tyre, slip, "R" in size)
+    return formulas_for(kind, 1e3 * index, estimate(size).tyre, slip)
 
 
 def compared_with_formulas(run: Run) -> list[dict[str, Any]]:

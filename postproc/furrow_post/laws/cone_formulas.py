@@ -69,218 +69,198 @@ class Tyre:
     width: float
     section_height: float = math.nan
     deflection: float = math.nan
+    radial: bool = False
 
     @property
     def deflection_ratio(self) -> float:
         return self.deflection / self.section_height
 
+    @property
+    def width_ratio(self) -> float:
+        """Width over diameter."""
+        return self.width / self.diameter
+
     def clay_number(self, cone_index: float) -> float:
         """CI b d/W"""
         return cone_index * self.width * self.diameter / self.load
 
-    def require(self, method: str, deflected: bool) -> None:
-        """@raises ResultsError"""
-        require_wheel(method, self.load, self.diameter, self.width)
-        if deflected:
-            require_positive(
-                method, section_height=self.section_height, deflection=self.deflection
+    def require_deflection(self, method: str) -> None:
+        """@raises ResultsError where the deflection is not known, or exceeds the section height"""
+        require_positive(method, section_height=self.section_height, deflection=self.deflection)
+        if self.deflection >= self.section_height:
+            raise ResultsError(
+                f"{method}: deflection is {self.deflection:g} m, and the section height "
+                f"{self.section_height:g} m; give a smaller deflection"
             )
-            if self.deflection >= self.section_height:
-                raise ResultsError(
-                    f"{method}: deflection is {self.deflection:g} m, and the section height "
-                    f"{self.section_height:g} m; give a smaller deflection"
-                )
+
+
+# Limits of a formula -> those that are not met, in words. @raises OutOfRange unless they may be left
+Within = Callable[..., tuple[str, ...]]
+# Cone index [Pa], tyre, slip, limits -> numeric, gross, resistance and what else Traction has
+Equations = Callable[[float, Tyre, float, Within], dict[str, float]]
+
+
+@dataclass(frozen=True)
+class ConeFormula:
+    """A formula; call it with the cone index [Pa], a tyre and the slip."""
+
+    method: str
+    source: str
+    equations: Equations
+    deflected: bool  # it needs the deflection of the tyre
+    mark: str
+
+    def __call__(self, cone_index: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
+        """@raises OutOfRange outside of its range, unless told to extrapolate; ResultsError"""
+        require_wheel(self.method, tyre.load, tyre.diameter, tyre.width)
+        if self.deflected:
+            tyre.require_deflection(self.method)
+        require_positive(self.method, cone_index=cone_index)
+        outside: list[str] = []
+
+        def within(*limits: Limit) -> tuple[str, ...]:
+            outside.extend(require_range(self.method, limits, extrapolate))
+            return tuple(outside)
+
+        values = self.equations(cone_index, tyre, slip, within)
+        return Traction(self.method, self.source, slip=slip, load=tyre.load, outside=tuple(outside), mark=self.mark, **values)
+
+
+def _formula(method: str, source: str, deflected: bool = True, mark: str = "") -> Callable[[Equations], ConeFormula]:
+    return lambda equations: ConeFormula(method, source, equations, deflected, mark)
 
 
 def _slip_limit(slip: float) -> Limit:
     return Limit("slip", slip, 0.0, 1.0, "", "driving")
 
 
-WISMER_LUTH_SOURCE = "R. D. Wismer and H. J. Luth, Trans. ASAE 17(1), 8-10 (1974)"
-
-
-def wismer_luth(cone_index: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
-    """GT/W = 0.75 (1 - exp(-0.3 C_n s)), R/W = 1.2/C_n + 0.04. @raises OutOfRange"""
-    method = "Wismer-Luth"
-    tyre.require(method, deflected=False)
-    require_positive(method, cone_index=cone_index)
+@_formula("Wismer-Luth", "R. D. Wismer and H. J. Luth, Trans. ASAE 17(1), 8-10 (1974)", deflected=False)
+def wismer_luth(cone_index: float, tyre: Tyre, slip: float, within: Within) -> dict[str, float]:
+    """GT/W = 0.75 (1 - exp(-0.3 C_n s)), R/W = 1.2/C_n + 0.04."""
     number = tyre.clay_number(cone_index)
-    ratio = tyre.width / tyre.diameter
-    outside = require_range(
-        method,
-        [_slip_limit(slip), Limit("width over diameter", ratio, 0.2, 0.4, "", "tyres of about 0.3")],
-        extrapolate,
-    )
+    within(_slip_limit(slip), Limit("width over diameter", tyre.width_ratio, 0.2, 0.4, "", "tyres of about 0.3"))
     gross = 0.75 * (1 - math.exp(-0.3 * number * slip))
-    resistance = 1.2 / number + 0.04
-    return Traction(method, WISMER_LUTH_SOURCE, number, slip, tyre.load, gross, resistance, outside)
+    return {"numeric": number, "gross": gross, "resistance": 1.2 / number + 0.04}
 
 
-BRIXIUS_SOURCE = "W. W. Brixius, ASAE paper 87-1622 (1987); ASAE D497"
-
-
-def brixius(
-    cone_index: float, tyre: Tyre, slip: float, radial: bool = False, extrapolate: bool = False
-) -> Traction:
+@_formula("Brixius", "W. W. Brixius, ASAE paper 87-1622 (1987); ASAE D497")
+def brixius(cone_index: float, tyre: Tyre, slip: float, within: Within) -> dict[str, float]:
     """B_n = C_n (1 + 5 delta/h)/(1 + 3 b/d); GT/W = 0.88 (1 - exp(-0.1 B_n))(1 - exp(-7.5 s)) + 0.04,
-    R/W = 1/B_n + 0.04 + 0.5 s/sqrt(B_n). A radial tyre has 9.5, 0.0325 and 0.9/B_n. @raises
-    OutOfRange"""
-    method = "Brixius"
-    tyre.require(method, deflected=True)
-    require_positive(method, cone_index=cone_index)
-    ratio = tyre.width / tyre.diameter
-    number = tyre.clay_number(cone_index) * (1 + 5 * tyre.deflection_ratio) / (1 + 3 * ratio)
+    R/W = 1/B_n + 0.04 + 0.5 s/sqrt(B_n). A radial tyre has 9.5, 0.0325 and 0.9/B_n."""
+    number = tyre.clay_number(cone_index) * (1 + 5 * tyre.deflection_ratio) / (1 + 3 * tyre.width_ratio)
     pressure = tyre.load / (tyre.width * tyre.diameter)
     why = "ASAE D497"
-    outside = require_range(
-        method,
-        [
-            _slip_limit(slip),
-            Limit("width over diameter", ratio, 0.1, 0.7, "", why),
-            Limit("deflection over section height", tyre.deflection_ratio, 0.1, 0.3, "", why),
-            Limit("load over width and diameter", pressure, 15e3, 55e3, "Pa", why),
-        ],
-        extrapolate,
+    within(
+        _slip_limit(slip),
+        Limit("width over diameter", tyre.width_ratio, 0.1, 0.7, "", why),
+        Limit("deflection over section height", tyre.deflection_ratio, 0.1, 0.3, "", why),
+        Limit("load over width and diameter", pressure, 15e3, 55e3, "Pa", why),
     )
-    rate, rolling, sinking = (9.5, 0.0325, 0.9) if radial else (7.5, 0.04, 1.0)
+    rate, rolling, sinking = (9.5, 0.0325, 0.9) if tyre.radial else (7.5, 0.04, 1.0)
     gross = 0.88 * (1 - math.exp(-0.1 * number)) * (1 - math.exp(-rate * slip)) + rolling
     resistance = sinking / number + rolling + 0.5 * slip / math.sqrt(number)
-    return Traction(method, BRIXIUS_SOURCE, number, slip, tyre.load, gross, resistance, outside)
+    return {"numeric": number, "gross": gross, "resistance": resistance}
 
 
-GEE_CLOUGH_SOURCE = "D. Gee-Clough et al., J. Terramechanics 15(2), 81-94 (1978)"
-
-
-def gee_clough(cone_index: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
+@_formula("Gee-Clough", "D. Gee-Clough et al., J. Terramechanics 15(2), 81-94 (1978)")
+def gee_clough(cone_index: float, tyre: Tyre, slip: float, within: Within) -> dict[str, float]:
     """M = C_n sqrt(delta/h)/(1 + b/(2 d)); net NT/W = C (1 - exp(-k s)), C = 0.796 - 0.92/M, k C =
-    4.838 + 0.061 M, R/W = 0.049 + 0.287/M. Field tyres on farm land. @raises OutOfRange"""
-    method = "Gee-Clough"
-    tyre.require(method, deflected=True)
-    require_positive(method, cone_index=cone_index)
-    ratio = tyre.width / tyre.diameter
-    number = tyre.clay_number(cone_index) * math.sqrt(tyre.deflection_ratio) / (1 + 0.5 * ratio)
+    4.838 + 0.061 M, R/W = 0.049 + 0.287/M. Field tyres on farm land."""
+    number = tyre.clay_number(cone_index) * math.sqrt(tyre.deflection_ratio) / (1 + 0.5 * tyre.width_ratio)
     largest = 0.796 - 0.92 / number
     if largest <= 0:
         raise ResultsError(
-            f"{method}: the mobility number is {number:.3g}, for which the tyre has no traction; "
-            "allowed: above 1.16"
+            f"Gee-Clough: the mobility number is {number:.3g}, for which the tyre has no traction; allowed: above 1.16"
         )
-    outside = require_range(method, [_slip_limit(slip)], extrapolate)
+    within(_slip_limit(slip))
     rate = (4.838 + 0.061 * number) / largest
     resistance = 0.049 + 0.287 / number
-    gross = largest * (1 - math.exp(-rate * slip)) + resistance
-    return Traction(method, GEE_CLOUGH_SOURCE, number, slip, tyre.load, gross, resistance, outside)
+    return {"numeric": number, "gross": largest * (1 - math.exp(-rate * slip)) + resistance, "resistance": resistance}
 
 
-VTI_SOURCE = "Vehicle-Terrain Interface of ERDC, in MAVS (2024), vehicles/vti/fine_grained.cpp"
-
-
-def vti_clay(rating: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
+@_formula(
+    "VTI, clay",
+    "Vehicle-Terrain Interface of ERDC, in MAVS (2024), vehicles/vti/fine_grained.cpp",
+    mark="the source gives sinkage without a unit; read as a share of the diameter",
+)
+def vti_clay(rating: float, tyre: Tyre, slip: float, within: Within) -> dict[str, float]:
     """Fine-grained soil by its rating cone index RCI [Pa]: N_c = RCI b d/(W (1 - delta/h)^1.5 (1 +
     b/d)^0.75), self-propelled slip s_0 = 21/N_c^2.5 + 0.005, GT/W = 0.5 log10(s/s_0) (1 + b/d)^0.25 +
     12/N_c^2 + 0.007 up to 1, R/W = 5.07/N_c^1.71 + 0.011. With N_z = N_c (1 + b/d)^0.75 the sinkage is 1.64 d
-    (s_0^0.19/N_z)^1.21, of a towed wheel d (2.66/N_z^1.64 - 0.0063). @raises OutOfRange"""
-    method = "VTI, clay"
-    tyre.require(method, deflected=True)
-    require_positive(method, cone_index=rating)
-    shape = 1 + tyre.width / tyre.diameter
+    (s_0^0.19/N_z)^1.21, of a towed wheel d (2.66/N_z^1.64 - 0.0063)."""
+    shape = 1 + tyre.width_ratio
     softness = (1 - tyre.deflection_ratio) ** 1.5
     number = tyre.clay_number(rating) / (softness * shape**0.75)
     free = 21 / number**2.5 + 0.005
-    why = "below it the tyre does not propel itself"
-    outside = require_range(method, [Limit("slip", slip, free, 1.0, "", why)], extrapolate)
-    require_positive(method, slip=slip)
-    gross = min(0.5 * math.log10(slip / free) * shape**0.25 + 12 / number**2 + 0.007, 1.0)
-    resistance = 5.07 / number**1.71 + 0.011
+    within(Limit("slip", slip, free, 1.0, "", "below it the tyre does not propel itself"))
+    require_positive("VTI, clay", slip=slip)
     deep = number * shape**0.75
-    return Traction(
-        method,
-        VTI_SOURCE,
-        number,
-        slip,
-        tyre.load,
-        gross,
-        resistance,
-        outside,
-        sinkage=1.64 * tyre.diameter * (free**0.19 / deep) ** 1.21,
-        towed_sinkage=tyre.diameter * max(2.66 / deep**1.64 - 0.0063, 0.0),
-        mark="the source gives sinkage without a unit; read as a share of the diameter",
-    )
+    return {
+        "numeric": number,
+        "gross": min(0.5 * math.log10(slip / free) * shape**0.25 + 12 / number**2 + 0.007, 1.0),
+        "resistance": 5.07 / number**1.71 + 0.011,
+        "sinkage": 1.64 * tyre.diameter * (free**0.19 / deep) ** 1.21,
+        "towed_sinkage": tyre.diameter * max(2.66 / deep**1.64 - 0.0063, 0.0),
+    }
 
 
-DROVE_SAND_SOURCE = (
+@_formula(
+    "DROVE, sand",
     "Mason et al. (2016, 2018), Williams et al. (2017), DROVE records of dry sand, in MAVS (2024), "
-    "vehicles/vti/coarse_grained.cpp"
+    "vehicles/vti/coarse_grained.cpp",
 )
-
-
-def drove_sand(cone_index: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
+def drove_sand(cone_index: float, tyre: Tyre, slip: float, within: Within) -> dict[str, float]:
     """Dry sand. Contact pressure CP = W/(2 b sqrt(d a - a^2) (b/h)^0.52) with a = delta + 0.026 d, q = CP/CI,
     GT/W = -0.5 + (T + 0.5)/(1 + A exp(-7 s))^(1/C), T = 0.42 + 0.009/q, A = 0.76 + 0.014/q, C = 1.56 - 0.022/q;
     R/W = 0.4 q + 0.6 s - 0.03, towed 0.21 q + 0.04. Sinkage 14 d/N, towed 22 d/(N/(1 - b/d))^1.125 with
-    N = CI (b d)^1.5/((1 - delta/h) W), in inches. @raises OutOfRange"""
-    method = "DROVE, sand"
-    tyre.require(method, deflected=True)
-    require_positive(method, cone_index=cone_index)
+    N = CI (b d)^1.5/((1 - delta/h) W), in inches."""
     b, d = tyre.width, tyre.diameter
     chord = tyre.deflection + 0.026 * d
     contact = tyre.load / (2 * b * math.sqrt(d * chord - chord**2) * (b / tyre.section_height) ** 0.52)
     q = contact / cone_index
-    limits = [
+    outside = within(
         _slip_limit(slip),
         Limit("contact pressure over cone index", q, 0.03, 1.0, "", "firmer sand has no largest traction"),
         Limit("width over diameter", b / d, 0.0, 0.9, "", "a towed wheel sinks without limit at 1"),
-    ]
-    outside = require_range(method, limits, extrapolate)
+    )
     exponent = 1.56 - 0.022 / q
     if exponent <= 0 or b >= d:
-        raise ResultsError(f"{method}: has no value here: {'; '.join(outside)}")
+        raise ResultsError(f"DROVE, sand: has no value here: {'; '.join(outside)}")
     most, steep = 0.42 + 0.009 / q, 0.76 + 0.014 / q
-    gross = -0.5 + (most + 0.5) / (1 + steep * math.exp(-7 * slip)) ** (1 / exponent)
     number = cone_index * (b * d) ** 1.5 / ((1 - tyre.deflection_ratio) * tyre.load) / INCH
-    return Traction(
-        method,
-        DROVE_SAND_SOURCE,
-        number,
-        slip,
-        tyre.load,
-        gross,
-        0.4 * q + 0.6 * slip - 0.03,
-        outside,
-        sinkage=14 * d / number,
-        towed_resistance=0.21 * q + 0.04,
-        towed_sinkage=22 * d / (number / (1 - b / d)) ** 1.125,
-    )
+    return {
+        "numeric": number,
+        "gross": -0.5 + (most + 0.5) / (1 + steep * math.exp(-7 * slip)) ** (1 / exponent),
+        "resistance": 0.4 * q + 0.6 * slip - 0.03,
+        "sinkage": 14 * d / number,
+        "towed_resistance": 0.21 * q + 0.04,
+        "towed_sinkage": 22 * d / (number / (1 - b / d)) ** 1.125,
+    }
 
 
-MACLAURIN_SOURCE = "E. B. Maclaurin (1990, 1997), after M. Saarilahti (2002)"
-
-
-def maclaurin(cone_index: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
+@_formula("Maclaurin", "E. B. Maclaurin (1990, 1997), after M. Saarilahti (2002)", mark="traction and resistance from memory")
+def maclaurin(cone_index: float, tyre: Tyre, slip: float, within: Within) -> dict[str, float]:
     """N = CI b^0.8 d^0.8 delta^0.4/W; R/W = 0.017 + 0.453/N; at 20 % slip NT/W = 0.817 - 3.2/(N + 1.91), at
-    other slips none; rut of the first pass 0.224 d/N^1.25. @raises OutOfRange"""
-    method = "Maclaurin"
-    tyre.require(method, deflected=True)
-    require_positive(method, cone_index=cone_index)
+    other slips none; rut of the first pass 0.224 d/N^1.25."""
     size = (tyre.width * tyre.diameter) ** 0.8 * tyre.deflection**0.4
     number = cone_index * size / tyre.load
-    limits = [_slip_limit(slip), Limit("mobility number", number, 1.85, math.inf, "", "below it a tyre is stuck")]
-    outside = require_range(method, limits, extrapolate)
+    within(_slip_limit(slip), Limit("mobility number", number, 1.85, math.inf, "", "below it a tyre is stuck"))
     resistance = 0.017 + 0.453 / number
-    at_slip = math.isclose(slip, 0.2)
-    gross = 0.817 - 3.2 / (number + 1.91) + resistance if at_slip else math.nan
-    return Traction(
-        method,
-        MACLAURIN_SOURCE,
-        number,
-        slip,
-        tyre.load,
-        gross,
-        resistance,
-        outside,
-        sinkage=0.224 * tyre.diameter / number**1.25,
-        mark="traction and resistance from memory",
-    )
+    gross = 0.817 - 3.2 / (number + 1.91) + resistance if math.isclose(slip, 0.2) else math.nan
+    sinkage = 0.224 * tyre.diameter / number**1.25
+    return {"numeric": number, "gross": gross, "resistance": resistance, "sinkage": sinkage}
+
+
+FORMULAS = {"clay": (wismer_luth, brixius, gee_clough, vti_clay, maclaurin), "sand": (drove_sand,)}
+# Column of a table -> heading, factor to its unit, decimals
+COLUMNS = {
+    "gross": ("gross", 1.0, 3),
+    "resistance": ("resistance", 1.0, 3),
+    "net": ("net", 1.0, 3),
+    "sinkage": ("sinkage [mm]", 1e3, 0),
+    "towed_resistance": ("towed", 1.0, 3),
+    "towed_sinkage": ("towed [mm]", 1e3, 0),
+}
 
 
 @dataclass(frozen=True)
@@ -298,46 +278,26 @@ class Formulas:
         return (sum(values) / len(values), min(values), max(values)) if values else None
 
     def report(self) -> str:
-        head = ("", "gross", "resistance", "net", "sinkage [mm]", "towed", "towed [mm]")
-        units = {"sinkage": 1e3, "towed_sinkage": 1e3}
-        names = ("gross", "resistance", "net", "sinkage", "towed_resistance", "towed_sinkage")
-
-        def row(title: str, values: list[float]) -> str:
-            cells = [
-                "-" if not math.isfinite(value) else f"{units.get(name, 1) * value:.{0 if name in units else 3}f}"
-                for name, value in zip(names, values, strict=True)
-            ]
-            return f"{title:16}" + "".join(f"{cell:>13}" for cell in cells)
-
-        lines = [f"{head[0]:16}" + "".join(f"{cell:>13}" for cell in head[1:])]
-        for answer in self.answers:
-            sign = "!" if answer.outside else "*" if answer.mark else ""
-            lines.append(row(f"{answer.method} {sign}", [getattr(answer, name) for name in names]))
-        bands = [self.band(name) or (math.nan,) * 3 for name in names]
-        lines += [row(title, [band[k] for band in bands]) for k, title in enumerate(("mean", "least", "greatest"))]
+        bands = [self.band(name) or (math.nan,) * 3 for name in COLUMNS]
+        rows = [(f"{a.method} {'!' if a.outside else '*' * bool(a.mark)}", [getattr(a, n) for n in COLUMNS]) for a in self.answers]
+        rows += zip(("mean", "least", "greatest"), map(list, zip(*bands)))
+        table = [("", [heading for heading, _, _ in COLUMNS.values()])]
+        for title, values in rows:
+            columns = zip(values, COLUMNS.values())
+            table.append((title, [f"{unit * v:.{digits}f}" if math.isfinite(v) else "-" for v, (_, unit, digits) in columns]))
+        lines = [f"{title:16}" + "".join(f"{cell:>13}" for cell in cells) for title, cells in table]
         lines.append("Forces over the load. Mean, least and greatest are those of the formulas within their range.")
         lines += [f"* {answer.method}: {answer.mark}" for answer in self.answers if answer.mark]
         lines += [f"! {a.method}: EXTRAPOLATED: {limit}" for a in self.answers for limit in a.outside]
         return "\n".join([*lines, *(f"! {cause}" for cause in self.refused)])
 
 
-def formulas_for(
-    soil: str, cone_index: float, tyre: Tyre, slip: float, radial: bool = False
-) -> Formulas:
-    """`soil`: sand or clay. A formula answers outside of its range too, with a mark. @raises ResultsError
-    without any answer"""
-    on_clay: tuple[Callable[[], Traction], ...] = (
-        lambda: wismer_luth(cone_index, tyre, slip, True),
-        lambda: brixius(cone_index, tyre, slip, radial, True),
-        lambda: gee_clough(cone_index, tyre, slip, True),
-        lambda: vti_clay(cone_index, tyre, slip, True),
-        lambda: maclaurin(cone_index, tyre, slip, True),
-    )
-    on_sand: tuple[Callable[[], Traction], ...] = (lambda: drove_sand(cone_index, tyre, slip, True),)
+def formulas_for(soil: str, cone_index: float, tyre: Tyre, slip: float) -> Formulas:
+    """soil: of FORMULAS. A formula answers outside of its range too, with a mark. @raises ResultsError without any answer"""
     answers, refused = [], []
-    for formula in {"clay": on_clay, "sand": on_sand}[soil]:
+    for formula in FORMULAS[soil]:
         try:
-            answers.append(formula())
+            answers.append(formula(cone_index, tyre, slip, extrapolate=True))
         except ResultsError as error:
             refused.append(str(error))
     if not answers:
