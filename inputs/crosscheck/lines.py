@@ -5,9 +5,8 @@ import math
 from collections.abc import Iterable, Mapping
 
 from furrow_post.uncertainty.budget import Budget
-from furrow_post.uncertainty.judgement import judge
 from furrow_post.analyse.plates import pressure_at
-from furrow_post.uncertainty.verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, Agreement, Entry, Quantity
+from furrow_post.uncertainty.verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, Agreement, Entry, Quantity, judge
 from furrow_post.formatting import in_unit, percent
 from furrow_post.study.tables import markdown
 

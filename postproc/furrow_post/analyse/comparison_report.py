@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A comparison for a person and for programs: compare.txt, compare.csv, compare.h5."""
 
-import math
 from pathlib import Path
 from typing import Any
 
@@ -10,24 +9,13 @@ import numpy as np
 
 from ..csv_table import in_cells, write_rows
 from ..formatting import duration
-from .comparison import Comparison, overall, overall_of_best_estimates
 from ..uncertainty.budget import Budget
+from ..uncertainty.verdict import QUANTITIES, TRACK_DENSITY, Entry, conclusion
+from .comparison import Comparison
 from .density import sections
-from ..uncertainty.judgement import remedies
-from ..uncertainty.verdict import QUANTITIES, TRACK_DENSITY, Entry
 from .wheel_histories import cruise_history, settling_curve
 
-SHOWN_CONDITIONS = (
-    "load",
-    "speed",
-    "slip",
-    "slip_by_vehicle_speed",
-    "wheel_diameter",
-    "wheel_width",
-    "depth",
-    "density",
-)
-
+SHOWN_CONDITIONS = ("load", "speed", "slip", "slip_by_vehicle_speed", "wheel_diameter", "wheel_width", "depth", "density")
 
 Line = dict[str, str | float]
 
@@ -35,22 +23,12 @@ Line = dict[str, str | float]
 def table_rows(result: Comparison) -> list[Line]:
     """Lines of compare.csv: texts and SI numbers."""
     lines: list[Line] = []
-    for e in result.entries:
+    for e in (*result.entries, *result.tracks.values()):
         parts = e.parts if e.of_run else Budget()
-        line = _line(e.quantity.name, e.source, e.kind, e.value, e.uncertainty, parts)
+        line: Line = {"quantity": e.quantity.name, "source": e.source, "kind": e.kind, "value": e.value}
+        line |= {"uncertainty": e.uncertainty, **{f"u_{name}": parts.part(name) for name in Budget.NAMES}}
         lines.append({**line, "cpu_time": e.cpu_time, "note": e.note})
-    for e in result.tracks.values():
-        lines.append(_line(e.quantity.name, e.source, e.kind, e.value, e.uncertainty, e.parts))
     return lines
-
-
-def _line(
-    quantity: str, source: str, kind: str, value: float, uncertainty: float, parts: Budget
-) -> Line:
-    named: Line = {"quantity": quantity, "source": source, "kind": kind}
-    named |= {"value": value, "uncertainty": uncertainty}
-    named |= {f"u_{name}": parts.part(name) for name in Budget.NAMES}
-    return {**named, "cpu_time": math.nan, "note": ""}
 
 
 def parts_cell(entry: Entry) -> str:
@@ -65,35 +43,24 @@ def comparison_report(result: Comparison) -> str:
     for name in SHOWN_CONDITIONS:
         texts = [run.text(name, "?") for run in result.runs]
         lines.append(f"  {name.replace('_', ' '):22} " + "   ".join(dict.fromkeys(texts)))
-    lines += [
-        f"  {run.label:{wide}}  {run.ground}, {run.describe_size()}, {run.model} model, "
-        f"{run.elements} {run.elements_name}"
-        for run in result.runs
-    ]
+    for run in result.runs:
+        size = f"{run.ground}, {run.describe_size()}, {run.model} model, {run.elements} {run.elements_name}"
+        lines.append(f"  {run.label:{wide}}  {size}")
     for quantity in QUANTITIES:
         lines += ["", f"  {quantity.label:{wide}}  {'':18} {'cost':9}parts of the error"]
-        lines += [
-            f"  {e.label:{wide}}  {e.text():18} {duration(e.cpu_time):9}{', '.join(filter(None, [parts_cell(e), e.note]))}".rstrip()
-            for e in result.of(quantity)
-        ]
+        for e in result.of(quantity):
+            notes = ", ".join(filter(None, [parts_cell(e), e.note]))
+            lines.append(f"  {e.label:{wide}}  {e.text():18} {duration(e.cpu_time):9}{notes}".rstrip())
     if result.tracks:
         lines += ["", f"  {TRACK_DENSITY.label:{wide}}  {'':27} parts of the error"]
         lines += [f"  {e.label:{wide}}  {e.text():27} {parts_cell(e)}" for e in result.tracks.values()]
-    lines += [
-        "",
-        "± is one standard error, from the parts that are known. Verdicts allow two.",
-    ]
+    lines += ["", "± is one standard error, from the parts that are known. Verdicts allow two."]
     if result.differences:
         lines += ["", "COMPARED ALTHOUGH CONDITIONS DIFFER"]
         lines += [f"  {d.condition}: {d.text}" for d in result.differences]
-    verdicts = [overall(result), overall_of_best_estimates(result)]
-    said = [f"  {verdict}" for verdict in verdicts if verdict]
-    said += [f"  - {sentence}" for sentence in findings(result)]
-    lines += ["", "Verdict", *(said or ["  none: there is nothing to compare the run with"])]
-    judged = (*result.verdicts, *result.best_estimates)
-    if needed := remedies([part for verdict in judged for part in verdict.unknown]):
-        lines += ["", "To find what is unknown", *(f"  - {line}" for line in needed)]
-    return "\n".join(lines)
+    verdicts = (result.overall(), result.overall_of_best_estimates())
+    unknown = [part for verdict in (*result.verdicts, *result.best_estimates) for part in verdict.unknown]
+    return "\n".join([*lines, "", *conclusion(verdicts, findings(result), unknown)])
 
 
 def findings(result: Comparison) -> list[str]:
@@ -120,7 +87,7 @@ def _write_hdf5(content: Any, result: Comparison, lines: list[Line]) -> None:
         values = [line[name] for line in lines]
         kind = h5py.string_dtype() if isinstance(sample, str) else np.float64
         table[name] = np.array(values, dtype=kind)
-    content.attrs["verdict"] = overall(result)
+    content.attrs["verdict"] = result.overall()
     content.attrs["unit"] = "SI; uncertainties are one standard error, NaN: not known"
     for run in result.runs:
         group = content.create_group(f"runs/{run.label.replace('/', '_')}")

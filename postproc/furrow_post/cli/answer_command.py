@@ -94,7 +94,7 @@ def estimate_tyre(text: str, load: float, pressure: float, command: str) -> Esti
     fit = fit_tyre(Catalogue(size, 1e3 * pressure), [])
     file_text = fit.file_text(size.designation, [command])
     (state,) = press(file_text, [PlateTest(pressure, load, {})])
-    tyre = Tyre(load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"], "R" in text.upper())
+    tyre = Tyre(load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"], radial="R" in text.upper())
     return EstimatedTyre(file_text, fit.values()["belt_radius"], tyre)
 
 

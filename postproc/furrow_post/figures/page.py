@@ -9,10 +9,10 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from ..analyse.comparison import Comparison, overall
+from ..analyse.comparison import Comparison
 from ..analyse.comparison_report import findings, parts_cell
 from ..uncertainty.verdict import QUANTITIES
-from ..uncertainty.whole_error import budgets, headline
+from ..uncertainty.whole_error import RunErrors, headline
 from ..formatting import duration, in_unit
 from ..read.wheel_run import WheelRun
 from ..run.summary import Summary
@@ -52,7 +52,7 @@ def escaped(text: object) -> str:
 def verdict_values(result: Comparison) -> dict[str, Any]:
     """Verdict, findings and differences of a comparison."""
     return {
-        "verdict": overall(result),
+        "verdict": result.overall(),
         "findings": findings(result),
         "differences": [f"{each.condition}: {each.text}" for each in result.differences],
     }
@@ -95,7 +95,7 @@ def all_condition_rows(runs: Sequence[WheelRun]) -> list[list[str]]:
 def run_values(run: WheelRun, histories: Path) -> dict[str, Any]:
     """Conditions and values of one run. histories: its drawn histories"""
     summary = Summary(run.folder)
-    steady, errors = [], budgets(run)
+    steady, errors = [], RunErrors(run).all()
     for name, value in summary.quantities.items():
         known = summary.quantity(name)
         number = errors[name].value_text(known.mean) if known else ""

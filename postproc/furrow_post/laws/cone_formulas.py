@@ -7,7 +7,7 @@ height, delta: deflection of the tyre on hard ground, W: load.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ..errors import ResultsError
 from .prediction import Limit, require_positive, require_range, require_wheel
@@ -69,7 +69,7 @@ class Tyre:
     width: float
     section_height: float = math.nan
     deflection: float = math.nan
-    radial: bool = False
+    radial: bool = field(default=False, kw_only=True)
 
     @property
     def deflection_ratio(self) -> float:

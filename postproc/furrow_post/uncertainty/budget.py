@@ -32,6 +32,11 @@ class Budget:
     )  # fmt: skip
     NUMERICAL: ClassVar[tuple[str, ...]] = NAMES[:4]  # what runs of other sizes, grounds and packings show
 
+    @classmethod
+    def single(cls, part: str, error: float, source: str) -> "Budget":
+        """One known part with its source."""
+        return replace(cls(), **{part: error}, sources={part: source})
+
     def part(self, name: str) -> float:
         value: float = getattr(self, name)
         return value
@@ -55,6 +60,10 @@ class Budget:
 
     def scaled(self, factor: float) -> "Budget":
         return replace(self, **{name: abs(factor) * self.part(name) for name in self.NAMES})
+
+    def updated(self, other: "Budget") -> "Budget":
+        """The known parts of another budget in place of these, with their sources."""
+        return replace(self, **{name: other.part(name) for name in other.known}, sources={**self.sources, **other.sources})
 
     def label(self, part: str) -> str:
         """Name of a part for people."""

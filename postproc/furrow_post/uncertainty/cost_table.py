@@ -9,7 +9,7 @@ of a domain the mean difference, of packings the standard deviation of one run.
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -106,10 +106,10 @@ def read_table(path: Path) -> tuple[list[Row], list[str]]:
         lacking = "rows" if not rows else f"column {missing[0]}"
         raise ResultsError(f"{path}: has no {lacking}; columns are {', '.join(HEADER)}")
     with content_of(path, "write the table again with 'furrow-post cost RESULTS... --write TABLE'"):
-        return [_parsed(row) for row in rows], comments
+        return [parsed_row(row) for row in rows], comments
 
 
-def _parsed(row: dict[str, str]) -> Row:
+def parsed_row(row: Mapping[str, str]) -> Row:
     """@raises ValueError where a number is none, or a size is not above 0"""
     values: dict[str, Any] = {name: row[name] for name in HEADER}
     values.update({name: float(row[name]) for name in NUMERIC})

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Change of a scene by the intervals of a soil card or a material file, as 'furrow-post converge --material' stores it.
+"""Parameters of a soil card or a material file with their standard errors, and the file with one of them changed.
 
 A soil card has a standard error with each parameter. A material file NAME.yaml has them in NAME.errors.csv, which
 'furrow-post fit law' writes: `law.beta,0.6`. A file with a base has the errors of the base too.
 """
 
-import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
+from operator import getitem
 from pathlib import Path
 from typing import Any
 
@@ -16,15 +17,9 @@ import yaml
 
 from ..csv_table import read_rows
 from ..errors import ResultsError, content_of
-from ..json_text import parse_json
-from ..read.wheel_run import WheelRun
-from ..run.record import digest
-from .convergence import RELATIVE, beside_scene
 
 BESIDE = ".errors.csv"  # instead of the ending of a material file
-ENDING = ".material.json"  # behind the stem of the scene's script
 OF_CARD = ("pressure_sinkage", "shear")  # sections that a height field reads
-REMEDY = "write it again with 'furrow-post converge SCENE --material'"
 
 
 @dataclass(frozen=True)
@@ -54,10 +49,7 @@ def intervals(file: Path) -> list[Interval]:
 def varied_text(file: Path, interval: Interval) -> str:
     """The file with one parameter larger by its standard error."""
     content = _content(file) if OF_CARD[0] in _content(file) else _merged(file)
-    section: Any = content
-    for key in interval.keys[:-1]:
-        section = section[key]
-    section[interval.keys[-1]] = interval.value + interval.error
+    _at(content, interval.keys[:-1])[interval.keys[-1]] = interval.value + interval.error
     head = str(interval.keys[0])
     if isinstance(content.get("contact"), str):
         content["contact"] = str((file.parent / content["contact"]).resolve())
@@ -99,63 +91,7 @@ def _keys(name: str) -> tuple[str | int, ...]:
 
 
 def _at(content: Any, keys: Sequence[str | int]) -> Any:
-    for key in keys:
-        content = content[key]
-    return content
-
-
-# ---- stored next to a scene
-
-
-@dataclass(frozen=True)
-class SceneMaterial:
-    """Errors of the quantities of a scene by the intervals of one file: over the value for depths."""
-
-    path: Path
-    script: str  # digest of the scene's script
-    file: str  # name of the card or material
-    digest: str
-    parts: Mapping[str, Mapping[str, float]]  # quantity -> parameter -> change by its standard error
-
-    def error(self, name: str, value: float) -> float | None:
-        """Root sum square over the parameters; None for a quantity that was not kept."""
-        if name not in self.parts:
-            return None
-        square = sum(change**2 for change in self.parts[name].values())
-        return float(square**0.5) * (abs(value) if name in RELATIVE else 1.0)
-
-    @property
-    def source(self) -> str:
-        return f"{self.path.name}: {', '.join(next(iter(self.parts.values()), {}))} of {self.file}"
-
-    def write(self) -> None:
-        content = {name: getattr(self, name) for name in ("script", "file", "digest", "parts")}
-        self.path.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-
-
-def read_material_error(path: Path) -> SceneMaterial:
-    """@raises ResultsError"""
-    with content_of(path, REMEDY):
-        content = parse_json(path.read_text(encoding="utf-8"))
-        parts = {name: {key: float(change) for key, change in one.items()} for name, one in content["parts"].items()}
-        return SceneMaterial(path, str(content["script"]), str(content["file"]), str(content["digest"]), parts)
-
-
-def material_error_of(run: WheelRun) -> SceneMaterial | None:
-    """Error by the material in the scene of a run; None where there is none, or the script or the file has changed since."""
-    script, path = beside_scene(run, ENDING)
-    found = read_material_error(path) if path else None
-    soil = next((one for kind in ("terrain", "scm") if (one := run.results.styles().of_kind(kind))), None)
-    keyword = next((key for key in ("material", "card") if soil and soil.has(key)), "")
-    if not found or not soil or not keyword or found.script != digest(script):
-        return None
-    file = found_file(soil.text(keyword), script)
-    return found if file and digest(file) == found.digest else None
-
-
-def found_file(text: str, script: Path) -> Path | None:
-    """A file that a script names, from its folder or from here."""
-    return next((path for path in (script.parent / text, Path(text)) if path.is_file()), None)
+    return reduce(getitem, keys, content)
 
 
 def require_intervals(files: Mapping[str, Path]) -> tuple[str, Path, list[Interval]]:

@@ -35,6 +35,7 @@ FARTHEST = 3.0
 LEAST_SHARE = 0.25  # of the mean square of the differences
 UPPER = 0.97725  # below mean and two standard deviations of a normal distribution
 TABLE, TESTS = "model_errors.csv", "measured.csv"  # of inputs/validation: regimes, and the tests of which they are made
+REMEDY = "write it again with 'furrow-post study validation'"
 # Quantities of a run -> quantity of the tests; a rigid wheel's depths have one name
 OF_RUN = {
     "hub_drop": "hub drop",
@@ -290,7 +291,7 @@ def _calibration(quantity: str, name: str, scored: Sequence[Scored]) -> dict[str
 
 def read_tests(path: Path) -> list[Test]:
     """@raises ResultsError"""
-    with content_of(path, "write it again with 'furrow-post study validation'"):
+    with content_of(path, REMEDY):
         return [test_of(row) for row in read_rows(path)]
 
 
@@ -338,7 +339,7 @@ def _cell(value: float) -> str:
 @lru_cache(maxsize=4)
 def read_regimes(path: Path) -> tuple[Regime, ...]:
     """@raises ResultsError"""
-    with content_of(path, "write it again with 'furrow-post study validation'"):
+    with content_of(path, REMEDY):
         return tuple(_read_regime(row) for row in read_rows(path))
 
 
@@ -349,8 +350,14 @@ def _read_regime(row: Mapping[str, str]) -> Regime:
     return Regime(row["quantity"], words, ranges, int(row["tests"]), tuple(row["studies"].split()), *numbers)
 
 
+def validation_table(name: str) -> Path | None:
+    """A table of inputs/validation; None where only the package is installed."""
+    inputs = inputs_folder()
+    path = inputs / "validation" / name if inputs else None
+    return path if path and path.is_file() else None
+
+
 def known_regimes() -> tuple[Regime, ...]:
     """Regimes of inputs/validation; none where only the package is installed."""
-    inputs = inputs_folder()
-    path = inputs / "validation" / TABLE if inputs else None
-    return read_regimes(path) if path and path.is_file() else ()
+    path = validation_table(TABLE)
+    return read_regimes(path) if path else ()

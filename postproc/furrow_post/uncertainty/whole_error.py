@@ -18,25 +18,28 @@ import numpy as np
 
 from ..csv_table import read_rows
 from ..errors import ResultsError, content_of
-from ..formatting import with_error
-from ..programs import inputs_folder
+from ..formatting import value_text as with_known_error
 from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun, cells_or_grains, read_wheel_run
 from ..run.summary import BUDGET, SteadyValue, Summary
 from .budget import IMPOSED, Budget
-from .convergence import convergence_of
-from .cost_table import Family, FamilyKey, Row
-from .material_error import material_error_of
-from .model_error import MISMATCH, OF_RUN, RELATIVE, TESTS, Case, ModelError, Test, known_regimes, model_error, read_tests
+from .cost_table import Family, FamilyKey, parsed_row
+from .model_error import MISMATCH, OF_RUN, RELATIVE, REMEDY, TESTS, Case, ModelError, Test
+from .model_error import known_regimes, model_error, read_tests, validation_table
+from .scene_errors import convergence_of, material_error_of
+from .statistics import rms
 
 Families = Mapping[FamilyKey, Family]
 Scheme = Mapping[tuple[str, str], tuple[float, str]]  # part, key -> error and what was changed
 SNOW = 700.0  # [kg/m3] bulk density below which a ground is snow
 STRAIGHT = 0.02  # slip within which a driven wheel is not braked
 SIZES, SCHEME, EFFECTS = "sizes.csv", "scheme.csv", "ground_size/effects.csv"
-DEPTHS = ("hub_drop", "rut_depth")
-COEFFICIENTS = ("resistance_coefficient", "net_traction_coefficient")
+KEYS = {  # quantity of a run -> that of the tables: depths and coefficients
+    "hub_drop": "sinkage",
+    "rut_depth": "sinkage",
+    "resistance_coefficient": "coefficient",
+    "net_traction_coefficient": "coefficient",
+}
 FORCES = ("drawbar_pull", "tractive_force", "force_x")  # coefficient times vertical force
-REMEDY = "write it again with 'furrow-post study validation'"
 
 
 def case_of(run: WheelRun) -> Case:
@@ -98,23 +101,12 @@ def series_of(rows: Iterable[Mapping[str, str]]) -> tuple[SizeSeries, ...]:
     groups: dict[tuple[str, str, str], list[Mapping[str, str]]] = {}
     for row in rows:
         groups.setdefault((row["series"], row["ground"], row["wheel"]), []).append(row)
-    return tuple(_series(group) for group in groups.values())
-
-
-def _series(rows: Sequence[Mapping[str, str]]) -> SizeSeries:
-    first = rows[0]
-    words = {"ground": first["soil"], "wheel": first["wheel"], "motion": first["motion"]}
-    made = [
-        Row(row["series"], row["ground"], "", row["wheel"], float(row["size"]), row["domain"], row["seed"], *_values(row),
-            float(row["cpu_time"]))
-        for row in rows
-    ]  # fmt: skip
-    return SizeSeries(first["series"], words, float(first["width"]), Family(made), float(first["radius"]), first["scheme"])
-
-
-def _values(row: Mapping[str, str]) -> tuple[float, float, float, float]:
-    sinkage, u, coefficient, v = (float(row[n]) for n in ("sinkage", "sinkage_error", "coefficient", "coefficient_error"))
-    return sinkage, u, coefficient, v
+    found = []
+    for group in groups.values():
+        first, family = group[0], Family([parsed_row({**row, "run": row["series"], "model": ""}) for row in group])
+        words = {"ground": first["soil"], "wheel": first["wheel"], "motion": first["motion"]}
+        found.append(SizeSeries(first["series"], words, float(first["width"]), family, float(first["radius"]), first["scheme"]))
+    return tuple(found)
 
 
 @lru_cache(maxsize=2)
@@ -142,23 +134,17 @@ def read_effects(path: Path) -> dict[tuple[str, str], tuple[float, float, float]
 
 def width_of_ground(run: WheelRun, case: Case, key: str) -> Budget:
     """Error by the sides of a continuum; relative for a depth."""
-    path = _validation(EFFECTS)
+    path = validation_table(EFFECTS)
     effect = read_effects(path).get((case.ground, key)) if path and run.ground == "continuum" else None
     if not effect or len(run.domain) < 2:
         return Budget()
     a, c, residual = effect
     x = 0.5 * (run.domain[1] / run.number("wheel_width") - 1.0)
-    return Budget(domain=math.hypot(a * math.exp(-x / c), residual), sources={"domain": f"ground_size: sides {x:.2g} widths away"})
-
-
-def _validation(name: str) -> Path | None:
-    inputs = inputs_folder()
-    path = inputs / "validation" / name if inputs else None
-    return path if path and path.is_file() else None
+    return Budget.single("domain", math.hypot(a * math.exp(-x / c), residual), f"ground_size: sides {x:.2g} widths away")
 
 
 def of_like_wheels(run: WheelRun, case: Case, key: str) -> Budget:
-    sizes, scheme = _validation(SIZES), _validation(SCHEME)
+    sizes, scheme = validation_table(SIZES), validation_table(SCHEME)
     soil = run.results.styles().of_kind("terrain")
     known = read_series(sizes) if sizes else ()
     ratio = run.size / run.number("wheel_width")
@@ -175,51 +161,28 @@ def like_wheels(
     least = min(one.distance(case) for one in near)
     near = [one for one in near if one.distance(case) == least]
     pairs = np.array([one.errors(key, size_over_width) for one in near])
-    size, packing = (_rms(column) * math.hypot(1.0, least) for column in pairs.T)
-    far = " of other wheels" if least else ""
-    from_ = f"{', '.join(one.name for one in near)}{far}"
-    sources = {"size": from_, "packing": from_ if packing else "a continuum has none"}
-    found = Budget(size=size, packing=packing, sources=sources)
+    size, packing = (rms(column[np.isfinite(column)]) * math.hypot(1.0, least) for column in pairs.T)
+    from_ = f"{', '.join(one.name for one in near)}{' of other wheels' if least else ''}"
+    found = Budget(size=size, packing=packing, sources={"size": from_, "packing": from_ if packing else "a continuum has none"})
     if ground == "continuum" and scheme:
         for part in ("step", "contact"):
             error, what = scheme[part, key]
-            found = replace(found, **{part: error}, sources={**found.sources, part: f"convergence: {what}"})
+            found = found.updated(Budget.single(part, error, f"convergence: {what}"))
         error, what = scheme["size", key]
         if particles < 3:
-            found = replace(found, size=math.hypot(found.size, error), sources={**found.sources, "size": f"{from_}; {what}"})
+            found = found.updated(Budget.single("size", math.hypot(size, error), f"{from_}; {what}"))
     return found
-
-
-def _rms(values: Iterable[float]) -> float:
-    """Root mean square of the finite values; NaN of none."""
-    known = [value for value in values if math.isfinite(value)]
-    return math.sqrt(sum(value**2 for value in known) / len(known)) if known else math.nan
 
 
 # ---- a run
 
 
-def budgets(run: WheelRun, families: Families | None = None) -> dict[str, Budget]:
-    """Quantity of the summary -> its error. families: of a table of runs of the scene"""
-    summary = Summary(run.folder)
-    steady = {name: run.values.get(name) or summary.quantity(name) for name in summary.quantities}
-    steady.update(run.values)
-    values = {name: value for name, value in steady.items() if value}
-    found = _Parts(run, families or {})
-    return {name: found.of(name, value) for name, value in values.items()}
+class RunErrors:
+    """Errors of the values of one run. families: of a table of runs of the scene, may be empty"""
 
-
-def budget_of(run: WheelRun, name: str, value: SteadyValue) -> Budget:
-    """Error of a value that the summary does not have."""
-    return _Parts(run, {}).of(name, value)
-
-
-class _Parts:
-    """Parts of the errors of one run."""
-
-    def __init__(self, run: WheelRun, families: Families) -> None:
+    def __init__(self, run: WheelRun, families: Families | None = None) -> None:
         self.run, self.case = run, case_of(run)
-        self.family = families.get(FamilyKey(run.ground, run.model, run.wheel))
+        self.family = (families or {}).get(FamilyKey(run.ground, run.model, run.wheel))
         self.stored = convergence_of(run)
         self.soil = material_error_of(run)
         self.load = abs(run.values["force_z"].mean)
@@ -227,32 +190,12 @@ class _Parts:
         self.elements = "mesh" if run.ground == "none" else cells_or_grains(run.ground)
 
     def of(self, name: str, value: SteadyValue) -> Budget:
+        """Error of a value, also of one that the summary does not have."""
         return replace(self._whole(name, value), elements=self.elements)
 
-    def _whole(self, name: str, value: SteadyValue) -> Budget:
-        time = value.standard_error
-        if value.imposed or name == "force_z":  # the load, which the rig holds
-            return replace(IMPOSED, time=0.0 if value.imposed else time)
-        if name in FORCES:
-            coefficient = self._parts("net_traction_coefficient", self.run.values["resistance_coefficient"])
-            return replace(coefficient.scaled(self.load), time=time, sources=coefficient.sources)
-        return self._parts(name, value)
-
-    def _parts(self, name: str, value: SteadyValue) -> Budget:
-        key = "sinkage" if name in DEPTHS else "coefficient" if name in COEFFICIENTS else ""
-        scale = abs(value.mean) if name in (*DEPTHS, "tyre_deflection") else 1.0
-        parts = of_like_wheels(self.run, self.case, key).scaled(scale) if key else Budget()
-        sides = width_of_ground(self.run, self.case, key).scaled(scale) if key else Budget()
-        parts = replace(parts, domain=sides.domain, sources={**parts.sources, **sides.sources})
-        parts = self._of_material(self._of_no_random(parts), name, value)
-        parts = self._of_scene(parts, name, value, key)
-        parts = replace(parts, time=value.standard_error, held=self._held(name, value))
-        model = self.model(name)
-        if not model:
-            return parts
-        quantity = model.nearest.quantity
-        size = model.value * (abs(value.mean) if quantity in RELATIVE else self.load if quantity == "lateral" else 1.0)
-        return replace(parts, model=size, sources={**parts.sources, "model": model.source()})
+    def all(self) -> dict[str, Budget]:
+        """Quantity of the run and its summary -> its error."""
+        return {name: self.of(name, value) for name, value in steady_values(self.run).items()}
 
     def model(self, name: str) -> ModelError | None:
         """By the nearest tests of this quantity; None where none is near."""
@@ -261,39 +204,66 @@ class _Parts:
         quantity = "depth" if name == "hub_drop" and not self.run.deformable else OF_RUN.get(name, "")
         return model_error(self.regimes, quantity, self.case)
 
-    def _of_no_random(self, parts: Budget) -> Budget:
+    def _whole(self, name: str, value: SteadyValue) -> Budget:
+        time = value.standard_error
+        if value.imposed or name == "force_z":  # the load, which the rig holds
+            return replace(IMPOSED, time=0.0 if value.imposed else time)
+        if name in FORCES:
+            coefficient = self._parts("net_traction_coefficient", self.run.values["resistance_coefficient"])
+            return replace(coefficient.scaled(self.load), time=time)
+        return self._parts(name, value)
+
+    def _parts(self, name: str, value: SteadyValue) -> Budget:
+        key, found = KEYS.get(name, ""), Budget()
+        if key:
+            found = of_like_wheels(self.run, self.case, key).updated(width_of_ground(self.run, self.case, key))
+            found = found.scaled(value.mean if key == "sinkage" else 1.0)
+        found = found.updated(self._certain())
+        if self.soil and (error := self.soil.error(name, value.mean)) is not None:
+            found = found.updated(Budget.single("material", error, self.soil.source))
+        found = self._with_scene(found, name, value, key)
+        found = replace(found, time=value.standard_error, held=self._held(value))
+        if not (model := self.model(name)):
+            return found
+        quantity = model.nearest.quantity
+        size = model.value * (abs(value.mean) if quantity in RELATIVE else self.load if quantity == "lateral" else 1.0)
+        return found.updated(Budget.single("model", size, model.source()))
+
+    def _certain(self) -> Budget:
         """Nothing in cells is random, a road has no end."""
-        road = self.run.ground == "none"
-        if road or self.run.ground in GROUNDS_OF_CELLS:
-            parts = replace(parts, packing=0.0)
-        return replace(parts, domain=0.0) if road else parts
+        if self.run.ground == "none":
+            return Budget(packing=0.0, domain=0.0)
+        return Budget(packing=0.0) if self.run.ground in GROUNDS_OF_CELLS else Budget()
 
-    def _of_material(self, parts: Budget, name: str, value: SteadyValue) -> Budget:
-        error = self.soil.error(name, value.mean) if self.soil else None
-        if self.soil is None or error is None:
-            return parts
-        return replace(parts, material=error, sources={**parts.sources, "material": self.soil.source})
-
-    def _of_scene(self, parts: Budget, name: str, value: SteadyValue, key: str) -> Budget:
+    def _with_scene(self, parts: Budget, name: str, value: SteadyValue, key: str) -> Budget:
         """Parts with the errors from the runs of this scene in other sizes, where there are any."""
         error = self.stored.size_error(name, self.run.size, value.mean) if self.stored else None
         if self.stored and error is not None:
-            parts = replace(parts, size=error, sources={**parts.sources, "size": self.stored.source})
+            parts = parts.updated(Budget.single("size", error, self.stored.source))
         if not self.family or not key or name == "rut_depth":
             return parts
-        known = self.family.components(key, self.run.size, value.standard_error)
-        numbers = {part: known.part(part) for part in ("size", "domain", "packing") if math.isfinite(known.part(part))}
-        if error is not None or numbers.get("size", math.inf) < parts.size:
-            numbers.pop("size", None)  # tables of inputs/costs are of runs without cell averages, which hide a part of it
-        return replace(parts, **numbers, sources={**parts.sources, **dict.fromkeys(numbers, "table of runs of the scene")})
+        known = replace(self.family.components(key, self.run.size, value.standard_error), time=math.nan)
+        if error is not None or known.size < parts.size:
+            known = replace(known, size=math.nan)  # tables of inputs/costs are of runs without cell averages, which hide a part of it
+        return parts.updated(replace(known, sources=dict.fromkeys(known.known, "table of runs of the scene")))
 
-    def _held(self, name: str, value: SteadyValue) -> float:
+    def _held(self, value: SteadyValue) -> float:
         """The vertical force over the window against the load, of what grows with it."""
         level = self.run.number("slope") == 0 and self.run.number("side_slope") == 0
         load = self.run.number("load")
         if not level or not load > 0:
             return math.nan
         return abs(self.load / load - 1.0) * (abs(value.mean) if value.unit else 0.0)
+
+
+def steady_values(run: WheelRun) -> dict[str, SteadyValue]:
+    """Values of the summary, with those of the run in their place."""
+    return summary_values(run.folder) | run.values
+
+
+def summary_values(folder: Path) -> dict[str, SteadyValue]:
+    summary = Summary(folder)
+    return {name: value for name in summary.quantities if (value := summary.quantity(name))}
 
 
 def budgets_of(folder: Path) -> dict[str, Budget]:
@@ -304,17 +274,11 @@ def budgets_of(folder: Path) -> dict[str, Budget]:
 def _budgets_and_doubt(folder: Path) -> tuple[dict[str, Budget], str]:
     """Error budgets, with the reason why the run is not complete, else ""."""
     try:
-        return budgets(read_wheel_run(folder)), ""
+        return RunErrors(read_wheel_run(folder)).all(), ""
     except ResultsError as error:
         doubt = str(error)
-    summary = Summary(folder)
-    known = {name: summary.quantity(name) for name in summary.quantities}
-    of_time = {
-        name: replace(IMPOSED) if value.imposed else Budget(time=value.standard_error)
-        for name, value in known.items()
-        if value
-    }
-    return of_time, doubt
+    values = summary_values(folder)
+    return {name: IMPOSED if value.imposed else Budget(time=value.standard_error) for name, value in values.items()}, doubt
 
 
 # ---- a value over the nearest tests
@@ -334,31 +298,30 @@ class OverTests:
 
     @property
     def title(self) -> str:
-        tests = f"Nearest: {self.nearest}" if self.nearest else "No measured test is near"
-        value = with_error(self.value, self.error) if math.isfinite(self.error) else f"{self.value:.3g}"
-        drawn = f"; {len(self.tests)} are drawn" if self.nearest else ""  # of groups the values are hidden
-        return f"{self.name} {value}{f' ({self.missing})' * bool(self.missing)}. {tests}{drawn}"
+        missing = f" ({self.missing})" if self.missing else ""
+        # of groups the values are hidden
+        tests = f"Nearest: {self.nearest}; {len(self.tests)} are drawn" if self.nearest else "No measured test is near"
+        return f"{self.name} {with_known_error(self.value, self.error)}{missing}. {tests}"
 
 
 def over_tests(run: WheelRun) -> list[OverTests]:
     """Hub drop and coefficient that the run is made for, each with the tests of the nearest regime."""
-    parts, summary = _Parts(run, {}), Summary(run.folder)
-    names = [name for name in summary.headline if name == "hub_drop" or name in COEFFICIENTS]
-    path = _validation(TESTS)
+    errors, values = RunErrors(run), steady_values(run)
+    path = validation_table(TESTS)
     known = read_tests(path) if path else []
     found = []
-    for name in names:
-        value = run.values.get(name) or summary.quantity(name)
-        assert value is not None
-        budget = parts.of(name, value)
-        scale, label = (1 / run.radius, "hub drop over radius") if name == "hub_drop" else (1.0, name.replace("_", " "))
-        near = parts.model(name)
+    for name in Summary(run.folder).headline:
+        if name != "hub_drop" and KEYS.get(name) != "coefficient":
+            continue
+        budget, near = errors.of(name, values[name]), errors.model(name)
+        scale, label, opposed = 1 / run.radius, "hub drop over radius", False
+        if name != "hub_drop":
+            scale, label = 1.0, name.replace("_", " ")
+            opposed = near is not None and (name == "resistance_coefficient") != (near.nearest.words["motion"] == "towed")
         tests = [test for test in known if near and near.nearest.has(test) and math.isfinite(test.computed)]
-        opposed = near is not None and (name == COEFFICIENTS[0]) != (near.nearest.words["motion"] == "towed")
-        sign = -1.0 if opposed and name in COEFFICIENTS else 1.0
-        found.append(
-            OverTests(label, scale * value.mean, scale * budget.total, budget.missing_text(), sign, tests, near.source() if near else "")
-        )
+        value, error = scale * values[name].mean, scale * budget.total
+        source = near.source() if near else ""
+        found.append(OverTests(label, value, error, budget.missing_text(), -1.0 if opposed else 1.0, tests, source))
     return found
 
 
@@ -385,12 +348,11 @@ def headline(folder: Path, known: Mapping[str, Budget] | None = None) -> str:
 
     known: budgets of the folder, if they were read before
     """
-    summary, known = Summary(folder), budgets_of(folder) if known is None else known
+    summary, values = Summary(folder), summary_values(folder)
+    known = budgets_of(folder) if known is None else known
     texts: dict[str, list[str]] = {}  # what is not in ± -> values
     for name in summary.headline:
-        value = summary.quantity(name)
-        assert value is not None
-        text = f"{TITLES.get(name, name.replace('_', ' '))} {value_text(name, value, known[name])}"
+        text = f"{TITLES.get(name, name.replace('_', ' '))} {value_text(name, values[name], known[name])}"
         texts.setdefault(known[name].missing_text(), []).append(text)
     if not texts:
         return ""
@@ -400,23 +362,21 @@ def headline(folder: Path, known: Mapping[str, Budget] | None = None) -> str:
 
 def report(folder: Path) -> str:
     """The headline quantities with their parts, and the nearest tests. @raises ResultsError without steady values"""
-    summary, (known, doubt) = Summary(folder), _budgets_and_doubt(folder)
-    if not summary.headline:
+    names, values, (known, doubt) = Summary(folder).headline, summary_values(folder), _budgets_and_doubt(folder)
+    if not names:
         raise ResultsError(f"{folder}: has no steady values in summary.json; run longer")
     lines = ["± is one standard error of all that is known; in brackets its parts"]
     if doubt:
         lines.append(f"  only the error over time is known: {doubt}")
     sources: dict[str, dict[str, None]] = {}
-    for name in summary.headline:
-        value, budget = summary.quantity(name), known[name]
-        assert value is not None
+    for name in names:
+        value, budget, title = values[name], known[name], name.replace("_", " ")
         factor, unit = _scaled(name, value)
-        state = "imposed" if value.imposed else "" if value.steady else "not steady"
-        text = budget.scaled(factor).text(factor * value.mean, unit)
-        lines.append(f"  {name.replace('_', ' '):24} {text}{', ' * bool(state)}{state}")
+        state = ", imposed" if value.imposed else "" if value.steady else ", not steady"
+        lines.append(f"  {title:24} {budget.scaled(factor).text(factor * value.mean, unit)}{state}")
         for part, source in budget.sources.items():
             if budget.part(part) > 0:
-                label = f"nearest tests of {name.replace('_', ' ')}" if part == "model" else budget.label(part)
+                label = f"nearest tests of {title}" if part == "model" else budget.label(part)
                 sources.setdefault(label, {})[source] = None
     lines += [f"  {label}: {'; '.join(found)}" for label, found in sorted(sources.items(), key=lambda one: one[0][:7] == "nearest")]
     return "\n".join(lines)
@@ -429,11 +389,10 @@ def write_budget(folder: Path) -> None:
 
 def as_json(folder: Path) -> dict[str, object]:
     """Quantity -> value, whole error, parts (null: unknown) and their sources, in SI units."""
-    summary, known = Summary(folder), budgets_of(folder)
-    found: dict[str, object] = {}
-    for name, budget in known.items():
-        value = summary.quantity(name)
-        if value:
-            parts = {part: budget.part(part) if math.isfinite(budget.part(part)) else None for part in budget.NAMES}
-            found[name] = {"value": value.mean, "unit": value.unit, "error": budget.total, "parts": parts, "sources": dict(budget.sources)}
-    return found
+    values, found = summary_values(folder), {}
+    for name, budget in budgets_of(folder).items():
+        if name in values:
+            parts = {part: budget.part(part) if part in budget.known else None for part in budget.NAMES}
+            found[name] = {"value": values[name].mean, "unit": values[name].unit, "error": budget.total, "parts": parts}
+            found[name]["sources"] = dict(budget.sources)
+    return dict(found)

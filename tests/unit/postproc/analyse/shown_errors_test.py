@@ -10,7 +10,7 @@ from unittest.mock import patch
 from furrow_post.analyse import comparison
 from furrow_post.analyse.comparison import compare
 from furrow_post.analyse.comparison_report import comparison_report, table_rows
-from furrow_post.uncertainty.whole_error import budgets, headline, read_series, report
+from furrow_post.uncertainty.whole_error import RunErrors, headline, read_series, report
 from furrow_post.csv_table import read_rows
 from furrow_post.figures.page import results_tables, run_values
 from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
@@ -138,7 +138,7 @@ class OutputTest(FolderTest):
     def assert_whole(self, text: str, run: WheelRun) -> int:
         """Every "value ± error" of a text is one of the run, with its whole error; their number."""
         known = {}
-        for name, budget in budgets(run).items():
+        for name, budget in RunErrors(run).all().items():
             mean = run.values[name].mean if name in run.values else math.nan
             known[name] = (mean, math.hypot(*(budget.part(part) for part in budget.known)))
         found = 0

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import yaml
 
-from furrow_post.uncertainty import material_error
-from furrow_post.uncertainty.convergence import places
-from furrow_post.uncertainty.material_error import SceneMaterial, intervals, require_intervals, varied_text
-from furrow_post.uncertainty.whole_error import budgets
+from furrow_post.uncertainty.material_error import intervals, require_intervals, varied_text
+from furrow_post.uncertainty.scene_errors import MATERIAL, SceneMaterial, places
+from furrow_post.uncertainty.whole_error import RunErrors
 from furrow_post.errors import ResultsError
 from furrow_post.read.wheel_run import read_wheel_run
 from furrow_post.run.record import digest
@@ -68,15 +67,15 @@ class RunTest(FolderTest):
         run = read_wheel_run(self.folder / "run")
         run.results.run["script"] = str(script)
         parts = {"hub_drop": {"law.M": -0.03, "law.K": 0.04}, "net_traction_coefficient": {"law.M": 0.02}}
-        made = SceneMaterial(places(script, run.folder, material_error.ENDING)[0], digest(script), soil.name, digest(soil), parts)
+        made = SceneMaterial(places(script, run.folder, MATERIAL)[0], digest(script), soil.name, digest(soil), parts)
         made.write()
-        found = budgets(run)
+        found = RunErrors(run).all()
         self.assertAlmostEqual(found["hub_drop"].material, 0.05 * 0.05)
         self.assertAlmostEqual(found["drawbar_pull"].material, 0.02 * 1000.0)
         self.assertIn("law.M, law.K of soil.yaml", found["hub_drop"].sources["material"])
         self.assertIn("material", found["slip"].unknown)
         soil.write_text("law: {M: 2}\n")
-        self.assertIn("material", budgets(run)["hub_drop"].unknown)
+        self.assertIn("material", RunErrors(run).all()["hub_drop"].unknown)
 
 
 if __name__ == "__main__":

@@ -11,11 +11,11 @@ from unittest import mock
 
 import numpy as np
 
-from furrow_post.uncertainty import convergence, model_error, whole_error
+from furrow_post.uncertainty import model_error, scene_errors, whole_error
 from furrow_post.uncertainty.budget import Budget, rounded
 from furrow_post.uncertainty.cost_table import FamilyKey, families
 from furrow_post.uncertainty.model_error import Case, Test, leave_one_study_out, read_tests, regimes_of
-from furrow_post.uncertainty.whole_error import budgets, case_of, headline, of_like_wheels, report
+from furrow_post.uncertainty.whole_error import RunErrors, case_of, headline, of_like_wheels, report
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.figures.histories import draw_histories
@@ -158,22 +158,22 @@ class RunTest(FolderTest):
         self.assertGreater(errors[1], 1.5 * errors[0])
 
     def test_every_part_has_a_source_and_the_whole_is_no_smaller(self) -> None:
-        for name, budget in budgets(self.on_sand()).items():
+        for name, budget in RunErrors(self.on_sand()).all().items():
             for part in budget.known:
                 self.assertGreaterEqual(budget.total * (1 + 1e-12), budget.part(part), (name, part))
             self.assertEqual(sorted(set(budget.sources) - set(budget.known)), [], name)
-        coefficient = budgets(self.on_sand())["resistance_coefficient"]
+        coefficient = RunErrors(self.on_sand()).all()["resistance_coefficient"]
         self.assertEqual(coefficient.unknown, ["domain", "material"])
         self.assertIn("cmu_sand predictions".replace(" ", ", "), coefficient.sources["model"])
         self.assertIn("convergence: sand, slip 0", coefficient.sources["size"])
 
     def test_a_table_of_runs_counts_where_it_shows_more_than_like_wheels(self) -> None:
         run = self.on_sand()
-        usual = budgets(run)["hub_drop"].size
+        usual = RunErrors(run).all()["hub_drop"].size
         key = FamilyKey(run.ground, run.model, run.wheel)
         for step, larger in ((0.001, False), (0.02, True)):
             rows = [row(f"{h}", "continuum", h, 0.05 + step * k, 0.2, 1.0, seed="", error=1e-6) for k, h in enumerate((0.05, 0.1))]
-            found = budgets(run, {key: families(rows)[CONTINUUM]})["hub_drop"]
+            found = RunErrors(run, {key: families(rows)[CONTINUUM]}).all()["hub_drop"]
             self.assertEqual(found.size > usual, larger)
             self.assertEqual(found.sources["size"] == "table of runs of the scene", larger)
 
@@ -185,24 +185,24 @@ class RunTest(FolderTest):
         )
         run = self.on_sand()
         run.domain = (2.0, 3 * WIDTH)  # a width on each side
-        usual = whole_error._validation
-        with mock.patch.object(whole_error, "_validation", lambda name: effects if name == whole_error.EFFECTS else usual(name)):
-            found = budgets(run)
+        usual = model_error.validation_table
+        with mock.patch.object(whole_error, "validation_table", lambda name: effects if name == whole_error.EFFECTS else usual(name)):
+            found = RunErrors(run).all()
         self.assertAlmostEqual(found["hub_drop"].domain, 0.05 * math.hypot(0.8 * math.exp(-2), 0.01))
         self.assertEqual(found["hub_drop"].sources["domain"], "ground_size: sides 1 widths away")
         self.assertIn("domain", found["resistance_coefficient"].unknown)
 
     def test_pull_has_the_error_of_its_coefficient_times_the_load(self) -> None:
-        found = budgets(self.on_sand())
+        found = RunErrors(self.on_sand()).all()
         self.assertAlmostEqual(found["drawbar_pull"].model, 1000.0 * found["resistance_coefficient"].model)
 
     def test_the_model_of_a_height_field_is_unknown(self) -> None:
-        self.assertIn("model", budgets(self.read(ground="scm", size=0.01))["hub_drop"].unknown)
+        self.assertIn("model", RunErrors(self.read(ground="scm", size=0.01)).all()["hub_drop"].unknown)
 
     def test_load_that_is_not_held_counts(self) -> None:
         run = self.on_sand()
         run.conditions["load"] = Condition(980.0, "N")
-        found = budgets(run)
+        found = RunErrors(run).all()
         self.assertAlmostEqual(found["hub_drop"].held, 0.05 * (1000 / 980 - 1))
         self.assertEqual(found["slip"].held, 0.0)
 
@@ -212,19 +212,19 @@ class RunTest(FolderTest):
         runs = [self.on_sand(size) for size in (0.08, 0.04, 0.02)]
         for run, drop in zip(runs, (0.058, 0.054, 0.052)):
             run.values["hub_drop"] = replace(run.values["hub_drop"], mean=drop, standard_error=1e-6)
-        place = convergence.places(script, self.folder)[0]
-        convergence.of_runs(place, script, runs, ("hub_drop", "slip")).write()
-        stored = convergence.read_convergence(place)
+        place = scene_errors.places(script, self.folder)[0]
+        scene_errors.of_runs(place, script, runs, ("hub_drop", "slip")).write()
+        stored = scene_errors.read_convergence(place)
         self.assertAlmostEqual(stored.series("hub_drop").order, 1.0, 3)
         runs[0].results.run["script"] = str(script)
-        found = budgets(runs[0])["hub_drop"]
+        found = RunErrors(runs[0]).all()["hub_drop"]
         self.assertAlmostEqual(found.size, 0.008 * 0.058 / 0.05, 3)
         self.assertEqual(found.sources["size"], "scene.convergence.json: cells of 80, 40, 20 mm")
         script.write_text("# another scene\n")
-        self.assertNotEqual(budgets(runs[0])["hub_drop"].sources["size"], found.sources["size"])
+        self.assertNotEqual(RunErrors(runs[0]).all()["hub_drop"].sources["size"], found.sources["size"])
         place.write_text(json.dumps({"sizes": [0.1]}))
         with self.assertRaisesRegex(ResultsError, "furrow-post converge SCENE"):
-            convergence.read_convergence(place)
+            scene_errors.read_convergence(place)
 
     def test_texts_have_whole_errors_parts_and_nearest_tests(self) -> None:
         write_run(self.folder / "run", styles=[rigid_wheel(), rig()], torque=50.0)
@@ -240,7 +240,7 @@ class RunTest(FolderTest):
         run.conditions["density"] = Condition(1600.0, "kg/m3")
         run.conditions["wheel_diameter"] = Condition(0.3, "m")
         drop, resistance = whole_error.over_tests(run)
-        budget = budgets(run)["hub_drop"]
+        budget = RunErrors(run).all()["hub_drop"]
         self.assertAlmostEqual(drop.value, 0.05 / 0.15)
         self.assertAlmostEqual(drop.error, budget.total / 0.15)
         self.assertIn(budget.sources["model"], drop.title)
