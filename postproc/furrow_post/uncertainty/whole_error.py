@@ -299,7 +299,7 @@ class OverTests:
     @property
     def title(self) -> str:
         missing = f" ({self.missing})" if self.missing else ""
-        # of groups the values are hidden
+        # the values of groups are not known
         tests = f"Nearest: {self.nearest}; {len(self.tests)} are drawn" if self.nearest else "No measured test is near"
         return f"{self.name} {with_known_error(self.value, self.error)}{missing}. {tests}"
 
