@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from ..uncertainty import cost_table
 from ..analyse.comparison import Comparison, compare
-from ..laws.formulas import predictions_for
+from ..laws.empirical import predictions_for
 from ..arguments import WrongText, path, words
 from ..read.results import require_different
 from ..read.wheel_run import read_wheel_run

@@ -4,7 +4,7 @@ numbers."""
 
 from pathlib import Path
 
-from ..analyse.displacement import displacements
+from ..analyse.rut import displacements
 from ..uncertainty.whole_error import headline
 from ..errors import ResultsError
 from ..figures.terrain_figure import draw_terrain

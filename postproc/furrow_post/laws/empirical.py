@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Empirical formulas of mobility, with source and range of validity: a wheel in shallow snow (NRMM),
-gross traction on snow and ice, a rigid wheel on sand towed (Bekker) or driven (Wong and Reece).
+gross traction on snow and ice, a rigid wheel on sand towed (Bekker) or driven (Wong and Reece); and their predictions for
+the conditions of a run.
 
 SI units; angles in degrees in the interface. Nothing is extrapolated unless asked: outside of its
 range a formula raises OutOfRange, which names every value that is outside.
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,14 +16,13 @@ from scipy.optimize import brentq
 
 from ..arrays import Floats
 from ..errors import ResultsError
+from ..read.wheel_run import WheelRun
 from .prediction import Limit, OutOfRange, Prediction, Result, require_positive, require_range, require_wheel
-from .terrain_values import TerrainValues, terrains
+from .terrain_values import TerrainValues, terrain, terrains
 
 # ---- snow
 
-NRMM_SOURCE = (
-    "NRMM shallow snow, P. W. Richmond et al.; S. A. Shoop, ERDC/CRREL TR-01-16 (2001), eq 29-33"
-)
+NRMM_SOURCE = "NRMM shallow snow, P. W. Richmond et al.; S. A. Shoop, ERDC/CRREL TR-01-16 (2001), eq 29-33"
 # The tests that [Shoop2001] holds against the formula (Table 11), which gives no other range.
 # Radius: 10 % to both sides of its only wheel.
 NRMM_TESTS = "tests of Shoop (2001), Table 11"
@@ -48,9 +49,7 @@ def nrmm_sinkage(depth: float, density: float, pressure: float) -> float:
     return depth * (1 - density / nrmm_final_density(pressure))
 
 
-def nrmm_resistance(
-    density: float, width: float, radius: float, sinkage: float, depth: float | None = None
-) -> float:
+def nrmm_resistance(density: float, width: float, radius: float, sinkage: float, depth: float | None = None) -> float:
     """Motion resistance [N] of one wheel: 13.6041 (rho0 w a)^1.26, the arc a = r acos((r - z)/r).
 
     density [kg/m3], width, radius, sinkage [m]. Deep snow denser than 150 kg/m3: x 1.5 beyond
@@ -65,9 +64,7 @@ def nrmm_resistance(
     return float(resistance)
 
 
-def require_pressure(
-    pressure: float, method: str = "NRMM", remedy: str = "Give it in Pa, e.g. 179e3"
-) -> None:
+def require_pressure(pressure: float, method: str = "NRMM", remedy: str = "Give it in Pa, e.g. 179e3") -> None:
     """@raises ResultsError for a contact pressure that no wheel has, such as one in kPa"""
     low, high = NRMM_PRESSURE
     if not low <= pressure <= high:
@@ -91,40 +88,23 @@ def nrmm(
     load [N], radius, width, depth, sinkage [m], density [kg/m3], pressure [Pa] the largest contact
     pressure. @raises OutOfRange
     """
-    sizes = {"load": load, "radius": radius, "width": width, "depth": depth}
-    require_positive("NRMM", **sizes, density=density, pressure=pressure)
+    require_positive("NRMM", load=load, radius=radius, width=width, depth=depth, density=density, pressure=pressure)
     require_wheel("NRMM", load, 2 * radius, width)
     require_pressure(pressure)
     if sinkage is not None and not 0.0 <= sinkage < depth:
-        raise ResultsError(
-            f"NRMM: a sinkage of {sinkage:g} m in snow {depth:g} m deep; allowed: from 0 to below "
-            "the depth"
-        )
+        raise ResultsError(f"NRMM: a sinkage of {sinkage:g} m in snow {depth:g} m deep; allowed: from 0 to below the depth")
     z = nrmm_sinkage(depth, density, pressure) if sinkage is None else sinkage
     final = nrmm_final_density(pressure)
-    why = f"within 10 % of the wheel of {NRMM_TESTS}"
-    outside = require_range(
-        "NRMM",
-        [
-            Limit("density", density, *NRMM_DENSITY, "kg/m3", NRMM_TESTS),
-            Limit("depth", depth, *NRMM_DEPTH, "m", NRMM_TESTS),
-            Limit("wheel radius", radius, *NRMM_RADIUS, "m", why),
-            Limit("sinkage", z, -math.inf, depth, "m", "the snow is not deeper"),
-            Limit("final over initial density", final / density, 1, math.inf, "", "snow does not swell"),
-        ],
-        extrapolate,
-    )
-    return Prediction(
-        "NRMM",
-        NRMM_SOURCE,
-        z,
-        nrmm_resistance(density, width, radius, z),
-        load,
-        NRMM_SINKAGE_RMS,
-        NRMM_COEFFICIENT_RMS,
-        outside,
-        (Result("final density", final, "kg/m3"),),
-    )
+    limits = [
+        Limit("density", density, *NRMM_DENSITY, "kg/m3", NRMM_TESTS),
+        Limit("depth", depth, *NRMM_DEPTH, "m", NRMM_TESTS),
+        Limit("wheel radius", radius, *NRMM_RADIUS, "m", f"within 10 % of the wheel of {NRMM_TESTS}"),
+        Limit("sinkage", z, -math.inf, depth, "m", "the snow is not deeper"),
+        Limit("final over initial density", final / density, 1, math.inf, "", "snow does not swell"),
+    ]
+    outside = require_range("NRMM", limits, extrapolate)
+    resistance, extra = nrmm_resistance(density, width, radius, z), (Result("final density", final, "kg/m3"),)
+    return Prediction("NRMM", NRMM_SOURCE, z, resistance, load, NRMM_SINKAGE_RMS, NRMM_COEFFICIENT_RMS, outside, extra)
 
 
 # T = a N^b: gross traction over contact area, of the mean contact pressure N, both in kPa. Table A5 of
@@ -154,14 +134,12 @@ class SnowTraction:
 
     def report(self) -> str:
         """Lines for a person."""
-        return "\n".join(
-            [
-                f"snow_traction, {self.surface}  ({TRACTION_SOURCE})",
-                f"  contact pressure           {self.pressure / 1e3:.4g} kPa",
-                f"  gross traction             {self.gross:.4g} N",
-                f"  gross traction coefficient {self.coefficient:.4f}",
-                "  Subtract the motion resistance, for example of nrmm, for the net traction.",
-            ]
+        return (
+            f"snow_traction, {self.surface}  ({TRACTION_SOURCE})\n"
+            f"  contact pressure           {self.pressure / 1e3:.4g} kPa\n"
+            f"  gross traction             {self.gross:.4g} N\n"
+            f"  gross traction coefficient {self.coefficient:.4f}\n"
+            "  Subtract the motion resistance, for example of nrmm, for the net traction."
         )
 
 
@@ -177,14 +155,10 @@ def snow_traction(surface: str, load: float, contact_area: float) -> SnowTractio
 
 # ---- sand and soil
 
-BEKKER_SOURCE = (
-    "M. G. Bekker (1956, 1969); J. Y. Wong, Theory of Ground Vehicles (2008), eq 2.42-2.46"
-)
+BEKKER_SOURCE = "M. G. Bekker (1956, 1969); J. Y. Wong, Theory of Ground Vehicles (2008), eq 2.42-2.46"
 
 
-def bekker(
-    load: float, diameter: float, width: float, ground: TerrainValues, extrapolate: bool = False
-) -> Prediction:
+def bekker(load: float, diameter: float, width: float, ground: TerrainValues, extrapolate: bool = False) -> Prediction:
     """Sinkage and compaction resistance of a towed rigid wheel.
 
     z = (3 W/((3 - n) b k sqrt(D)))^(2/(2n+1)), R = b k z^(n+1)/(n+1). load [N], diameter and width
@@ -194,16 +168,13 @@ def bekker(
     k, n = ground.modulus(width), ground.n
     z = (3 * load / ((3 - n) * width * k * np.sqrt(diameter))) ** (2 / (2 * n + 1))
     series = "Wong: for n up to 1.3, the series of the load integral is cut after two terms"
-    outside = require_range(
-        "Bekker's wheel",
-        [
-            Limit("diameter", diameter, 0.5, math.inf, "m", "Wong: poor for wheels below 50 cm"),
-            Limit("n", n, 0.0, 1.3, "", series),
-            Limit("sinkage over diameter", z / diameter, 0, 1 / 6, "", "Wong: for moderate sinkage"),
-            Limit("sinkage", z, 0, ground.deepest, "m", "the plates of the card"),
-        ],
-        extrapolate,
-    )
+    limits = [
+        Limit("diameter", diameter, 0.5, math.inf, "m", "Wong: poor for wheels below 50 cm"),
+        Limit("n", n, 0.0, 1.3, "", series),
+        Limit("sinkage over diameter", z / diameter, 0, 1 / 6, "", "Wong: for moderate sinkage"),
+        Limit("sinkage", z, 0, ground.deepest, "m", "the plates of the card"),
+    ]
+    outside = require_range("Bekker's wheel", limits, extrapolate)
     resistance = width * k * z ** (n + 1) / (n + 1)
     return Prediction("Bekker", BEKKER_SOURCE, float(z), float(resistance), load, outside=outside)
 
@@ -212,17 +183,13 @@ WONG_REECE_SOURCE = "J.-Y. Wong and A. R. Reece, J. Terramechanics 4(1), 81-98 (
 GAUSS = np.polynomial.legendre.leggauss(96)  # type: ignore[no-untyped-call]
 
 
-def _wong_reece_sums(
-    theta_1: float, slip: float, radius: float, width: float, ground: TerrainValues
-) -> Floats:
+def _wong_reece_sums(theta_1: float, slip: float, radius: float, width: float, ground: TerrainValues) -> Floats:
     """(3) Vertical force, drawbar pull [N], torque [N m] at an entry angle [rad]; exit angle 0."""
     k, n = ground.modulus(width) * radius**ground.n, ground.n
     theta_m = (ground.c1 + ground.c2 * slip) * theta_1
     if not 0 < theta_m < theta_1:
-        raise ResultsError(
-            f"Wong-Reece: the largest stress would lie at {np.degrees(theta_m):.1f} of "
-            f"{np.degrees(theta_1):.1f} degrees"
-        )
+        angles = f"{np.degrees(theta_m):.1f} of {np.degrees(theta_1):.1f}"
+        raise ResultsError(f"Wong-Reece: the largest stress would lie at {angles} degrees")
     x, w = GAUSS
     totals = np.zeros(3)
     for low, high in ((0.0, theta_m), (theta_m, theta_1)):
@@ -242,12 +209,7 @@ def _wong_reece_sums(
 
 
 def wong_reece(
-    load: float,
-    diameter: float,
-    width: float,
-    slip: float,
-    ground: TerrainValues,
-    extrapolate: bool = False,
+    load: float, diameter: float, width: float, slip: float, ground: TerrainValues, extrapolate: bool = False
 ) -> Prediction:
     """Driven rigid wheel: sinkage, external drawbar pull and torque at a slip 1 - v/(r omega).
 
@@ -265,34 +227,24 @@ def wong_reece(
         )
     radius = 0.5 * diameter
     if not 0 <= slip < 1:
-        raise OutOfRange(
-            f"Wong-Reece is for driven wheels, slip from 0 to 1, not {slip:g}; no extrapolation "
-            "changes that"
-        )
+        raise OutOfRange(f"Wong-Reece is for driven wheels, slip from 0 to 1, not {slip:g}; no extrapolation changes that")
 
     def sums(entry: float) -> Floats:
         return _wong_reece_sums(entry, slip, radius, width, ground)
 
     deepest = math.radians(89.0)
     if sums(deepest)[0] < load:
-        raise ResultsError(
-            f"Wong-Reece: '{ground.name}' does not carry {load:g} N: the wheel would sink to its "
-            "axle"
-        )
+        raise ResultsError(f"Wong-Reece: '{ground.name}' does not carry {load:g} N: the wheel would sink to its axle")
     entry = brentq(lambda angle: float(sums(angle)[0]) - load, 1e-6, deepest, xtol=1e-14)
     _, pull, torque = map(float, sums(entry))
     z = float(radius * (1 - np.cos(entry)))
-    small = "the paper's wheel of 1.25 m; below 0.5 m not shown"
-    outside = require_range(
-        "Wong-Reece",
-        [
-            Limit("slip", slip, 0.0, 0.8, "", "the wheels of the paper"),
-            Limit("diameter", diameter, 0.5, math.inf, "m", small),
-            Limit("sinkage over diameter", z / diameter, 0.0, 0.26, "", "the paper's loose sand"),
-            Limit("sinkage", z, 0.0, ground.deepest, "m", "the plates of the card"),
-        ],
-        extrapolate,
-    )
+    limits = [
+        Limit("slip", slip, 0.0, 0.8, "", "the wheels of the paper"),
+        Limit("diameter", diameter, 0.5, math.inf, "m", "the paper's wheel of 1.25 m; below 0.5 m not shown"),
+        Limit("sinkage over diameter", z / diameter, 0.0, 0.26, "", "the paper's loose sand"),
+        Limit("sinkage", z, 0.0, ground.deepest, "m", "the plates of the card"),
+    ]
+    outside = require_range("Wong-Reece", limits, extrapolate)
     extra = (
         Result("torque", torque, "N m"),
         Result("drawbar pull", pull, "N"),
@@ -300,3 +252,47 @@ def wong_reece(
         Result("slip", slip, ""),
     )
     return Prediction("Wong-Reece", WONG_REECE_SOURCE, z, -pull, load, outside=outside, extra=extra)
+
+
+# ---- formulas by name: "nrmm:PRESSURE" [Pa], "bekker:TERRAIN", "wong_reece:TERRAIN"
+
+
+def predictions_for(run: WheelRun, names: Iterable[str], extrapolate: bool) -> list[Prediction]:
+    """One per name. @raises ResultsError for what is no formula, or outside of the range of one"""
+    return [_prediction(run, name, extrapolate) for name in names]
+
+
+def require_formulas(names: Iterable[str]) -> None:
+    """@raises ResultsError for a name that is none, for any run"""
+    for name in names:
+        _ground_of(name)
+
+
+def _ground_of(name: str) -> float | TerrainValues:
+    """Contact pressure [Pa] of nrmm, terrain of the others. @raises ResultsError for a name that is none"""
+    method, _, what = name.partition(":")
+    if method in ("bekker", "wong_reece"):
+        return terrain(what)
+    if method != "nrmm":
+        raise ResultsError(f"there is no formula '{method}'; there are nrmm:PRESSURE, bekker:TERRAIN, wong_reece:TERRAIN")
+    try:
+        pressure = float(what)
+    except ValueError:
+        raise ResultsError(
+            f"formula '{name}': write nrmm:PRESSURE with the largest contact pressure in Pa, e.g. nrmm:179e3"
+        ) from None
+    require_pressure(pressure)
+    return pressure
+
+
+def _prediction(run: WheelRun, name: str, extrapolate: bool) -> Prediction:
+    ground, load, width = _ground_of(name), run.number("load"), run.number("wheel_width")
+    if isinstance(ground, TerrainValues):
+        wheel = (load, 2 * run.radius, width)
+        if name.startswith("bekker:"):
+            return bekker(*wheel, ground, extrapolate)
+        return wong_reece(*wheel, run.number("slip"), ground, extrapolate)
+    if "density" not in run.conditions:
+        raise ResultsError(f"{run.label}: the density of its ground is not known; NRMM needs it")
+    snow = (run.number("depth"), run.number("density"), ground)
+    return nrmm(load, run.radius, width, *snow, extrapolate=extrapolate)

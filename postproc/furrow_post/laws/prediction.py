@@ -68,9 +68,7 @@ class Prediction:
     def __post_init__(self) -> None:
         values = (self.sinkage, self.resistance, self.load, *(r.value for r in self.extra))
         if not np.isfinite(values).all():
-            raise ResultsError(
-                f"{self.method}: gives no finite number for these values; check their units (SI)"
-            )
+            raise ResultsError(f"{self.method}: gives no finite number for these values; check their units (SI)")
 
     @property
     def coefficient(self) -> float:
@@ -78,34 +76,28 @@ class Prediction:
 
     def report(self) -> str:
         """Lines for a person."""
-        known = self.coefficient_scatter > 0
         sinkage = f"{1e3 * self.sinkage:.1f} mm"
         if self.sinkage_scatter > 0:
             sinkage += f"  (scatter of tests {1e3 * self.sinkage_scatter:.0f} mm)"
         coefficient = f"{self.coefficient:.4f}"
-        if known:
-            coefficient = with_error(self.coefficient, self.coefficient_scatter)
-            coefficient += "  (scatter of tests)"
-        return "\n".join(
-            [
-                f"{self.method}  ({self.source})",
-                f"  sinkage                {sinkage}",
-                f"  motion resistance      {self.resistance:.4g} N",
-                f"  resistance coefficient {coefficient}",
-                *(f"  {r.name:22} {r.value:.4g} {r.unit}" for r in self.extra),
-                *(f"  EXTRAPOLATED: {limit}" for limit in self.outside),
-            ]
-        )
+        if self.coefficient_scatter > 0:
+            coefficient = f"{with_error(self.coefficient, self.coefficient_scatter)}  (scatter of tests)"
+        lines = [
+            f"{self.method}  ({self.source})",
+            f"  sinkage                {sinkage}",
+            f"  motion resistance      {self.resistance:.4g} N",
+            f"  resistance coefficient {coefficient}",
+            *(f"  {r.name:22} {r.value:.4g} {r.unit}" for r in self.extra),
+            *(f"  EXTRAPOLATED: {limit}" for limit in self.outside),
+        ]
+        return "\n".join(lines)
 
 
 def require_range(method: str, limits: Sequence[Limit], extrapolate: bool) -> tuple[str, ...]:
     """Limits that are not met, in words. @raises OutOfRange for any, unless told to extrapolate"""
     outside = tuple(limit.text() for limit in limits if not limit.met)
     if outside and not extrapolate:
-        raise OutOfRange(
-            f"{method} is not valid here: {'; '.join(outside)}; --extrapolate uses it all the "
-            "same, and says so"
-        )
+        raise OutOfRange(f"{method} is not valid here: {'; '.join(outside)}; --extrapolate uses it all the same, and says so")
     return outside
 
 

@@ -12,7 +12,6 @@ from ..csv_table import read_rows
 from ..errors import ResultsError
 from ..read.soil_card import read_card
 
-
 VALUES = ("n", "c", "phi", "K", "c1", "c2")
 
 
@@ -64,12 +63,9 @@ class TerrainValues:
 
 def terrains() -> dict[str, TerrainValues]:
     """Name -> values, from terrains.csv."""
-    numeric = ("k_1", "k_2", "n", "c", "phi", "K", "c1", "c2")
-    found = {}
-    for row in read_rows(Path(__file__).with_name("terrains.csv")):
-        k_1, k_2, n, c, phi, K, c1, c2 = (float(row[key]) if row[key] else math.nan for key in numeric)
-        found[row["name"]] = TerrainValues(row["name"], row["kind"], row["pressure"], k_1, k_2, n, c, phi, K, c1, c2)
-    return found
+    words, numbers = ("name", "kind", "pressure"), ("k_1", "k_2", *VALUES)
+    rows = read_rows(Path(__file__).with_name("terrains.csv"))
+    return {row["name"]: TerrainValues(*(row[w] for w in words), *(float(row[n] or "nan") for n in numbers)) for row in rows}
 
 
 CARD = (".yaml", ".yml", ".json")  # endings of a soil card
@@ -91,20 +87,9 @@ def terrain_of_card(path: Path) -> TerrainValues:
     """Terrain values of a soil card. @raises OSError, ResultsError"""
     card = read_card(path)
     plate, shear = card.bekker_and_shear()
-    return TerrainValues(
-        card.title,
-        "card",
-        "bekker",
-        plate.k_c.value,
-        plate.k_phi.value,
-        plate.n.value,
-        shear.c.value,
-        shear.phi.value,
-        shear.K.value,
-        card.c1,
-        card.c2,
-        plate.sinkage.high,
-    )
+    values = (plate.k_c, plate.k_phi, plate.n, shear.c, shear.phi, shear.K)
+    numbers = (*(one.value for one in values), card.c1, card.c2, plate.sinkage.high)
+    return TerrainValues(card.title, "card", "bekker", *numbers)
 
 
 def terrain(name: str) -> TerrainValues:

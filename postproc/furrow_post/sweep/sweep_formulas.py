@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..laws.prediction import Prediction
-from ..laws.formulas import predictions_for
+from ..laws.empirical import predictions_for
 from ..errors import ResultsError
 from .sweep_curves import EFFICIENCY, HUB_DROP, PULL, RESISTANCE, TORQUE, Axis, Line
 from .sweep_quantities import speed_over_rim
