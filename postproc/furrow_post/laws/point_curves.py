@@ -5,6 +5,7 @@ import json
 import math
 import tempfile
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +16,23 @@ from ..programs import find_program
 from ..run.case import point_text
 from ..run.conversation import Conversation
 from .fitter import NotComputed, Parameter
-from .law_fit import Curve
 
 PROGRAM = "furrow-point"
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A measured curve; measured is NaN where there is none."""
+
+    name: str
+    path: str  # its type
+    driven_by: str  # with its unit, as compared
+    driven: Floats
+    channel: str
+    compared: str
+    measured: Floats
+    relative: bool  # compare logarithms
+    deviation: float  # of a value, of its logarithm where relative; 0: unknown, the same for all
 
 
 class _OpenPoint(Conversation):
@@ -89,14 +104,10 @@ def _words(values: Floats) -> str:
 
 
 def _parameter(head: dict[str, Any]) -> Parameter:
-    lower = -math.inf if head["lower"] is None else head["lower"]
-    upper = math.inf if head["upper"] is None else head["upper"]
-    return Parameter(head["name"], head["unit"], head["start"], lower, upper)
+    ends = (sign * math.inf if head[end] is None else head[end] for sign, end in ((-1, "lower"), (1, "upper")))
+    return Parameter(head["name"], head["unit"], head["start"], *ends)
 
 
 def _curve(head: dict[str, Any]) -> Curve:
-    columns = {
-        name: np.array([math.nan if value is None else value for value in head[name]])
-        for name in ("driven", "measured")
-    }
+    columns = {name: np.array(head[name], dtype=np.float64) for name in ("driven", "measured")}  # null: NaN
     return Curve(**{**head, **columns})
