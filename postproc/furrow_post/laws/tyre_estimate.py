@@ -51,9 +51,18 @@ class Catalogue:
     mass: float | None = None
 
     @property
+    def known_diameter(self) -> float:
+        return self.size.diameter if self.diameter is None else self.diameter
+
+    @property
+    def known_thickness(self) -> float:
+        """Thickness of the tread."""
+        return _TREAD_OVER_DIAMETER * self.known_diameter if self.tread_thickness is None else self.tread_thickness
+
+    @property
     def height(self) -> float:
         """Height of the section."""
-        return 0.5 * (_diameter(self) - self.size.rim_diameter)
+        return 0.5 * (self.known_diameter - self.size.rim_diameter)
 
 
 @dataclass(frozen=True)
@@ -67,98 +76,81 @@ class Guess:
 
 def guesses(known: Catalogue) -> dict[str, Guess]:
     """The parameters that a fit may change, by name."""
-    width, width_source, width_spread = _section_width(known)
-    tread = known.tread_width
-    thickness, thickness_source = _tread_thickness(known)
-    diameter = _diameter(known)
-    radius = 0.5 * diameter - thickness
+    width = Guess(known.size.width, 0.04, "of the size")
+    if known.section_width is not None:
+        width = Guess(known.section_width, 0.02, "given")
+    half_width = Guess(0.5 * _TREAD_OVER_SECTION * width.value, 0.1, f"{_TREAD_OVER_SECTION} of the section width")
+    if known.tread_width:
+        half_width = Guess(0.5 * known.tread_width, 0.02, "half the given tread width")
+    thickness = known.known_thickness
+    tread = f"{1e3 * thickness:.0f} mm of tread" if known.tread_thickness is None else "the given tread"
+    radius = 0.5 * known.known_diameter - thickness
     # the error of the size's diameter, and a third of the tread's thickness where it is guessed
     guessed = 0.0 if known.tread_thickness else thickness / 3.0
     error = math.hypot(guessed, 0.0 if known.diameter else 0.5 * known.size.diameter_error)
     return {
-        "belt_radius": Guess(
-            radius, max(error / radius, 0.003), f"half the diameter less {thickness_source}"
-        ),
-        "half_width": Guess(
-            0.5 * (tread or _TREAD_OVER_SECTION * width),
-            0.02 if tread else 0.1,
-            "half the given tread width"
-            if tread
-            else f"{_TREAD_OVER_SECTION} of the section width",
-        ),
-        "section_width": Guess(width, width_spread, width_source),
+        "belt_radius": Guess(radius, max(error / radius, 0.003), f"half the diameter less {tread}"),
+        "half_width": half_width,
+        "section_width": width,
         "belt_stiffness": Guess(1.0, 0.5, "similar to [Shoop2001]'s tyre"),
         "sidewall_stiffness": Guess(1.0, 1.0, "similar to [Shoop2001]'s tyre"),
     }
 
 
-@dataclass(frozen=True)
-class Entry:
-    """A line of a tyre file; the note says where the value comes from."""
-
-    key: str
-    text: str
-    note: str
-
-
-Sections = dict[str, list[Entry]]
-
-
-def tyre_sections(known: Catalogue, values: Values, notes: Mapping[str, str]) -> Sections:
-    """Sections of the tyre file. notes: where each fitted parameter's value comes from.
+def tyre_text(title: str, comments: list[str], known: Catalogue, values: Values, notes: Mapping[str, str]) -> str:
+    """A tyre file with a comment for every value. notes: where each fitted parameter's value comes from.
 
     @raises ResultsError where rim, tread and section do not fit together
     """
-    rim, rim_source = _rim_width(known)
-    bead = 0.5 * known.size.rim_diameter + (_FLANGE if known.flange is None else known.flange)
-    flange_source = "17 mm, guess" if known.flange is None else "the given flange"
+    rim, rim_source = known.rim_width or 0.0, "given rim"
+    if known.rim_width is None:
+        inches = round(2.0 * _RIM_OVER_SECTION * known.size.width / INCH) / 2.0  # half inches
+        rim, rim_source = inches * INCH, f"rim of {inches:g} inches, {_RIM_OVER_SECTION} of the width: guess"
+    flange, flange_source = known.flange or 0.0, "the given flange"
+    if known.flange is None:
+        flange, flange_source = _FLANGE, "17 mm, guess"
+    bead = 0.5 * known.size.rim_diameter + flange
     arc = _sidewall(0.5 * rim, bead, values)
+    areal_mass = _AREAL_MASS * known.known_thickness / _TREAD_THICKNESS
+    mass_source = f"{_AREAL_MASS} of [Shoop2001]'s tyre by the tread's thickness: guess"
+    if known.mass is not None:
+        area = 2.0 * math.pi * values["belt_radius"] * 2.0 * values["half_width"]
+        areal_mass, mass_source = _TREAD_MASS_SHARE * known.mass / area, f"{_TREAD_MASS_SHARE} of the given mass: guess"
     scale = values["section_width"] / _SECTION_WIDTH
     strength = max(1.0, known.pressure / _PRESSURE)
-    belts = strength * values["belt_stiffness"]
-    sidewall = strength * values["sidewall_stiffness"]
-    bending = [sidewall * scale**3 * b for b in _BENDING]
+    belts, sidewall = (strength * values[f"{part}_stiffness"] for part in ("belt", "sidewall"))
     springs = sidewall * scale**2
     thickness = _THICKNESS * values["belt_radius"] / _BELT_RADIUS
     similar = "[Shoop2001] Table 8, scaled"
-    entry = Entry
-    return {
-        "tyre": [
-            entry("pressure", f"{known.pressure:.6g}", "given"),
-            entry("bead_radius", f"{bead:.4g}", f"half the rim diameter and {flange_source}"),
-            entry("bead_spacing", f"{rim:.4g}", rim_source),
-        ],
-        "tread": [
-            entry("radius", f"{values['belt_radius']:.4g}", notes["belt_radius"]),
-            entry("half_width", f"{values['half_width']:.4g}", notes["half_width"]),
-            entry("thickness", f"{thickness:.4g}", f"{similar} with the radius"),
-            entry(
-                "E1",
-                f"{belts * _E1:.4g}",
-                f"{similar} times {belts:.3g}; {notes['belt_stiffness']}",
-            ),
-            entry("E2", f"{belts * _E2:.4g}", "the same"),
-            entry("nu12", f"{_NU12}", "guess"),
-            entry("G12", f"{_G12:.4g}", "guess, its influence is negligible"),
-            entry("areal_mass", f"{_areal_mass(known, values):.4g}", _mass_source(known)),
-        ],
-        "sidewall": [
-            entry(
-                "length", f"{arc.length:.4g}", f"arc of the section width: {notes['section_width']}"
-            ),
-            entry(
-                "bending",
-                _listed(bending),
-                f"{similar} times {sidewall:.3g}; {notes['sidewall_stiffness']}",
-            ),
-            entry("curvature", _listed([arc.curvature] * len(bending)), "of the arc"),
-            entry("rim_angle", f"{arc.rim_angle:.4g}", "of the arc"),
-            entry("tread_angle", f"{arc.tread_angle:.4g}", "of the arc"),
-            entry("rim_stiffness", f"{springs * _RIM_STIFFNESS:.4g}", "as bending"),
-            entry("tread_stiffness", f"{springs * _TREAD_STIFFNESS:.4g}", "as bending"),
-            entry("strip", "even", "as [Shoop2001]'s tyre"),
-        ],
-    }
+    head = "\n".join([f"title: {title}", *(f"# {comment}".rstrip() for comment in comments)])
+    return f"""{head}
+tyre:
+  pressure: {known.pressure:.6g}   # given
+  bead_radius: {bead:.4g}   # half the rim diameter and {flange_source}
+  bead_spacing: {rim:.4g}   # {rim_source}
+tread:
+  radius: {values["belt_radius"]:.4g}   # {notes["belt_radius"]}
+  half_width: {values["half_width"]:.4g}   # {notes["half_width"]}
+  thickness: {thickness:.4g}   # {similar} with the radius
+  E1: {belts * _E1:.4g}   # {similar} times {belts:.3g}; {notes["belt_stiffness"]}
+  E2: {belts * _E2:.4g}   # the same
+  nu12: {_NU12}   # guess
+  G12: {_G12:.4g}   # guess, its influence is negligible
+  areal_mass: {areal_mass:.4g}   # {mass_source}
+sidewall:
+  length: {arc.length:.4g}   # arc of the section width: {notes["section_width"]}
+  bending: {_listed([sidewall * scale**3 * b for b in _BENDING])}   # {similar} times {sidewall:.3g}; {notes["sidewall_stiffness"]}
+  curvature: {_listed([arc.curvature] * len(_BENDING))}   # of the arc
+  rim_angle: {arc.rim_angle:.4g}   # of the arc
+  tread_angle: {arc.tread_angle:.4g}   # of the arc
+  rim_stiffness: {springs * _RIM_STIFFNESS:.4g}   # as bending
+  tread_stiffness: {springs * _TREAD_STIFFNESS:.4g}   # as bending
+  strip: even   # as [Shoop2001]'s tyre
+"""
+
+
+def _listed(numbers: list[float]) -> str:
+    return "[" + ", ".join(f"{number:.3g}" for number in numbers) + "]"
 
 
 def hub_mass(known: Catalogue) -> float | None:
@@ -203,59 +195,5 @@ def _sidewall(bead_axial: float, bead_radius: float, values: Values) -> _Arc:
     half_angle = float(brentq(excess, flat, round_))
     radius = 0.5 * chord / math.sin(half_angle)
     direction = math.atan2(up, across)
-    return _Arc(
-        2.0 * radius * half_angle,
-        1.0 / radius,
-        math.degrees(direction - half_angle),
-        math.degrees(direction + half_angle),
-    )
-
-
-def _diameter(known: Catalogue) -> float:
-    return known.size.diameter if known.diameter is None else known.diameter
-
-
-def _section_width(known: Catalogue) -> tuple[float, str, float]:
-    if known.section_width is not None:
-        return known.section_width, "given", 0.02
-    return known.size.width, "of the size", 0.04
-
-
-def _tread_thickness(known: Catalogue) -> tuple[float, str]:
-    if known.tread_thickness is not None:
-        return known.tread_thickness, "the given tread"
-    thickness = _TREAD_OVER_DIAMETER * _diameter(known)
-    return thickness, f"{1e3 * thickness:.0f} mm of tread"
-
-
-def _rim_width(known: Catalogue) -> tuple[float, str]:
-    if known.rim_width is not None:
-        return known.rim_width, "given rim"
-    width = round(2.0 * _RIM_OVER_SECTION * known.size.width / INCH) / 2.0  # half inches
-    return width * INCH, f"rim of {width:g} inches, {_RIM_OVER_SECTION} of the width: guess"
-
-
-def _areal_mass(known: Catalogue, values: Values) -> float:
-    if known.mass is None:
-        return _AREAL_MASS * _tread_thickness(known)[0] / _TREAD_THICKNESS
-    area = 2.0 * math.pi * values["belt_radius"] * 2.0 * values["half_width"]
-    return _TREAD_MASS_SHARE * known.mass / area
-
-
-def _mass_source(known: Catalogue) -> str:
-    if known.mass is None:
-        return f"{_AREAL_MASS} of [Shoop2001]'s tyre by the tread's thickness: guess"
-    return f"{_TREAD_MASS_SHARE} of the given mass: guess"
-
-
-def _listed(numbers: list[float]) -> str:
-    return "[" + ", ".join(f"{number:.3g}" for number in numbers) + "]"
-
-
-def tyre_text(title: str, comments: list[str], sections: Sections) -> str:
-    """A tyre file with a comment for every value."""
-    lines = [f"title: {title}", *(f"# {comment}".rstrip() for comment in comments)]
-    for name, entries in sections.items():
-        lines.append(f"{name}:")
-        lines += [f"  {entry.key}: {entry.text}   # {entry.note}" for entry in entries]
-    return "\n".join(lines) + "\n"
+    angles = (math.degrees(direction + side * half_angle) for side in (-1, 1))
+    return _Arc(2.0 * radius * half_angle, 1.0 / radius, *angles)

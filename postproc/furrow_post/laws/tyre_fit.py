@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from ..arrays import Floats
 from ..csv_table import read_numbers
@@ -22,7 +23,7 @@ from ..errors import ResultsError
 from ..programs import find_program
 from ..run.tools import Refused, answer
 from .fitter import NotComputed, Parameter, Search, fit, judge, slopes
-from .tyre_estimate import Catalogue, Guess, guesses, tyre_sections, tyre_text
+from .tyre_estimate import Catalogue, Guess, guesses, tyre_text
 
 # Columns of a test, as furrow-tyre prints them -> relative error of a measurement
 MEASURED = {"deflection_cm": 0.03, "perimeter_area_cm2": 0.05, "section_width_cm": 0.02}
@@ -53,22 +54,13 @@ def read_tests(path: Path) -> list[PlateTest]:
             continue
         measured = {name: row[name] for name in MEASURED if not math.isnan(row.get(name, math.nan))}
         if not (row["pressure_kPa"] > 0.0 and row["load_N"] > 0.0 and measured):
-            raise ResultsError(
-                f"{path}: row {number} needs a pressure and a load above 0, and one of "
-                f"{', '.join(MEASURED)}"
-            )
+            raise ResultsError(f"{path}: row {number} needs a pressure and a load above 0, and one of {', '.join(MEASURED)}")
         if wrong := [name for name, value in measured.items() if value <= 0.0]:
             raise ResultsError(f"{path}: row {number}: {wrong[0]} must be above 0")
         tests.append(PlateTest(row["pressure_kPa"], row["load_N"], measured))
     if not tests:
-        raise ResultsError(
-            f"{path}: has no test; a row has pressure_kPa, load_N and what was measured"
-        )
+        raise ResultsError(f"{path}: has no test; a row has pressure_kPa, load_N and what was measured")
     return tests
-
-
-class NotAtRest(NotComputed):
-    """There is no such tyre, or furrow-tyre does not bring it to rest."""
 
 
 Mesh = tuple[int, int]  # elements across and around
@@ -80,7 +72,7 @@ COARSE, FINE = (2, 60), (4, 72)
 def press(text: str, tests: Sequence[PlateTest], mesh: Mesh = FINE) -> States:
     """The states of a tyre, given as the text of its file, under the tests' pressures and loads.
 
-    @raises NotAtRest with furrow-tyre's message
+    @raises NotComputed with furrow-tyre's message, where there is no such tyre or it does not come to rest
     """
     program = find_program("furrow-tyre")
     states: dict[tuple[float, float], dict[str, float]] = {}
@@ -95,7 +87,7 @@ def press(text: str, tests: Sequence[PlateTest], mesh: Mesh = FINE) -> States:
             try:
                 table.write_text(answer(command), encoding="utf-8")
             except Refused as refused:
-                raise NotAtRest(refused.cause.replace(str(file), "the tyre")) from refused
+                raise NotComputed(refused.cause.replace(str(file), "the tyre")) from refused
             for load, row in zip(loads, read_numbers(table)[1:]):  # the first is without load
                 states[pressure, load] = row
     return [states[test.pressure, test.load] for test in tests]
@@ -138,15 +130,13 @@ class TyreFit:
 
     def misfits(self) -> dict[str, float]:
         """rms relative misfit of each measured quantity."""
-        squares: dict[str, list[float]] = {}
-        for test, state in zip(self.tests, self.states):
-            for name, value in test.measured.items():
-                squares.setdefault(name, []).append((state[name] / value - 1.0) ** 2)
-        return {name: math.sqrt(sum(all_) / len(all_)) for name, all_ in squares.items()}
+        pairs = zip(self.tests, self.states)
+        misfits = pd.DataFrame([{name: state[name] / value - 1.0 for name, value in test.measured.items()} for test, state in pairs])
+        return dict(misfits.pow(2).mean().pow(0.5))
 
     def file_text(self, title: str, comments: list[str]) -> str:
         notes = {parameter.name: parameter.note() for parameter in self.parameters}
-        return tyre_text(title, comments, tyre_sections(self.known, self.values(), notes))
+        return tyre_text(title, comments, self.known, self.values(), notes)
 
 
 @dataclass
@@ -166,10 +156,9 @@ class _Trials:
     def states(self, values: Floats, mesh: Mesh) -> States:
         named, blank = dict(zip(self.names, map(float, values))), dict.fromkeys(self.names, "")
         try:
-            sections = tyre_sections(self.known, named, blank)
+            text = tyre_text("trial", [], self.known, named, blank)
         except ResultsError as error:
-            raise NotAtRest(str(error)) from error
-        text = tyre_text("trial", [], sections)
+            raise NotComputed(str(error)) from error
         if (text, mesh) not in self.solved:
             self.solved[text, mesh] = self.solve(text, self.tests, mesh)
         return self.solved[text, mesh]

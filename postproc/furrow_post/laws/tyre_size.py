@@ -46,25 +46,21 @@ class TyreSize:
 def read_size(designation: str) -> TyreSize:
     """@raises ResultsError for a text that is no size designation, or gives no tyre"""
     text = designation.strip()
-    if found := _METRIC.fullmatch(text.replace(" ", "")):
-        width = 1e-3 * float(found["width"])
-        height = width * float(found["aspect"]) / 100.0
-        return _checked(text, width, height, float(found["rim"]), 0.0)
-    if found := _FLOTATION.fullmatch(text.replace(" ", "")):
-        rim = float(found["rim"])
-        height = 0.5 * INCH * (float(found["diameter"]) - rim)
-        return _checked(text, INCH * float(found["width"]), height, rim, 0.0)
-    if found := _NUMERIC.fullmatch(text.replace(" ", "")):
-        rim = float(found["rim"])
-        width = INCH * float(found["width"])
-        decimals = len(found["width"].partition(".")[2])
-        low = decimals == 0 and rim == _LOW_RIM
-        ratio, error = _LOW_HEIGHT_OVER_WIDTH if low else _HEIGHT_OVER_WIDTH[decimals]
-        return _checked(text, width, ratio * width, rim, 2.0 * error * width)
-    raise ResultsError(
-        f"'{designation}' is no size designation; write it as on the sidewall, for example "
-        "235/75R15, 31x10.50R15, 16.00R20 or 18.4R38"
-    )
+    found = next(filter(None, (kind.fullmatch(text.replace(" ", "")) for kind in (_METRIC, _FLOTATION, _NUMERIC))), None)
+    if not found:
+        raise ResultsError(
+            f"'{designation}' is no size designation; write it as on the sidewall, for example "
+            "235/75R15, 31x10.50R15, 16.00R20 or 18.4R38"
+        )
+    rim, width = float(found["rim"]), float(found["width"]) * (1e-3 if found.re is _METRIC else INCH)
+    if found.re is _METRIC:
+        return _checked(text, width, width * float(found["aspect"]) / 100.0, rim, 0.0)
+    if found.re is _FLOTATION:
+        return _checked(text, width, 0.5 * INCH * (float(found["diameter"]) - rim), rim, 0.0)
+    decimals = len(found["width"].partition(".")[2])
+    low = decimals == 0 and rim == _LOW_RIM
+    ratio, error = _LOW_HEIGHT_OVER_WIDTH if low else _HEIGHT_OVER_WIDTH[decimals]
+    return _checked(text, width, ratio * width, rim, 2.0 * error * width)
 
 
 def _checked(text: str, width: float, height: float, rim: float, error: float) -> TyreSize:

@@ -13,8 +13,9 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from furrow_post.laws.tyre_estimate import Catalogue, guesses, hub_mass, tyre_sections, tyre_text
-from furrow_post.laws.tyre_fit import MEASURED, Mesh, NotAtRest, PlateTest, fit_tyre, read_tests
+from furrow_post.laws.fitter import NotComputed
+from furrow_post.laws.tyre_estimate import Catalogue, guesses, hub_mass, tyre_text
+from furrow_post.laws.tyre_fit import MEASURED, Mesh, PlateTest, fit_tyre, read_tests
 from furrow_post.laws.tyre_size import INCH, read_size
 from furrow_post.errors import ResultsError
 
@@ -53,7 +54,7 @@ def text_of(shifts: Sequence[float]) -> str:
         name: guess.value * math.exp(guess.spread * shift)
         for (name, guess), shift in zip(start.items(), shifts)
     }
-    return tyre_text("true", [], tyre_sections(KNOWN, values, {name: "" for name in start}))
+    return tyre_text("true", [], KNOWN, values, {name: "" for name in start})
 
 
 def measure(
@@ -137,7 +138,7 @@ class FitTest(unittest.TestCase):
                 yaml.safe_load(text)["tread"]["half_width"]
                 > 1.02 * guesses(KNOWN)["half_width"].value
             ):
-                raise NotAtRest("the tyre does not come to rest")
+                raise NotComputed("the tyre does not come to rest")
             return formula(text, tests, mesh)
 
         tests = measure((0.0, -1.0, 0.0, 0.0, 0.0), tuple(MEASURED))
@@ -160,7 +161,7 @@ class EstimateTest(unittest.TestCase):
             read_size("235/75R15"), 241e3, 6.5 * INCH, 0.737, 0.229, 0.157, 0.021, mass=None
         )
         values = {name: guess.value for name, guess in guesses(known).items()}
-        text = tyre_text("x", [], tyre_sections(known, values, {name: "" for name in values}))
+        text = tyre_text("x", [], known, values, {name: "" for name in values})
         made = yaml.safe_load(text)
         there = Path(__file__).resolve().parents[4] / "inputs" / "tyres" / "p235_75r15.yaml"
         tyre = yaml.safe_load(there.read_text(encoding="utf-8"))
@@ -186,7 +187,7 @@ class EstimateTest(unittest.TestCase):
 
     def test_the_sidewall_is_an_arc_of_the_section_width(self) -> None:
         values = {name: guess.value for name, guess in guesses(KNOWN).items()}
-        text = tyre_text("x", [], tyre_sections(KNOWN, values, {name: "" for name in values}))
+        text = tyre_text("x", [], KNOWN, values, {name: "" for name in values})
         tyre = yaml.safe_load(text)
         sidewall = tyre["sidewall"]
         angles = np.radians(np.linspace(sidewall["rim_angle"], sidewall["tread_angle"], 2001))
@@ -201,7 +202,7 @@ class EstimateTest(unittest.TestCase):
         known = Catalogue(read_size("235/75R15"), 241e3, mass=14.0)
         values = {name: guess.value for name, guess in guesses(known).items()}
         tyre = yaml.safe_load(
-            tyre_text("x", [], tyre_sections(known, values, {name: "" for name in values}))
+            tyre_text("x", [], known, values, {name: "" for name in values})
         )
         tread = tyre["tread"]
         area = 4.0 * math.pi * tread["radius"] * tread["half_width"]
@@ -213,7 +214,7 @@ class EstimateTest(unittest.TestCase):
         known = Catalogue(read_size("235/75R15"), 241e3, rim_width=10 * INCH)
         values = {name: guess.value for name, guess in guesses(known).items()}
         with self.assertRaisesRegex(ResultsError, "a section is wider than both"):
-            tyre_sections(known, values, {name: "" for name in values})
+            tyre_text("x", [], known, values, {name: "" for name in values})
 
 
 class ReadTest(unittest.TestCase):
