@@ -131,11 +131,9 @@ class Fitted:
 
     def interval(self, coverage: float = 0.95) -> tuple[float, float]:
         """Range that holds the value with this probability, of a normal distribution of z, within the bounds."""
-        p, width = self.parameter, float(norm.ppf(0.5 + 0.5 * coverage))
-        relative = self.deviation / (self.value if p.logarithmic else p.scale)
-        ends = (p.value(p.z(self.value) + side * width * relative) for side in (-1, 1))
-        low, high = ends
-        return low, high
+        p = self.parameter
+        half = float(norm.ppf(0.5 + 0.5 * coverage)) * self.deviation / p.in_units(1.0, self.value)
+        return p.value(p.z(self.value) - half), p.value(p.z(self.value) + half)
 
 
 @dataclass(frozen=True)
@@ -174,16 +172,15 @@ class Fit:
     @property
     def value_slope(self) -> Floats:
         """Slopes by the values in place of z."""
-        units = [f.parameter.in_units(1.0, f.value) for f in self.parameters]
-        slope: Floats = self.slope / np.array(units)
+        slope: Floats = self.slope / np.array([f.parameter.in_units(1.0, f.value) for f in self.parameters])
         return slope
 
     def with_samples(self, samples: Sequence[Floats]) -> "Fit":
         """Errors with the scatter of further samples: their residuals at the solution, of the rows that were fitted."""
         parameters = [fitted.parameter for fitted in self.parameters]
-        rest = {name: getattr(self, name) for name in ("start", "evaluations", "end", "converged")}
-        judged = judge(parameters, self.z, self.residuals, self.slope, self.known, None, samples, **rest)
-        return replace(judged, held=self.held)
+        wider = judge(parameters, self.z, self.residuals, self.slope, self.known, None, samples)
+        kept = ("start", "held", "evaluations", "end", "converged")
+        return replace(wider, **{name: getattr(self, name) for name in kept})
 
     def weak(self, share: float) -> list[tuple[float, Floats]]:
         """Singular values below a share of the largest, over it, with their directions."""
@@ -236,7 +233,7 @@ class _Problem:
         return np.vstack((self.slope(z), np.diag(self.weight)[self.weight > 0]))
 
     def slope(self, z: Floats) -> Floats:
-        """Slopes of the rows that are fitted. @raises ResultsError where a parameter can go neither way"""
+        """Slopes of the rows that are fitted."""
         here = self.at(z)[self.fitted]
         if self.search.update and self.last is not None:
             before, residuals, slope = self.last
@@ -250,29 +247,32 @@ class _Problem:
         return slope
 
     def differences(self, z: Floats, here: Floats) -> Floats:
+        """@raises ResultsError where a parameter can go neither way"""
         columns = []
-        for j in range(len(z)):
-            ends = [(z[j], here)] if not self.search.central else []
-            for way in (-1, 1) if self.search.central else (1, -1):
-                moved = z.copy()
-                moved[j] = z[j] + way * self.search.step
-                if not self.search.central and not self.low[j] <= moved[j] <= self.high[j]:
-                    continue
-                moved[j] = min(max(moved[j], self.low[j]), self.high[j])
-                try:
-                    ends.append((moved[j], self.at(moved)[self.fitted]))
-                except NotComputed:
-                    ends += [(z[j], here)] if self.search.central else []
-                if len(ends) == 2:
-                    break
-            if len(ends) < 2 or ends[0][0] == ends[1][0]:
+        for j, place in enumerate(z):
+            if self.search.central:
+                ends = [self._end(z, j, way) or (place, here) for way in (-1, 1)]
+            else:
+                ends = [(place, here), self._end(z, j, 1) or self._end(z, j, -1) or (place, here)]
+            (behind, low), (ahead, high) = ends
+            if behind == ahead:
                 raise ResultsError(
                     "fit: the curves cannot be computed on either side of "
-                    f"{self.parameters[j].name} = {self.parameters[j].value(z[j]):g}; narrow its bounds"
+                    f"{self.parameters[j].name} = {self.parameters[j].value(place):g}; narrow its bounds"
                 )
-            (behind, low), (ahead, high) = ends
             columns.append((high - low) / (ahead - behind))
         return np.array(columns).T
+
+    def _end(self, z: Floats, j: int, way: int) -> tuple[float, Floats] | None:
+        """Place and residuals a step away, with central differences up to the bound; None where there are none."""
+        moved, place = z.copy(), z[j] + way * self.search.step
+        moved[j] = min(max(place, self.low[j]), self.high[j])
+        if moved[j] != place and not self.search.central:
+            return None
+        try:
+            return moved[j], self.at(moved)[self.fitted]
+        except NotComputed:
+            return None
 
     @property
     def size(self) -> int:
@@ -312,13 +312,8 @@ def fit(
     z: Floats = problem.first + found.x
     rows = problem.at(z)
     ends = {0: f"{search.evaluations} evaluations were not enough", 2: "the sum of squares no longer falls"}
-    return judge(
-        parameters,
-        z,
-        rows,
-        found.jac[: len(rows[problem.fitted])],
-        known,
-        held,
+    return replace(
+        judge(parameters, z, rows, found.jac[: len(rows[problem.fitted])], known, held),
         start=start,
         evaluations=problem.evaluations,
         end=ends.get(found.status, "the parameters no longer change"),
@@ -345,7 +340,6 @@ def judge(
     known: bool = True,
     held: Booleans | None = None,
     samples: Sequence[Floats] = (),
-    **rest: object,
 ) -> Fit:
     """Uncertainties at a solution, and what the data leave open. slope: of the rows that were fitted"""
     at_end = rows if held is None else rows[~held]
@@ -373,8 +367,7 @@ def judge(
             covariance += np.outer(direction, direction) * (scatter / value) ** 2
             continue
         partners = np.flatnonzero(np.abs(direction) > PARTNER)
-        combined = ", ".join(names[i] for i in partners)
-        why = f"the curves depend only on a combination of {combined}"
+        why = f"the curves depend only on a combination of {', '.join(names[i] for i in partners)}"
         if len(partners) == 1:
             why = "the curves do not depend on it"
         left_open.update(dict.fromkeys(partners.tolist(), why))
@@ -390,17 +383,10 @@ def judge(
         remark, determined = left_open.get(i, ""), i not in left_open
         if determined and deviation > LARGEST_DEVIATION:
             determined = False
-            remark = (
-                "known to no better than a factor of e"
-                if parameter.logarithmic
-                else "known no better than its range or size"
-            )
+            remark = f"known {'to no better than a factor of e' if parameter.logarithmic else 'no better than its range or size'}"
         elif determined and spare == 0 and not known:
             deviation = math.nan
-            remark = (
-                "as many data as parameters: no scatter to judge by, unless the deviation of the "
-                "data is given"
-            )
+            remark = "as many data as parameters: no scatter to judge by, unless the deviation of the data is given"
         if bound := parameter.bound_met(z[i]):
             remark, determined = bound, False
         share = 1.0 - (deviation / parameter.spread) ** 2 if math.isfinite(parameter.spread) else math.nan
@@ -409,6 +395,7 @@ def judge(
     return Fit(
         parameters=tuple(fitted(i) for i in range(len(z))),
         z=z,
+        start=rows,
         residuals=at_end,
         held=rows[held] if held is not None else np.zeros(0),
         slope=slope,
@@ -418,5 +405,4 @@ def judge(
         directions=directions.T,
         scatter=scatter,
         known=known,
-        **{"start": rows, **rest},  # type: ignore[arg-type]
     )

@@ -41,10 +41,6 @@ class Budget:
         value: float = getattr(self, name)
         return value
 
-    def numerical(self) -> list[float]:
-        """Parts that runs of other sizes, grounds and packings show."""
-        return [self.part(name) for name in self.NUMERICAL]
-
     @property
     def known(self) -> list[str]:
         return [name for name in self.NAMES if math.isfinite(self.part(name))]

@@ -19,15 +19,8 @@ from ..errors import ResultsError, content_of
 from ..formatting import duration
 from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun, cells_or_grains
 from .budget import Budget
-from .grid_convergence import (
-    Convergence,
-    grid_convergence,
-    mean_shift,
-    noise_of,
-    pooled_scatter,
-    same_size,
-)
-from .statistics import commonest
+from .grid_convergence import Convergence, grid_convergence, mean_shift, noise_of, pooled_scatter, same_size
+from .statistics import commonest, grouped
 from .verdict import QUANTITIES
 
 QUANTITY_KEYS = tuple(quantity.key for quantity in QUANTITIES)
@@ -74,33 +67,19 @@ NUMERIC = {f.name for f in fields(Row) if f.type is float}
 
 
 def row_of(run: WheelRun) -> Row:
-    sinkage, coefficient = run.values["hub_drop"], run.values["resistance_coefficient"]
-    return Row(
-        run.label,
-        run.ground,
-        run.model,
-        run.wheel,
-        run.size,
-        "x".join(f"{edge:.4g}" for edge in run.domain),
-        run.seed,
-        sinkage.mean,
-        sinkage.standard_error,
-        coefficient.mean,
-        coefficient.standard_error,
-        run.cpu_time,
-    )
+    names = ("hub_drop", "resistance_coefficient")
+    values = [number for name in names for number in (run.values[name].mean, run.values[name].standard_error)]
+    domain = "x".join(f"{edge:.4g}" for edge in run.domain)
+    return Row(run.label, run.ground, run.model, run.wheel, run.size, domain, run.seed, *values, run.cpu_time)
 
 
 def read_table(path: Path) -> tuple[list[Row], list[str]]:
     """Rows of a table, and its comments. @raises ResultsError"""
     try:
-        comments = read_comments(path)
-        rows = read_rows(path)
+        comments, rows = read_comments(path), read_rows(path)
     except OSError as error:
-        raise ResultsError(
-            f"{path}: cannot be read ({error.strerror}); "
-            f"a table is written by 'furrow-post cost RESULTS... --write {path}'"
-        ) from error
+        remedy = f"a table is written by 'furrow-post cost RESULTS... --write {path}'"
+        raise ResultsError(f"{path}: cannot be read ({error.strerror}); {remedy}") from error
     missing = [name for name in HEADER if not rows or name not in rows[0]]
     if missing:
         lacking = "rows" if not rows else f"column {missing[0]}"
@@ -122,10 +101,7 @@ def parsed_row(row: Mapping[str, str]) -> Row:
 
 
 def write_table(path: Path, rows: Iterable[Row], comments: Sequence[str] = ()) -> None:
-    texts = [
-        {name: f"{v:.6g}" if isinstance(v, float) else v for name, v in vars(row).items()}
-        for row in rows
-    ]
+    texts = [{name: f"{v:.6g}" if isinstance(v, float) else v for name, v in vars(row).items()} for row in rows]
     write_rows(path, texts, comments)
 
 
@@ -181,16 +157,9 @@ class Family:
 
         Each run counts against the mean of all packings of its size in the common domain.
         """
-        others = dict.fromkeys(row.domain for row in self.rows if row.domain != self.domain)
-        shifts = [
-            mean_shift(
-                (row.value(key)[0], self._values_of(key, row.size))
-                for row in self.rows
-                if row.domain == other
-            )
-            for other in others
-        ]
-        return max((shift for shift in shifts if math.isfinite(shift)), default=math.nan)
+        others = grouped((row for row in self.rows if row.domain != self.domain), lambda row: row.domain)
+        pairs = ([(row.value(key)[0], self._values_of(key, row.size)) for row in rows] for rows in others.values())
+        return max((shift for shift in map(mean_shift, pairs) if math.isfinite(shift)), default=math.nan)
 
     def components(self, key: str, size: float, time_error: float = math.nan) -> Budget:
         """Parts of the error of a run of this size [m].
@@ -198,21 +167,14 @@ class Family:
         That of the size is its distance from the best estimate and the error of that, or more
         where the table has a run of this size that lies further off than by its noise.
         """
-        series = self.convergence(key)
+        series, packing = self.convergence(key), self.packing(key)
         of_size = math.nan
         if series:
-            of_size = max(series.size_error(size), self._beyond_noise(key, size, series.value))
-        return Budget(time_error, of_size, self.domain_error(key), self.packing(key))
-
-    def _beyond_noise(self, key: str, size: float, best: float) -> float:
-        """How far the base of this size is from the best estimate, less what noise explains."""
-        packing = self.packing(key)
-        scatter = packing if math.isfinite(packing) else 0.0
-        beyond = [0.0]
-        for value, time_error in (row.value(key) for row in self._bases_of(size)):
-            noise = math.hypot(time_error, scatter)
-            beyond.append((value - best) ** 2 - noise**2)
-        return math.sqrt(max(beyond))
+            scatter = packing if math.isfinite(packing) else 0.0
+            values = (row.value(key) for row in self._bases_of(size))
+            beyond = [(value - series.value) ** 2 - error**2 - scatter**2 for value, error in values]
+            of_size = max(series.size_error(size), math.sqrt(max([0.0, *beyond])))
+        return Budget(time_error, of_size, self.domain_error(key), packing)
 
     def _bases_of(self, size: float) -> list[Row]:
         return [base for base in self.bases if same_size(base.size, size)]
@@ -221,9 +183,7 @@ class Family:
         """Values of all packings of this size in the common domain."""
         return [row.value(key)[0] for row in self.rows_of_series if same_size(row.size, size)]
 
-    def best_estimate(
-        self, key: str, size: float, value: float, time_error: float
-    ) -> tuple[float, Budget] | None:
+    def best_estimate(self, key: str, size: float, value: float, time_error: float) -> tuple[float, Budget] | None:
         """Best estimate from a run of this size [m] and value, with the parts of its error.
 
         A run of the table has the family's best estimate, whose error has those of times and
@@ -240,10 +200,7 @@ class Family:
 
 
 def families(rows: Iterable[Row]) -> dict[FamilyKey, Family]:
-    groups: dict[FamilyKey, list[Row]] = {}
-    for row in rows:
-        groups.setdefault(row.family, []).append(row)
-    return {key: Family(group) for key, group in groups.items()}
+    return {key: Family(group) for key, group in grouped(rows, lambda row: row.family).items()}
 
 
 # ---- for people

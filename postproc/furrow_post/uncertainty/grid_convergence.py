@@ -68,28 +68,28 @@ class Convergence:
         return math.hypot(self.at(size) - self.value, self.error)
 
 
-def grid_convergence(
-    sizes: Sequence[float], values: Sequence[float], errors: Sequence[float] | None = None
-) -> Convergence:
+def grid_convergence(sizes: Sequence[float], values: Sequence[float], errors: Sequence[float] | None = None) -> Convergence:
     """Grid convergence of values at these sizes; errors: standard errors of the values, of time and packing."""
-    given = errors if errors is not None else [0.0] * len(sizes)
-    h, f, u = _grouped(sizes, values, given)
-    count = len(h)
+    h, f, u = _grouped(sizes, values, [0.0] * len(sizes) if errors is None else errors)
+    count, series = len(h), (tuple(h), tuple(f))
+
+    def finest(index: float, reason: str, order: float = math.nan) -> Convergence:
+        """Not extrapolated. index: the bound"""
+        return Convergence(*series, float(f[0]), index / COVERAGE, float(u[0]), order, reason=reason)
+
     if count < 2:
-        return Convergence(tuple(h), tuple(f), f[0], math.nan, u[0], reason="only one size")
-    span = float(max(f) - min(f))
+        return finest(math.nan, "only one size")
     if count < LEAST_SIZES:
-        index = UNSURE * abs(f[1] - f[0]) / (h[1] / h[0] - 1.0)
-        return _finest(h, f, u, index, "fewer than three sizes")
+        return finest(UNSURE * abs(f[1] - f[0]) / (h[1] / h[0] - 1.0), "fewer than three sizes")
+    widest = UNSURE * float(max(f) - min(f))
     if abs(f[-1] - f[0]) < COVERAGE * math.hypot(u[0], u[-1]):
-        return _finest(h, f, u, UNSURE * span, "the sizes differ by less than twice their scatter")
+        return finest(widest, "the sizes differ by less than twice their scatter")
     steps = np.sign(f[-1] - f[0]) * np.diff(f)
     if not np.all(steps > np.hypot(u[1:], u[:-1])):
-        return _finest(h, f, u, UNSURE * span, "the series is not monotonic beyond its scatter")
+        return finest(widest, "the series is not monotonic beyond its scatter")
     order = observed_order(h, f, u)
     if order < LEAST_ORDER:
-        reason = f"the observed order is below {LEAST_ORDER:g}"
-        return _finest(h, f, u, UNSURE * span, reason, order)
+        return finest(widest, f"the observed order is below {LEAST_ORDER:g}", order)
     used, factor, fitted = order, SAFE, count
     if order > ASYMPTOTIC:  # its coarse sizes are not in the asymptotic range
         used, factor, fitted = FORMAL_ORDER, UNSURE, 2
@@ -98,19 +98,8 @@ def grid_convergence(
     spread = max(residual / (fitted - LEAST_SIZES), 1.0) if fitted > LEAST_SIZES else 1.0
     noise = 0.0
     if float(np.max(u)) > 0.0 or spread > 1.0:
-        free = slope if fitted > 2 else None
-        noise = math.sqrt(spread * zero_variance(h[:fitted], 1.0 / weights, used, free))
-    return Convergence(
-        tuple(h),
-        tuple(f),
-        zero,
-        factor * abs(f[0] - zero) / COVERAGE,
-        noise,
-        order,
-        used,
-        slope,
-        spread,
-    )
+        noise = math.sqrt(spread * zero_variance(h[:fitted], 1.0 / weights, used, slope if fitted > 2 else None))
+    return Convergence(*series, zero, factor * abs(f[0] - zero) / COVERAGE, noise, order, used, slope, spread)
 
 
 def observed_order(h: Floats, f: Floats, u: Floats) -> float:
@@ -138,9 +127,7 @@ def _residuals(h: Floats, f: Floats, weights: Floats, orders: Floats) -> Floats:
     return left
 
 
-def zero_variance(
-    sizes: npt.ArrayLike, errors: npt.ArrayLike, order: float, slope: float | None
-) -> float:
+def zero_variance(sizes: npt.ArrayLike, errors: npt.ArrayLike, order: float, slope: float | None) -> float:
     """Variance of f0, from values with these errors, each above 0. slope: a, where the order is fitted too."""
     h, weights = np.asarray(sizes, float), 1.0 / np.asarray(errors, float)
     columns = [np.ones_like(h), h**order]
@@ -152,30 +139,19 @@ def zero_variance(
     return float((inverse[0] @ inverse[0]) / scale[0] ** 2)
 
 
-def _finest(
-    h: Floats, f: Floats, u: Floats, index: float, reason: str, order: float = math.nan
-) -> Convergence:
-    return Convergence(
-        tuple(h), tuple(f), float(f[0]), index / COVERAGE, float(u[0]), order, reason=reason
-    )
-
-
-def _grouped(
-    sizes: Sequence[float], values: Sequence[float], errors: Sequence[float]
-) -> tuple[Floats, Floats, Floats]:
+def _grouped(sizes: Sequence[float], values: Sequence[float], errors: Sequence[float]) -> tuple[Floats, Floats, Floats]:
     """Sizes, the finest first, with the weighted means of their values and the errors of those."""
     groups: list[list[tuple[float, float, float]]] = []
     for one in sorted(zip(map(float, sizes), map(float, values), map(float, errors))):
-        if groups and same_size(one[0], groups[-1][0][0]):
-            groups[-1].append(one)
-        else:
-            groups.append([one])
+        if not groups or not same_size(one[0], groups[-1][0][0]):
+            groups.append([])
+        groups[-1].append(one)
     found = []
     for group in groups:
         h, f, u = np.array(group).T
-        weight = 1.0 / np.maximum(u, 1e-3 * u.max()) ** 2 if u.max() > 0 else np.ones_like(u)
-        mean_error = float(1.0 / math.sqrt(weight.sum())) if u.max() > 0 else 0.0
-        found.append((h.mean(), float((weight * f).sum() / weight.sum()), mean_error))
+        known = u.max() > 0
+        weight = 1.0 / np.maximum(u, 1e-3 * u.max()) ** 2 if known else np.ones_like(u)
+        found.append((h.mean(), np.average(f, weights=weight), 1.0 / math.sqrt(weight.sum()) if known else 0.0))
     h, f, u = np.array(found).T
     return h, f, u
 
@@ -188,12 +164,10 @@ def _weights(f: Floats, u: Floats) -> Floats:
     return weights
 
 
-def _fit(
-    h: npt.ArrayLike, f: npt.ArrayLike, weights: Floats, order: float
-) -> tuple[float, float, float]:
+def _fit(h: Floats, f: Floats, weights: Floats, order: float) -> tuple[float, float, float]:
     """f0, a, and the weighted sum of squares that is left."""
-    sizes, target = np.asarray(h, float), np.asarray(f, float) * weights
-    design = np.column_stack([np.ones_like(sizes), sizes**order]) * weights[:, None]
+    target = f * weights
+    design = np.column_stack([np.ones_like(h), h**order]) * weights[:, None]
     scale = np.abs(design).max(axis=0)
     solution, *_ = np.linalg.lstsq(design / scale, target, rcond=None)
     solution = solution / scale

@@ -21,11 +21,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from scipy.special import stdtrit
 
 from ..csv_table import read_rows
 from ..errors import content_of
 from ..programs import inputs_folder
+from .statistics import grouped
 
 # Steps by which the words of a regime differ, and the ranges that count as one step outside of the tests
 MISMATCH = {"ground": 2.0, "wheel": 1.0, "motion": 1.0, "grousers": 1.0}
@@ -151,16 +153,13 @@ class ModelError:
 
 def regimes_of(tests: Iterable[Test]) -> list[Regime]:
     """Tests by quantity, ground, wheel, motion, grousers, and whether there is a slope."""
-    groups: dict[tuple[object, ...], list[Test]] = {}
-    for test in tests:
-        key = (test.quantity, *(getattr(test.case, name) for name in MISMATCH), test.case.slope > 0)
-        groups.setdefault(key, []).append(test)
+    groups = grouped(tests, lambda test: (test.quantity, *(getattr(test.case, name) for name in MISMATCH), test.case.slope > 0))
     alike = correlation([_studies(group) for group in groups.values()])
     return [_regime(group, alike) for group in groups.values()]
 
 
 def _studies(tests: Sequence[Test]) -> list[list[Test]]:
-    return [[test for test in tests if test.study == study] for study in dict.fromkeys(test.study for test in tests)]
+    return list(grouped(tests, lambda test: test.study).values())
 
 
 def correlation(regimes: Iterable[Sequence[Sequence[Test]]]) -> float:
@@ -219,16 +218,11 @@ def _range(values: Iterable[float]) -> tuple[float, float]:
 
 def model_error(regimes: Sequence[Regime], quantity: str, case: Case) -> ModelError | None:
     """By the nearest tests of a quantity; of equally near ones those with the larger error. None where none is near."""
-    of_quantity = [regime for regime in regimes if regime.quantity == quantity]
-    if not of_quantity:
+    of_quantity = [(round(regime.distance(case), 6), -regime.model, regime) for regime in regimes if regime.quantity == quantity]
+    distance, _, nearest = min(of_quantity, key=lambda one: one[:2], default=(math.inf, 0.0, None))
+    if nearest is None or distance > FARTHEST:
         return None
-    distances = [round(regime.distance(case), 6) for regime in of_quantity]
-    least = min(distances)
-    if least > FARTHEST:
-        return None
-    near = [regime for regime, distance in zip(of_quantity, distances) if distance == least]
-    nearest = max(near, key=lambda regime: regime.model)
-    return ModelError(nearest.model * math.hypot(1.0, least), least, nearest)
+    return ModelError(nearest.model * math.hypot(1.0, distance), distance, nearest)
 
 
 # ---- calibration: each study predicted from the others
@@ -249,12 +243,10 @@ class Scored:
 def leave_one_study_out(tests: Sequence[Test]) -> list[Scored]:
     """Tests whose quantity another study has measured."""
     found = []
-    for study in dict.fromkeys(test.study for test in tests):
-        others = regimes_of(test for test in tests if test.study != study)
-        for test in (test for test in tests if test.study == study):
-            error = model_error(others, test.quantity, test.case)
-            if error:
-                found.append(Scored(test, math.hypot(error.value, test.error)))
+    for study in _studies(tests):
+        others = regimes_of(test for test in tests if test.study != study[0].study)
+        errors = ((test, model_error(others, test.quantity, test.case)) for test in study)
+        found += [Scored(test, math.hypot(error.value, test.error)) for test, error in errors if error]
     return found
 
 
@@ -264,22 +256,23 @@ def calibration_rows(tests: Sequence[Test]) -> list[dict[str, object]]:
     The share is of single tests alone: of a group only the rms is known.
     """
     scored = leave_one_study_out(tests)
-    groups: dict[tuple[str, str], list[Scored]] = {}
-    for one in scored:
-        slope = ", slope" if one.test.case.slope > 0 else ""
-        groups.setdefault((one.test.quantity, f"{one.test.case.ground}, {one.test.case.motion}{slope}"), []).append(one)
-    rows = [_calibration(quantity, name, group) for (quantity, name), group in groups.items()]
-    return [*rows, _calibration("all", "all", scored)]
+
+    def regime(one: Scored) -> tuple[str, str]:
+        case = one.test.case
+        return one.test.quantity, f"{case.ground}, {case.motion}{', slope' if case.slope > 0 else ''}"
+
+    groups = grouped(scored, regime) | {("all", "all"): scored}
+    return [_calibration(quantity, name, group) for (quantity, name), group in groups.items()]
 
 
 def _calibration(quantity: str, name: str, scored: Sequence[Scored]) -> dict[str, object]:
-    count = sum(one.test.tests for one in scored)
-    square = sum(one.test.tests * one.normalised**2 for one in scored) / count
+    counts = [one.test.tests for one in scored]
+    square = np.average([one.normalised**2 for one in scored], weights=counts)
     single = [abs(one.normalised) for one in scored if one.test.tests == 1]
     return {
         "quantity": quantity,
         "regime": name,
-        "tests": count,
+        "tests": sum(counts),
         "rms": round(math.sqrt(square), 2),
         "single_tests": len(single),
         "inside_two_errors": round(sum(z <= 2 for z in single) / len(single), 2) if single else "",

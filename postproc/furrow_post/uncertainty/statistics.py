@@ -2,13 +2,16 @@
 """Means, scatter and fits of series. Standard errors of steady values: see furrow-resistance."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from ..arrays import Floats
 
+Item = TypeVar("Item")
+Key = TypeVar("Key", bound=Hashable)
 BLOCKS = 8  # of a series, for the standard error of its mean
 
 
@@ -60,3 +63,11 @@ def commonest(values: Sequence[str]) -> str:
 def place_of_greatest(x: Floats, values: Floats, count: int) -> float:
     """Mean of x (n) over the entries with so many of the greatest values (n)."""
     return float(x[np.argsort(values)[-count:]].mean())
+
+
+def grouped(items: Iterable[Item], key: Callable[[Item], Key]) -> dict[Key, list[Item]]:
+    """Items by their keys, both in the order in which they come."""
+    groups: dict[Key, list[Item]] = {}
+    for item in items:
+        groups.setdefault(key(item), []).append(item)
+    return groups

@@ -26,7 +26,7 @@ from .cost_table import Family, FamilyKey, parsed_row
 from .model_error import MISMATCH, OF_RUN, RELATIVE, REMEDY, TESTS, Case, ModelError, Test
 from .model_error import known_regimes, model_error, read_tests, validation_table
 from .scene_errors import convergence_of, material_error_of
-from .statistics import rms
+from .statistics import grouped, rms
 
 Families = Mapping[FamilyKey, Family]
 Scheme = Mapping[tuple[str, str], tuple[float, str]]  # part, key -> error and what was changed
@@ -98,11 +98,8 @@ def read_series(path: Path) -> tuple[SizeSeries, ...]:
 
 def series_of(rows: Iterable[Mapping[str, str]]) -> tuple[SizeSeries, ...]:
     """Size series from the rows of sizes.csv. @raises ValueError"""
-    groups: dict[tuple[str, str, str], list[Mapping[str, str]]] = {}
-    for row in rows:
-        groups.setdefault((row["series"], row["ground"], row["wheel"]), []).append(row)
     found = []
-    for group in groups.values():
+    for group in grouped(rows, lambda row: (row["series"], row["ground"], row["wheel"])).values():
         first, family = group[0], Family([parsed_row({**row, "run": row["series"], "model": ""}) for row in group])
         words = {"ground": first["soil"], "wheel": first["wheel"], "motion": first["motion"]}
         found.append(SizeSeries(first["series"], words, float(first["width"]), family, float(first["radius"]), first["scheme"]))
