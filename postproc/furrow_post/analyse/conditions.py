@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Conditions of runs, such as load and speed: how far they may differ to be compared."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -61,7 +61,7 @@ def answers_of_ground(runs: Iterable[WheelRun]) -> set[str]:
     return {"slip"} if all(run.text("mode") == "towed" for run in runs) else set()
 
 
-def incomparable(runs: Sequence[WheelRun], tolerances: Mapping[str, Tolerance] = TOLERANCES) -> list[Difference]:
+def incomparable(runs: Sequence[WheelRun]) -> list[Difference]:
     """Every condition in which runs differ beyond its tolerance.
 
     A quantity that is the ground's answer in all of them does not count.
@@ -72,7 +72,7 @@ def incomparable(runs: Sequence[WheelRun], tolerances: Mapping[str, Tolerance] =
             text = "; ".join(f"{run.label}: {run.text(condition)}" for run in runs)
             found.append(Difference(condition.replace("_", " "), text))
     answers = answers_of_ground(runs)
-    for name, tolerance in tolerances.items():
+    for name, tolerance in TOLERANCES.items():
         have = [run for run in runs if np.isfinite(run.number(name))]
         if len(have) > 1 and name not in answers and tolerance.exceeded([run.number(name) for run in have]):
             text = "; ".join(f"{run.label}: {run.text(name)}" for run in have)

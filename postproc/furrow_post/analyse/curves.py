@@ -27,6 +27,7 @@ from .conditions import Difference, Tolerance, require_comparable
 
 PLATE_LEVELS = (0.05, 0.1, 0.2, 0.3, 0.5)  # sinkage over depth of the ground
 STRESS_LEVELS = (2e3, 1e4, 5e4, 1e5, 2e5, 5e5)  # [Pa]
+PARTS = 40  # of the curve of a plate, each with its mean
 SAME = 1e-3  # of a value: curves of material points without an error agree within it
 TOLERANCES = {"size": Tolerance(0.02), "depth": Tolerance(0.06), "density": Tolerance(0.1), "speed": Tolerance(0.02)}
 
@@ -105,13 +106,13 @@ def read_curve(folder: Path | str, label: str | None = None) -> Curve:
     return _oedometer(label or test.label, "grains", stress[:, 2], density, test.numbers)
 
 
-def _plate(label: str, test: LaboratoryTest, parts: int = 40) -> Curve:
+def _plate(label: str, test: LaboratoryTest) -> Curve:
     """Means over equal parts of the curve, and the standard error of each."""
     rows = test.curve()
     rows = rows[rows[:, 1] > 0]
     if len(rows) < 2:
         raise ResultsError(f"{test.folder}: the plate does not come into the ground; run it longer")
-    groups = np.array_split(rows[:, [1, 3]], min(parts, len(rows)))
+    groups = np.array_split(rows[:, [1, 3]], min(PARTS, len(rows)))
     x, y = np.array([group.mean(axis=0) for group in groups]).T
     noise = [group[:, 1].std(ddof=1) / math.sqrt(len(group)) if len(group) > 1 else 0.0 for group in groups]
     return Curve(label, CurveKind.PLATE, test.facts.get("family", "grains"), x, y, test.numbers, np.array(noise))

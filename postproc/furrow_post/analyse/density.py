@@ -17,6 +17,7 @@ from ..arrays import Floats
 from ..read.terrain import read_terrain_fields
 from ..read.wheel_run import WheelRun
 
+CELL = 0.01  # [m] of a section
 Interval = tuple[float, float]  # low, high [m]
 
 
@@ -123,18 +124,18 @@ def section(ground: GroundPoints, along: int, slab: Interval, across: Interval, 
         return Section(np.where(volume > 0.45 * area, mass / volume, np.nan), across_edges, z_edges)
 
 
-def sections(run: WheelRun, cell: float = 0.01) -> tuple[Section, Section]:
+def sections(run: WheelRun) -> tuple[Section, Section]:
     """Lengthwise in the wheel's middle plane, and across in the track behind the wheel.
 
-    The window is the same for every run of a wheel. cell [m]
+    The window is the same for every run of a wheel.
     """
     ground = ground_points(run)
     radius, width, depth = run.radius, run.number("wheel_width"), run.number("depth")
     z = (-depth, 0.4 * depth)
     middle = (-0.25 * width, 0.25 * width)
-    lengthwise = section(ground, 0, middle, (-1.7 * radius, 1.4 * radius), z, cell)
+    lengthwise = section(ground, 0, middle, (-1.7 * radius, 1.4 * radius), z, CELL)
     behind = (-1.3 * radius, -0.6 * radius)
-    across = section(ground, 1, behind, (-1.4 * width, 1.4 * width), z, cell)
+    across = section(ground, 1, behind, (-1.4 * width, 1.4 * width), z, CELL)
     return lengthwise, across
 
 

@@ -196,8 +196,9 @@ def compare_flows(runs: Sequence[WheelRun], width: float | None = None) -> FlowC
     rho = 0.5 * (a.density + b.density)[both]
     apart = float(np.sum(rho * np.linalg.norm(a.displacement - b.displacement, axis=2)[both]))
     moved = float(np.sum(rho * 0.5 * (a.length + b.length)[both]))
-    differences = (_mean_difference(one[both], other[both]) for one, other in ((a.density, b.density), (a.vertical_stress, b.vertical_stress)))
-    return FlowComparison(window, kernel, (a, b), apart / moved if moved > 0 else math.nan, *differences)
+    density = _mean_difference(a.density[both], b.density[both])
+    stress = _mean_difference(a.vertical_stress[both], b.vertical_stress[both])
+    return FlowComparison(window, kernel, (a, b), apart / moved if moved > 0 else math.nan, density, stress)
 
 
 def flow_report(result: FlowComparison) -> str:
@@ -223,7 +224,7 @@ def write_flow(result: FlowComparison, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     labels = {place: flow.label for place, flow in zip(("first", "second"), result.flows)}
     differences = {name: getattr(result, f"{name}_difference") for name in ("displacement", "density", "stress")}
-    row = {**labels, "kernel_m": result.width, **{f"{name}_difference": value for name, value in differences.items()}}
+    row: dict[str, object] = {**labels, "kernel_m": result.width, **{f"{name}_difference": value for name, value in differences.items()}}
     write_rows(folder / "flow.csv", [row], ["# differences as furrow_post/analyse/flow.py defines them"])
     with h5py.File(folder / "flow.h5", "w") as content:
         content.attrs["kernel"] = result.width

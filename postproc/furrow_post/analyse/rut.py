@@ -159,9 +159,9 @@ def displacements(terrain: Terrain, body: Outline) -> Displacements:
         means = [_mean(field, column & terrain.at_level(level)) for level in levels]
         return max((value for value in means if np.isfinite(value)), default=np.nan)
 
-    forward = moved[:, 0]
-    track_means = (_mean(field, layer) for layer in (surface, middle) for field in (-up, forward))
-    return Displacements(*track_means, greatest(outward, 0.0), greatest(outward, FAR), greatest(up, 0.0))
+    track_means = [_mean(field, layer) for layer in (surface, middle) for field in (-up, moved[:, 0])]
+    beside = [greatest(outward, 0.0), greatest(outward, FAR), greatest(up, 0.0)]
+    return Displacements(*track_means, *beside)
 
 
 def _mean(values: Floats, chosen: Booleans) -> float:

@@ -4,6 +4,7 @@
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -63,9 +64,11 @@ class TerrainValues:
 
 def terrains() -> dict[str, TerrainValues]:
     """Name -> values, from terrains.csv."""
-    words, numbers = ("name", "kind", "pressure"), ("k_1", "k_2", *VALUES)
-    rows = read_rows(Path(__file__).with_name("terrains.csv"))
-    return {row["name"]: TerrainValues(*(row[w] for w in words), *(float(row[n] or "nan") for n in numbers)) for row in rows}
+    found: dict[str, TerrainValues] = {}
+    for row in read_rows(Path(__file__).with_name("terrains.csv")):
+        values: dict[str, Any] = {name: float(row[name] or "nan") for name in ("k_1", "k_2", *VALUES)}
+        found[row["name"]] = TerrainValues(row["name"], row["kind"], row["pressure"], **values)
+    return found
 
 
 CARD = (".yaml", ".yml", ".json")  # endings of a soil card
@@ -87,9 +90,9 @@ def terrain_of_card(path: Path) -> TerrainValues:
     """Terrain values of a soil card. @raises OSError, ResultsError"""
     card = read_card(path)
     plate, shear = card.bekker_and_shear()
-    values = (plate.k_c, plate.k_phi, plate.n, shear.c, shear.phi, shear.K)
-    numbers = (*(one.value for one in values), card.c1, card.c2, plate.sinkage.high)
-    return TerrainValues(card.title, "card", "bekker", *numbers)
+    parameters = (plate.k_c, plate.k_phi, plate.n, shear.c, shear.phi, shear.K)
+    values: dict[str, Any] = {name: one.value for name, one in zip(("k_1", "k_2", *VALUES), parameters)}
+    return TerrainValues(card.title, "card", "bekker", **values, c1=card.c1, c2=card.c2, deepest=plate.sinkage.high)
 
 
 def terrain(name: str) -> TerrainValues:

@@ -70,7 +70,7 @@ def row_of(run: WheelRun) -> Row:
     names = ("hub_drop", "resistance_coefficient")
     values = [number for name in names for number in (run.values[name].mean, run.values[name].standard_error)]
     domain = "x".join(f"{edge:.4g}" for edge in run.domain)
-    return Row(run.label, run.ground, run.model, run.wheel, run.size, domain, run.seed, *values, run.cpu_time)
+    return Row(run.label, run.ground, run.model, run.wheel, run.size, domain, run.seed, *values, cpu_time=run.cpu_time)
 
 
 def read_table(path: Path) -> tuple[list[Row], list[str]]:

@@ -17,17 +17,13 @@ each word that differs, and of (how far a number is outside of that of the tests
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from scipy.special import stdtrit
 
-from ..csv_table import read_rows
-from ..errors import content_of
-from ..programs import inputs_folder
 from .statistics import grouped
+from .validation_table import Rows, ValidationTable
 
 # Steps by which the words of a regime differ, and the ranges that count as one step outside of the tests
 MISMATCH = {"ground": 2.0, "wheel": 1.0, "motion": 1.0, "grousers": 1.0}
@@ -36,8 +32,6 @@ LOGARITHMIC = ("sinkage", "radius")
 FARTHEST = 3.0
 LEAST_SHARE = 0.25  # of the mean square of the differences
 UPPER = 0.97725  # below mean and two standard deviations of a normal distribution
-TABLE, TESTS = "model_errors.csv", "measured.csv"  # of inputs/validation: regimes, and the tests of which they are made
-REMEDY = "write it again with 'furrow-post study validation'"
 # Quantities of a run -> quantity of the tests; a rigid wheel's depths have one name
 OF_RUN = {
     "hub_drop": "hub drop",
@@ -282,12 +276,6 @@ def _calibration(quantity: str, name: str, scored: Sequence[Scored]) -> dict[str
 # ---- the tables of inputs/validation
 
 
-def read_tests(path: Path) -> list[Test]:
-    """@raises ResultsError"""
-    with content_of(path, REMEDY):
-        return [test_of(row) for row in read_rows(path)]
-
-
 def test_of(row: Mapping[str, str]) -> Test:
     """Test from a row of measured.csv."""
     case = case_of_row(row)
@@ -329,28 +317,16 @@ def _cell(value: float) -> str:
     return f"{value:.4g}" if math.isfinite(value) else ""
 
 
-@lru_cache(maxsize=4)
-def read_regimes(path: Path) -> tuple[Regime, ...]:
-    """@raises ResultsError"""
-    with content_of(path, REMEDY):
-        return tuple(_read_regime(row) for row in read_rows(path))
+def _regimes_from(rows: Rows) -> tuple[Regime, ...]:
+    """Regimes from the rows of model_errors.csv."""
+    found = []
+    for row in rows:
+        ranges = {name: (_number(row[f"{name}_low"]), _number(row[f"{name}_high"])) for name in SCALES}
+        numbers = [_number(row[name]) for name in ("bias", "scatter", "independent", "model")]
+        words, studies = {name: row[name] for name in MISMATCH}, tuple(row["studies"].split())
+        found.append(Regime(row["quantity"], words, ranges, int(row["tests"]), studies, *numbers))
+    return tuple(found)
 
 
-def _read_regime(row: Mapping[str, str]) -> Regime:
-    ranges = {name: (_number(row[f"{name}_low"]), _number(row[f"{name}_high"])) for name in SCALES}
-    numbers = [_number(row[name]) for name in ("bias", "scatter", "independent", "model")]
-    words = {name: row[name] for name in MISMATCH}
-    return Regime(row["quantity"], words, ranges, int(row["tests"]), tuple(row["studies"].split()), *numbers)
-
-
-def validation_table(name: str) -> Path | None:
-    """A table of inputs/validation; None where only the package is installed."""
-    inputs = inputs_folder()
-    path = inputs / "validation" / name if inputs else None
-    return path if path and path.is_file() else None
-
-
-def known_regimes() -> tuple[Regime, ...]:
-    """Regimes of inputs/validation; none where only the package is installed."""
-    path = validation_table(TABLE)
-    return read_regimes(path) if path else ()
+TESTS = ValidationTable("measured.csv", lambda rows: [test_of(row) for row in rows])
+REGIMES = ValidationTable("model_errors.csv", _regimes_from)  # of these tests

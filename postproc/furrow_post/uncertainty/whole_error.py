@@ -9,30 +9,27 @@ absolute ones; forces those of their coefficients times the vertical force.
 
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
-from ..csv_table import read_rows
-from ..errors import ResultsError, content_of
+from ..errors import ResultsError
 from ..formatting import value_text as with_known_error
 from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun, cells_or_grains, read_wheel_run
 from ..run.summary import BUDGET, SteadyValue, Summary
 from .budget import IMPOSED, Budget
 from .cost_table import Family, FamilyKey, parsed_row
-from .model_error import MISMATCH, OF_RUN, RELATIVE, REMEDY, TESTS, Case, ModelError, Test
-from .model_error import known_regimes, model_error, read_tests, validation_table
+from .model_error import MISMATCH, OF_RUN, REGIMES, RELATIVE, TESTS, Case, ModelError, Test, model_error
 from .scene_errors import convergence_of, material_error_of
 from .statistics import grouped, rms
+from .validation_table import Rows, ValidationTable
 
 Families = Mapping[FamilyKey, Family]
 Scheme = Mapping[tuple[str, str], tuple[float, str]]  # part, key -> error and what was changed
 SNOW = 700.0  # [kg/m3] bulk density below which a ground is snow
 STRAIGHT = 0.02  # slip within which a driven wheel is not braked
-SIZES, SCHEME, EFFECTS = "sizes.csv", "scheme.csv", "ground_size/effects.csv"
 KEYS = {  # quantity of a run -> that of the tables: depths and coefficients
     "hub_drop": "sinkage",
     "rut_depth": "sinkage",
@@ -89,63 +86,51 @@ class SizeSeries:
         return max(size / largest, 1.0) * parts.size / scale, parts.packing / scale
 
 
-@lru_cache(maxsize=2)
-def read_series(path: Path) -> tuple[SizeSeries, ...]:
-    """@raises ResultsError"""
-    with content_of(path, REMEDY):
-        return series_of(read_rows(path))
-
-
-def series_of(rows: Iterable[Mapping[str, str]]) -> tuple[SizeSeries, ...]:
+def series_of(rows: Rows) -> tuple[SizeSeries, ...]:
     """Size series from the rows of sizes.csv. @raises ValueError"""
     found = []
     for group in grouped(rows, lambda row: (row["series"], row["ground"], row["wheel"])).values():
         first, family = group[0], Family([parsed_row({**row, "run": row["series"], "model": ""}) for row in group])
         words = {"ground": first["soil"], "wheel": first["wheel"], "motion": first["motion"]}
-        found.append(SizeSeries(first["series"], words, float(first["width"]), family, float(first["radius"]), first["scheme"]))
+        sizes = (float(first["width"]), family, float(first["radius"]))
+        found.append(SizeSeries(first["series"], words, *sizes, first["scheme"]))
     return tuple(found)
 
 
-@lru_cache(maxsize=2)
-def read_scheme(path: Path) -> Scheme:
-    """(part, "sinkage" or "coefficient") -> error and what was changed. @raises ResultsError"""
-    with content_of(path, REMEDY):
-        return scheme_of(read_rows(path))
-
-
-def scheme_of(rows: Iterable[Mapping[str, str]]) -> Scheme:
+def scheme_of(rows: Rows) -> Scheme:
     """Errors of the scheme from the rows of scheme.csv. @raises ValueError"""
     columns = (("sinkage", "depth"), ("coefficient", "coefficient"))
     return {(row["part"], key): (float(row[column]), row["what"]) for row in rows for key, column in columns}
 
 
-@lru_cache(maxsize=2)
-def read_effects(path: Path) -> dict[tuple[str, str], tuple[float, float, float]]:
+def effects_of(rows: Rows) -> dict[tuple[str, str], tuple[float, float, float]]:
     """(kind of ground, "sinkage" or "coefficient") -> a, c and residual of a exp(-x/c), the change by the sides of the
-    ground under a wheel over x, their distance in widths of the wheel. @raises ResultsError"""
+    ground under a wheel over x, their distance in widths of the wheel. @raises ValueError"""
     keys = {"hub_drop_m": "sinkage", "net_traction": "coefficient"}
-    with content_of(path, "write it again with 'furrow-post study ground_size'"):
-        rows = [row for row in read_rows(path) if row["body"] == "wheel" and row["edge"] == "width"]
-        return {(r["kind"], keys[r["quantity"]]): (float(r["a"]), float(r["c"]), float(r["residual"])) for r in rows}
+    rows = [row for row in rows if row["body"] == "wheel" and row["edge"] == "width"]
+    return {(r["kind"], keys[r["quantity"]]): (float(r["a"]), float(r["c"]), float(r["residual"])) for r in rows}
+
+
+SIZES = ValidationTable("sizes.csv", series_of)
+SCHEME = ValidationTable("scheme.csv", scheme_of)
+EFFECTS = ValidationTable("ground_size/effects.csv", effects_of, "ground_size")
 
 
 def width_of_ground(run: WheelRun, case: Case, key: str) -> Budget:
     """Error by the sides of a continuum; relative for a depth."""
-    path = validation_table(EFFECTS)
-    effect = read_effects(path).get((case.ground, key)) if path and run.ground == "continuum" else None
+    effect = EFFECTS.stored().get((case.ground, key)) if run.ground == "continuum" else None
     if not effect or len(run.domain) < 2:
         return Budget()
     a, c, residual = effect
     x = 0.5 * (run.domain[1] / run.number("wheel_width") - 1.0)
-    return Budget.single("domain", math.hypot(a * math.exp(-x / c), residual), f"ground_size: sides {x:.2g} widths away")
+    error = math.hypot(a * math.exp(-x / c), residual)
+    return Budget.single("domain", error, f"ground_size: sides {x:.2g} widths away")
 
 
 def of_like_wheels(run: WheelRun, case: Case, key: str) -> Budget:
-    sizes, scheme = validation_table(SIZES), validation_table(SCHEME)
     soil = run.results.styles().of_kind("terrain")
-    known = read_series(sizes) if sizes else ()
-    ratio = run.size / run.number("wheel_width")
-    return like_wheels(known, read_scheme(scheme) if scheme else {}, run.ground, ratio, case, key, soil.number("particles", 2) if soil else 2)
+    particles = soil.number("particles", 2) if soil else 2
+    return like_wheels(SIZES.stored(), SCHEME.stored(), run.ground, run.size / run.number("wheel_width"), case, key, particles)
 
 
 def like_wheels(
@@ -183,7 +168,7 @@ class RunErrors:
         self.stored = convergence_of(run)
         self.soil = material_error_of(run)
         self.load = abs(run.values["force_z"].mean)
-        self.regimes = known_regimes() if run.ground != "scm" else ()
+        self.regimes = REGIMES.stored() if run.ground != "scm" else ()
         self.elements = "mesh" if run.ground == "none" else cells_or_grains(run.ground)
 
     def of(self, name: str, value: SteadyValue) -> Budget:
@@ -304,8 +289,6 @@ class OverTests:
 def over_tests(run: WheelRun) -> list[OverTests]:
     """Hub drop and coefficient that the run is made for, each with the tests of the nearest regime."""
     errors, values = RunErrors(run), steady_values(run)
-    path = validation_table(TESTS)
-    known = read_tests(path) if path else []
     found = []
     for name in Summary(run.folder).headline:
         if name != "hub_drop" and KEYS.get(name) != "coefficient":
@@ -315,7 +298,7 @@ def over_tests(run: WheelRun) -> list[OverTests]:
         if name != "hub_drop":
             scale, label = 1.0, name.replace("_", " ")
             opposed = near is not None and (name == "resistance_coefficient") != (near.nearest.words["motion"] == "towed")
-        tests = [test for test in known if near and near.nearest.has(test) and math.isfinite(test.computed)]
+        tests = [test for test in TESTS.stored() if near and near.nearest.has(test) and math.isfinite(test.computed)]
         value, error = scale * values[name].mean, scale * budget.total
         source = near.source() if near else ""
         found.append(OverTests(label, value, error, budget.missing_text(), -1.0 if opposed else 1.0, tests, source))

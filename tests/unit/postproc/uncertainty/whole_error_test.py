@@ -14,7 +14,7 @@ import numpy as np
 from furrow_post.uncertainty import model_error, scene_errors, whole_error
 from furrow_post.uncertainty.budget import Budget, rounded
 from furrow_post.uncertainty.cost_table import FamilyKey, families
-from furrow_post.uncertainty.model_error import Case, Test, leave_one_study_out, read_tests, regimes_of
+from furrow_post.uncertainty.model_error import REGIMES, TESTS, Case, Test, leave_one_study_out, regimes_of
 from furrow_post.uncertainty.whole_error import RunErrors, case_of, headline, of_like_wheels, report
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
@@ -106,8 +106,8 @@ class ModelErrorTest(unittest.TestCase):
         self.assertIsNone(model_error.model_error(regimes, "coefficient", replace(DRIVEN, slip=0.81)))  # 3.05 steps
 
     def test_stored_regimes_give_what_their_tests_give(self) -> None:
-        made = regimes_of(read_tests(VALIDATION / model_error.TESTS))
-        stored = model_error.read_regimes(VALIDATION / model_error.TABLE)
+        made = regimes_of(TESTS.stored())
+        stored = REGIMES.stored()
         for one, other in zip(made, stored, strict=True):
             self.assertEqual((one.words, one.tests, one.studies), (other.words, other.tests, other.studies))
             self.assertAlmostEqual(other.model / one.model, 1.0, 3)
@@ -147,9 +147,9 @@ class RunTest(FolderTest):
         run = self.on_sand(0.06 * WIDTH / 0.272)
         case = case_of(run)
         self.assertEqual(case.text(), "rigid wheel driven on sand")
-        near = [s for s in whole_error.read_series(VALIDATION / "sizes.csv") if s.name.startswith("convergence: sand")]
+        near = [s for s in whole_error.SIZES.stored() if s.name.startswith("convergence: sand")]
         expected = [s.family.components("coefficient", 0.06).size for s in near]
-        particles = whole_error.read_scheme(VALIDATION / "scheme.csv")["size", "coefficient"][0]
+        particles = whole_error.SCHEME.stored()["size", "coefficient"][0]
         found = of_like_wheels(run, case, "coefficient").size
         self.assertAlmostEqual(found, math.hypot(math.sqrt(np.mean(np.square(expected))), particles))
 
@@ -185,8 +185,7 @@ class RunTest(FolderTest):
         )
         run = self.on_sand()
         run.domain = (2.0, 3 * WIDTH)  # a width on each side
-        usual = model_error.validation_table
-        with mock.patch.object(whole_error, "validation_table", lambda name: effects if name == whole_error.EFFECTS else usual(name)):
+        with mock.patch.object(whole_error, "EFFECTS", replace(whole_error.EFFECTS, name=str(effects))):
             found = RunErrors(run).all()
         self.assertAlmostEqual(found["hub_drop"].domain, 0.05 * math.hypot(0.8 * math.exp(-2), 0.01))
         self.assertEqual(found["hub_drop"].sources["domain"], "ground_size: sides 1 widths away")
@@ -254,7 +253,7 @@ class RunTest(FolderTest):
 
     def test_stored_tests_give_back_what_was_measured(self) -> None:
         rows = [row for row in read_rows(VALIDATION / "snow_wheel" / "rows.csv") if row["used"] == "prediction" and row["refit_rut_depth_m"]]
-        tests = [test for test in read_tests(VALIDATION / model_error.TESTS) if test.study == "snow_wheel"]
+        tests = [test for test in TESTS.stored() if test.study == "snow_wheel"]
         for quantity, column, scale in (("depth", "sinkage_m", 0.38), ("coefficient", "resistance", 1.0)):
             found = [scale * test.measured for test in tests if test.quantity == quantity]
             np.testing.assert_allclose(found, [float(row[column]) for row in rows], atol=1e-3)
