@@ -125,13 +125,14 @@ def read_compaction(folder: Path | str, label: str | None = None) -> Compaction:
         raise ResultsError(f"{results.folder}: has no terrain below the body")
     wheel = results.styles().of_kind("wheel")
     inflation = wheel.number("pressure") if wheel and wheel.has("pressure") else math.nan
-    return Compaction(label or results.folder.resolve().name, inflation, contact, pd.DataFrame(rows[::-1], columns=LAYERS))
+    layers = pd.DataFrame(rows[::-1], columns=LAYERS)
+    return Compaction(label or results.folder.resolve().name, inflation, contact, layers)
 
 
 def _read_ground(results: Results, terrain: Terrain, body: Outline) -> pd.DataFrame:
-    """Particles at the end of a run; half models are mirrored. Columns: x, y from the centre of the body and z [m]; level
-    at which they stood [m]; track: in the rows next to the middle plane; stress: vertical, less the weight above, and
-    mean_stress [Pa]; density, and before [kg/m3]; volume [m3]."""
+    """Particles at the end of a run; half models are mirrored. Columns: x, y from the centre of the body and z [m];
+    level at which they stood [m]; track: in the rows next to the middle plane; stress: vertical, less the weight
+    above, and mean_stress [Pa]; density, and before [kg/m3]; volume [m3]."""
     fields = read_terrain_fields(results.folder)
     fields.require_finite("vertical_stress", "pressure")
     halves = 2 if is_half(fields["initial_position"]) else 1
@@ -141,7 +142,7 @@ def _read_ground(results: Results, terrain: Terrain, body: Outline) -> pd.DataFr
     ground = pd.DataFrame({**columns, "density": terrain.density, "volume": terrain.volume})
     ground["track"] = aside < aside.min() + 0.5 * terrain.spacing
     ground["mean_stress"] = np.tile(fields["pressure"], halves)
-    # of its layer that stand farthest from the track
+    # particles of each layer that stand farthest from the track
     far = ground.aside >= ground.groupby("level").aside.transform("quantile", 1 - FAR)
     ground["before"] = ground.level.map(ground[far].groupby("level").density.median())
     soil = results.styles().of_kind("terrain")

@@ -159,8 +159,8 @@ def entries_of_run(errors: RunErrors) -> list[Entry]:
     for quantity in QUANTITIES:
         name = NAME_IN_RUN[quantity.key]
         value = run.values[name]
-        note = "" if value.steady else "not called steady"
-        entries.append(Entry(quantity, run.label, value.mean, errors.of(name, value), RUN, note, run.cpu_time, value.steady))
+        parts, note = errors.of(name, value), "" if value.steady else "not called steady"
+        entries.append(Entry(quantity, run.label, value.mean, parts, RUN, note, run.cpu_time, value.steady))
     return entries
 
 
@@ -194,7 +194,9 @@ def formula_entries(prediction: Prediction) -> list[Entry]:
     ]
 
 
-def measured_near(path: Path, depth: float, density: float = math.nan, near: dict[str, tuple[float, float]] = NEAR) -> pd.DataFrame:
+def measured_near(
+    path: Path, depth: float, density: float = math.nan, near: dict[str, tuple[float, float]] = NEAR
+) -> pd.DataFrame:
     """Rows of a reference.csv near this depth [m] and density [kg/m3]; NaN: not known.
 
     Columns depth_m, sinkage_m, resistance, density_kgm3; near: least and greatest ratio. @raises ResultsError
@@ -204,7 +206,8 @@ def measured_near(path: Path, depth: float, density: float = math.nan, near: dic
     conditions = {name: value for name, value in (("depth", depth), ("density", density)) if math.isfinite(value)}
     for column in (*(COLUMNS[name] for name in conditions), *NAME_IN_REFERENCE.values()):
         if column not in rows:
-            raise ResultsError(f"{path}: has no column '{column}'; needed are depth_m, sinkage_m, resistance, density_kgm3")
+            needed = "depth_m, sinkage_m, resistance, density_kgm3"
+            raise ResultsError(f"{path}: has no column '{column}'; needed are {needed}")
     for name, value in conditions.items():
         low, high = near[name]  # included: 0.18/0.2 is 0.9, whatever its last binary digit
         rows = rows[(rows[COLUMNS[name]] / value).between(low - ROUNDING, high + ROUNDING)]
@@ -224,4 +227,4 @@ def measured_entries(path: Path, run: WheelRun) -> list[Entry]:
     rows = measured_near(path, run.number("depth"), run.number("density"))
     note = f"mean and scatter of {len(rows)} tests"
     columns = [(quantity, rows[NAME_IN_REFERENCE[quantity.key]]) for quantity in QUANTITIES]
-    return [Entry(quantity, MEASURED, values.mean(), Budget(time=values.std()), MEASURED, note) for quantity, values in columns]
+    return [Entry(q, MEASURED, column.mean(), Budget(time=column.std()), MEASURED, note) for q, column in columns]

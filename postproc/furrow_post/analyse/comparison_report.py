@@ -15,7 +15,9 @@ from .comparison import Comparison
 from .density import sections
 from .wheel_histories import cruise_history, settling_curve
 
-SHOWN_CONDITIONS = ("load", "speed", "slip", "slip_by_vehicle_speed", "wheel_diameter", "wheel_width", "depth", "density")
+SHOWN_CONDITIONS = (
+    *("load", "speed", "slip", "slip_by_vehicle_speed", "wheel_diameter", "wheel_width", "depth", "density"),
+)
 
 Line = dict[str, str | float]
 

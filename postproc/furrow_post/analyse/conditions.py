@@ -24,7 +24,8 @@ class Tolerance(NamedTuple):
         return max(values) - min(values) > allowed * (1 + 1e-9)
 
     def text(self, unit: str = "") -> str:
-        return f"they may differ by {100 * self.relative:g} %" if self.relative else f"they may differ by {self.absolute:g} {unit}".rstrip()
+        limit = f"{100 * self.relative:g} %" if self.relative else f"{self.absolute:g} {unit}".rstrip()
+        return f"they may differ by {limit}"
 
 
 TOLERANCES = {
@@ -81,7 +82,7 @@ def incomparable(runs: Sequence[WheelRun]) -> list[Difference]:
 
 
 def require_comparable(what: str, labels: Sequence[str], differences: Sequence[Difference], anyway: bool) -> None:
-    """what: "run". @raises ResultsError for two equal labels, and with every difference unless told to compare anyway"""
+    """what: "run". @raises ResultsError for two equal labels, and with every difference unless compared anyway"""
     if len(set(labels)) < len(labels):
         raise ResultsError(f"two {what}s are called '{commonest(labels)}'; write LABEL=FOLDER")
     if differences and not anyway:

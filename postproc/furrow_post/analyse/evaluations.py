@@ -93,7 +93,8 @@ def steady_columns(wheel: Mapping[str, Floats], window: float) -> dict[str, floa
     sinkage, resistance, slip = wheel_means(wheel, end - window, end)
     middle = end - window / 2
     changes = 0.5 * np.abs(wheel_means(wheel, middle, end) - wheel_means(wheel, end - window, middle))
-    row = {"sinkage_m": sinkage, "sinkage_change_m": changes[0], "resistance": resistance, "resistance_change": changes[1]}
+    names = ("sinkage_m", "sinkage_change_m", "resistance", "resistance_change")
+    row = dict(zip(names, (sinkage, changes[0], resistance, changes[1])))
     return {name: round(float(value), 4) for name, value in row.items()} | {"slip": round(float(slip), 3)}
 
 

@@ -223,8 +223,8 @@ def write_flow(result: FlowComparison, folder: Path) -> None:
     """flow.csv: the numbers; flow.h5: the fields."""
     folder.mkdir(parents=True, exist_ok=True)
     labels = {place: flow.label for place, flow in zip(("first", "second"), result.flows)}
-    differences = {name: getattr(result, f"{name}_difference") for name in ("displacement", "density", "stress")}
-    row: dict[str, object] = {**labels, "kernel_m": result.width, **{f"{name}_difference": value for name, value in differences.items()}}
+    names = (f"{name}_difference" for name in ("displacement", "density", "stress"))
+    row: dict[str, object] = {**labels, "kernel_m": result.width, **{name: getattr(result, name) for name in names}}
     write_rows(folder / "flow.csv", [row], ["# differences as furrow_post/analyse/flow.py defines them"])
     with h5py.File(folder / "flow.h5", "w") as content:
         content.attrs["kernel"] = result.width

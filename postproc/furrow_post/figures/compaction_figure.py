@@ -20,7 +20,8 @@ def draw_compaction(runs: Sequence[Compaction], target: Path) -> None:
         layers = run.layers
         depth = CENTIMETRE * layers.depth
         points = {"fmt": "o", "ms": 3, "lw": 1, "color": colour, "label": run.title}
-        vertical.errorbar(KILOPASCAL * layers.vertical_stress, depth, xerr=KILOPASCAL * layers.vertical_stress_error, **points)
+        stress, error = KILOPASCAL * layers.vertical_stress, KILOPASCAL * layers.vertical_stress_error
+        vertical.errorbar(stress, depth, xerr=error, **points)
         elastic, low, high = (
             KILOPASCAL * run.contact.ellipse(layers.distance.to_numpy(), factor)
             for factor in (ELASTIC, SOEHNE[0], SOEHNE[-1])

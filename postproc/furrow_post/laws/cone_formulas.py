@@ -7,7 +7,7 @@ height, delta: deflection of the tyre on hard ground, W: load.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ..errors import ResultsError
 from .prediction import Limit, require_positive, require_range, require_wheel
@@ -123,7 +123,8 @@ class ConeFormula:
             return tuple(outside)
 
         values = self.equations(cone_index, tyre, slip, within)
-        return Traction(self.method, self.source, slip=slip, load=tyre.load, outside=tuple(outside), mark=self.mark, **values)
+        answer = Traction(self.method, self.source, slip=slip, load=tyre.load, **values)
+        return replace(answer, outside=tuple(outside), mark=self.mark)
 
 
 def _formula(method: str, source: str, deflected: bool = True, mark: str = "") -> Callable[[Equations], ConeFormula]:
@@ -238,7 +239,11 @@ def drove_sand(cone_index: float, tyre: Tyre, slip: float, within: Within) -> di
     }
 
 
-@_formula("Maclaurin", "E. B. Maclaurin (1990, 1997), after M. Saarilahti (2002)", mark="traction and resistance from memory")
+@_formula(
+    "Maclaurin",
+    "E. B. Maclaurin (1990, 1997), after M. Saarilahti (2002)",
+    mark="traction and resistance from memory",
+)
 def maclaurin(cone_index: float, tyre: Tyre, slip: float, within: Within) -> dict[str, float]:
     """N = CI b^0.8 d^0.8 delta^0.4/W; R/W = 0.017 + 0.453/N; at 20 % slip NT/W = 0.817 - 3.2/(N + 1.91), at
     other slips none; rut of the first pass 0.224 d/N^1.25."""
@@ -278,14 +283,17 @@ class Formulas:
         return (sum(values) / len(values), min(values), max(values)) if values else None
 
     def report(self) -> str:
-        bands = [self.band(name) or (math.nan,) * 3 for name in COLUMNS]
-        rows = [(f"{a.method} {'!' if a.outside else '*' * bool(a.mark)}", [getattr(a, n) for n in COLUMNS]) for a in self.answers]
-        rows += zip(("mean", "least", "greatest"), map(list, zip(*bands)))
-        table = [("", [heading for heading, _, _ in COLUMNS.values()])]
-        for title, values in rows:
-            columns = zip(values, COLUMNS.values())
-            table.append((title, [f"{unit * v:.{digits}f}" if math.isfinite(v) else "-" for v, (_, unit, digits) in columns]))
-        lines = [f"{title:16}" + "".join(f"{cell:>13}" for cell in cells) for title, cells in table]
+        bands = zip(*(self.band(name) or (math.nan,) * 3 for name in COLUMNS))
+        marks = {a.method: "!" if a.outside else "*" if a.mark else "" for a in self.answers}
+        rows = {f"{a.method} {marks[a.method]}": [getattr(a, name) for name in COLUMNS] for a in self.answers}
+        rows |= {title: list(band) for title, band in zip(("mean", "least", "greatest"), bands)}
+        lines = [f"{'':16}" + "".join(f"{heading:>13}" for heading, _, _ in COLUMNS.values())]
+        for title, values in rows.items():
+            shown = (
+                f"{unit * value:.{digits}f}" if math.isfinite(value) else "-"
+                for value, (_, unit, digits) in zip(values, COLUMNS.values())
+            )
+            lines.append(f"{title:16}" + "".join(f"{cell:>13}" for cell in shown))
         lines.append("Forces over the load. Mean, least and greatest are those of the formulas within their range.")
         lines += [f"* {answer.method}: {answer.mark}" for answer in self.answers if answer.mark]
         lines += [f"! {a.method}: EXTRAPOLATED: {limit}" for a in self.answers for limit in a.outside]
@@ -293,7 +301,10 @@ class Formulas:
 
 
 def formulas_for(soil: str, cone_index: float, tyre: Tyre, slip: float) -> Formulas:
-    """soil: of FORMULAS. A formula answers outside of its range too, with a mark. @raises ResultsError without any answer"""
+    """soil: of FORMULAS. A formula answers outside of its range too, with a mark.
+
+    @raises ResultsError without any answer
+    """
     answers, refused = [], []
     for formula in FORMULAS[soil]:
         try:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Empirical formulas of mobility, with source and range of validity: a wheel in shallow snow (NRMM),
-gross traction on snow and ice, a rigid wheel on sand towed (Bekker) or driven (Wong and Reece); and their predictions for
-the conditions of a run.
+gross traction on snow and ice, a rigid wheel on sand towed (Bekker) or driven (Wong and Reece); and their
+predictions for the conditions of a run.
 
 SI units; angles in degrees in the interface. Nothing is extrapolated unless asked: outside of its
 range a formula raises OutOfRange, which names every value that is outside.
@@ -92,7 +92,8 @@ def nrmm(
     require_wheel("NRMM", load, 2 * radius, width)
     require_pressure(pressure)
     if sinkage is not None and not 0.0 <= sinkage < depth:
-        raise ResultsError(f"NRMM: a sinkage of {sinkage:g} m in snow {depth:g} m deep; allowed: from 0 to below the depth")
+        fault = f"a sinkage of {sinkage:g} m in snow {depth:g} m deep"
+        raise ResultsError(f"NRMM: {fault}; allowed: from 0 to below the depth")
     z = nrmm_sinkage(depth, density, pressure) if sinkage is None else sinkage
     final = nrmm_final_density(pressure)
     limits = [
@@ -227,7 +228,8 @@ def wong_reece(
         )
     radius = 0.5 * diameter
     if not 0 <= slip < 1:
-        raise OutOfRange(f"Wong-Reece is for driven wheels, slip from 0 to 1, not {slip:g}; no extrapolation changes that")
+        allowed = "driven wheels, slip from 0 to 1"
+        raise OutOfRange(f"Wong-Reece is for {allowed}, not {slip:g}; no extrapolation changes that")
 
     def sums(entry: float) -> Floats:
         return _wong_reece_sums(entry, slip, radius, width, ground)
@@ -274,7 +276,8 @@ def _ground_of(name: str) -> float | TerrainValues:
     if method in ("bekker", "wong_reece"):
         return terrain(what)
     if method != "nrmm":
-        raise ResultsError(f"there is no formula '{method}'; there are nrmm:PRESSURE, bekker:TERRAIN, wong_reece:TERRAIN")
+        known = "nrmm:PRESSURE, bekker:TERRAIN, wong_reece:TERRAIN"
+        raise ResultsError(f"there is no formula '{method}'; there are {known}")
     try:
         pressure = float(what)
     except ValueError:

@@ -383,7 +383,9 @@ def judge(
         remark, determined = left_open.get(i, ""), i not in left_open
         if determined and deviation > LARGEST_DEVIATION:
             determined = False
-            remark = f"known {'to no better than a factor of e' if parameter.logarithmic else 'no better than its range or size'}"
+            remark = "known no better than its range or size"
+            if parameter.logarithmic:
+                remark = "known to no better than a factor of e"
         elif determined and spare == 0 and not known:
             deviation = math.nan
             remark = "as many data as parameters: no scatter to judge by, unless the deviation of the data is given"

@@ -66,8 +66,10 @@ def report(point: PointCurves, fit: LawFit) -> str:
     lines = [
         point.title,
         f"  material      {point.material} ({point.law})",
-        f"  data          {len(fit.residuals)} values of {len(point.curves)} curve(s), {len(fit.parameters)} parameters",
-        f"  residual      rms {rms(fit.start):.4g} at the start, {fit.rms:.4g} fitted; {fit.evaluations} evaluations; {fit.end}",
+        f"  data          {len(fit.residuals)} values of {len(point.curves)} curve(s), "
+        f"{len(fit.parameters)} parameters",
+        f"  residual      rms {rms(fit.start):.4g} at the start, {fit.rms:.4g} fitted; "
+        f"{fit.evaluations} evaluations; {fit.end}",
     ]
     if not fit.converged:
         lines.append("  WARNING       the fit did not converge")
@@ -91,7 +93,8 @@ def report(point: PointCurves, fit: LawFit) -> str:
     weakest = [f"{part:+.2f} {name}" for part, name in zip(direction, names) if abs(part) > PARTNER]
     if len(names) > 1:
         lines.append(
-            f"  the data determine least the combination {' '.join(weakest)} (of logarithms, or values over their scale)"
+            f"  the data determine least the combination {' '.join(weakest)} (of logarithms, or "
+            "values over their scale)"
         )
     for i, j in np.argwhere(np.abs(np.tril(fit.correlation, -1)) > CORRELATED):
         together = f"{names[j]} and {names[i]} are correlated by {fit.correlation[i, j]:.4f}"
@@ -151,4 +154,5 @@ def _write_hdf5(point: PointCurves, fit: LawFit, content: Any) -> None:
     for fitted in fit.parameters:
         attributes = parameters.create_group(fitted.parameter.name).attrs
         attributes.update({"unit": fitted.parameter.unit, "remark": fitted.remark, "start": fitted.parameter.start})
-        attributes.update({"value": fitted.value, "deviation": fitted.deviation, "determined": float(fitted.determined)})
+        attributes.update({"value": fitted.value, "deviation": fitted.deviation})
+        attributes["determined"] = float(fitted.determined)

@@ -97,7 +97,8 @@ def require_range(method: str, limits: Sequence[Limit], extrapolate: bool) -> tu
     """Limits that are not met, in words. @raises OutOfRange for any, unless told to extrapolate"""
     outside = tuple(limit.text() for limit in limits if not limit.met)
     if outside and not extrapolate:
-        raise OutOfRange(f"{method} is not valid here: {'; '.join(outside)}; --extrapolate uses it all the same, and says so")
+        remedy = "--extrapolate uses it all the same, and says so"
+        raise OutOfRange(f"{method} is not valid here: {'; '.join(outside)}; {remedy}")
     return outside
 
 

@@ -119,7 +119,7 @@ def tyre_text(title: str, comments: list[str], known: Catalogue, values: Values,
     scale = values["section_width"] / _SECTION_WIDTH
     strength = max(1.0, known.pressure / _PRESSURE)
     belts, sidewall = (strength * values[f"{part}_stiffness"] for part in ("belt", "sidewall"))
-    springs = sidewall * scale**2
+    bending, springs = _listed([sidewall * scale**3 * b for b in _BENDING]), sidewall * scale**2
     thickness = _THICKNESS * values["belt_radius"] / _BELT_RADIUS
     similar = "[Shoop2001] Table 8, scaled"
     head = "\n".join([f"title: {title}", *(f"# {comment}".rstrip() for comment in comments)])
@@ -139,7 +139,7 @@ tread:
   areal_mass: {areal_mass:.4g}   # {mass_source}
 sidewall:
   length: {arc.length:.4g}   # arc of the section width: {notes["section_width"]}
-  bending: {_listed([sidewall * scale**3 * b for b in _BENDING])}   # {similar} times {sidewall:.3g}; {notes["sidewall_stiffness"]}
+  bending: {bending}   # {similar} times {sidewall:.3g}; {notes["sidewall_stiffness"]}
   curvature: {_listed([arc.curvature] * len(_BENDING))}   # of the arc
   rim_angle: {arc.rim_angle:.4g}   # of the arc
   tread_angle: {arc.tread_angle:.4g}   # of the arc

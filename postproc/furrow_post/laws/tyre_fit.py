@@ -54,7 +54,8 @@ def read_tests(path: Path) -> list[PlateTest]:
             continue
         measured = {name: row[name] for name in MEASURED if not math.isnan(row.get(name, math.nan))}
         if not (row["pressure_kPa"] > 0.0 and row["load_N"] > 0.0 and measured):
-            raise ResultsError(f"{path}: row {number} needs a pressure and a load above 0, and one of {', '.join(MEASURED)}")
+            needed = f"a pressure and a load above 0, and one of {', '.join(MEASURED)}"
+            raise ResultsError(f"{path}: row {number} needs {needed}")
         if wrong := [name for name, value in measured.items() if value <= 0.0]:
             raise ResultsError(f"{path}: row {number}: {wrong[0]} must be above 0")
         tests.append(PlateTest(row["pressure_kPa"], row["load_N"], measured))
@@ -130,9 +131,9 @@ class TyreFit:
 
     def misfits(self) -> dict[str, float]:
         """rms relative misfit of each measured quantity."""
-        pairs = zip(self.tests, self.states)
-        misfits = pd.DataFrame([{name: state[name] / value - 1.0 for name, value in test.measured.items()} for test, state in pairs])
-        return dict(misfits.pow(2).mean().pow(0.5))
+        measured = pd.DataFrame([test.measured for test in self.tests])
+        computed = pd.DataFrame(list(self.states), columns=measured.columns)
+        return dict((computed / measured - 1.0).pow(2).mean().pow(0.5))
 
     def file_text(self, title: str, comments: list[str]) -> str:
         notes = {parameter.name: parameter.note() for parameter in self.parameters}

@@ -46,7 +46,8 @@ class TyreSize:
 def read_size(designation: str) -> TyreSize:
     """@raises ResultsError for a text that is no size designation, or gives no tyre"""
     text = designation.strip()
-    found = next(filter(None, (kind.fullmatch(text.replace(" ", "")) for kind in (_METRIC, _FLOTATION, _NUMERIC))), None)
+    matches = (kind.fullmatch(text.replace(" ", "")) for kind in (_METRIC, _FLOTATION, _NUMERIC))
+    found = next(filter(None, matches), None)
     if not found:
         raise ResultsError(
             f"'{designation}' is no size designation; write it as on the sidewall, for example "

@@ -59,7 +59,8 @@ class Budget:
 
     def updated(self, other: "Budget") -> "Budget":
         """The known parts of another budget in place of these, with their sources."""
-        return replace(self, **{name: other.part(name) for name in other.known}, sources={**self.sources, **other.sources})
+        sources = {**self.sources, **other.sources}
+        return replace(self, **{name: other.part(name) for name in other.known}, sources=sources)
 
     def label(self, part: str) -> str:
         """Name of a part for people."""

@@ -67,10 +67,10 @@ NUMERIC = {f.name for f in fields(Row) if f.type is float}
 
 
 def row_of(run: WheelRun) -> Row:
-    names = ("hub_drop", "resistance_coefficient")
-    values = [number for name in names for number in (run.values[name].mean, run.values[name].standard_error)]
+    values = [run.values[name] for name in ("hub_drop", "resistance_coefficient")]
+    numbers = [number for value in values for number in (value.mean, value.standard_error)] + [run.cpu_time]
     domain = "x".join(f"{edge:.4g}" for edge in run.domain)
-    return Row(run.label, run.ground, run.model, run.wheel, run.size, domain, run.seed, *values, cpu_time=run.cpu_time)
+    return Row(run.label, run.ground, run.model, run.wheel, run.size, domain, run.seed, *numbers)
 
 
 def read_table(path: Path) -> tuple[list[Row], list[str]]:

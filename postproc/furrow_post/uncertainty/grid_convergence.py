@@ -68,7 +68,9 @@ class Convergence:
         return math.hypot(self.at(size) - self.value, self.error)
 
 
-def grid_convergence(sizes: Sequence[float], values: Sequence[float], errors: Sequence[float] | None = None) -> Convergence:
+def grid_convergence(
+    sizes: Sequence[float], values: Sequence[float], errors: Sequence[float] | None = None
+) -> Convergence:
     """Grid convergence of values at these sizes; errors: standard errors of the values, of time and packing."""
     h, f, u = _grouped(sizes, values, [0.0] * len(sizes) if errors is None else errors)
     count, series = len(h), (tuple(h), tuple(f))

@@ -147,7 +147,11 @@ class ModelError:
 
 def regimes_of(tests: Iterable[Test]) -> list[Regime]:
     """Tests by quantity, ground, wheel, motion, grousers, and whether there is a slope."""
-    groups = grouped(tests, lambda test: (test.quantity, *(getattr(test.case, name) for name in MISMATCH), test.case.slope > 0))
+
+    def kind(test: Test) -> tuple[object, ...]:
+        return (test.quantity, *(getattr(test.case, name) for name in MISMATCH), test.case.slope > 0)
+
+    groups = grouped(tests, kind)
     alike = correlation([_studies(group) for group in groups.values()])
     return [_regime(group, alike) for group in groups.values()]
 
@@ -212,9 +216,11 @@ def _range(values: Iterable[float]) -> tuple[float, float]:
 
 def model_error(regimes: Sequence[Regime], quantity: str, case: Case) -> ModelError | None:
     """By the nearest tests of a quantity; of equally near ones those with the larger error. None where none is near."""
-    of_quantity = [(round(regime.distance(case), 6), -regime.model, regime) for regime in regimes if regime.quantity == quantity]
-    distance, _, nearest = min(of_quantity, key=lambda one: one[:2], default=(math.inf, 0.0, None))
-    if nearest is None or distance > FARTHEST:
+    known = [(round(regime.distance(case), 6), regime) for regime in regimes if regime.quantity == quantity]
+    if not known:
+        return None
+    distance, nearest = min(known, key=lambda pair: (pair[0], -pair[1].model))
+    if distance > FARTHEST:
         return None
     return ModelError(nearest.model * math.hypot(1.0, distance), distance, nearest)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Errors of a scene as 'furrow-post converge' stores them for all its later runs: by cells or grains, and by the material."""
+"""Errors of a scene by its cells or grains and by its material, as 'furrow-post converge' stores them for later runs."""
 
 import json
 import math

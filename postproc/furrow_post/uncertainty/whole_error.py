@@ -130,7 +130,8 @@ def width_of_ground(run: WheelRun, case: Case, key: str) -> Budget:
 def of_like_wheels(run: WheelRun, case: Case, key: str) -> Budget:
     soil = run.results.styles().of_kind("terrain")
     particles = soil.number("particles", 2) if soil else 2
-    return like_wheels(SIZES.stored(), SCHEME.stored(), run.ground, run.size / run.number("wheel_width"), case, key, particles)
+    ratio = run.size / run.number("wheel_width")
+    return like_wheels(SIZES.stored(), SCHEME.stored(), run.ground, ratio, case, key, particles)
 
 
 def like_wheels(
@@ -145,7 +146,8 @@ def like_wheels(
     pairs = np.array([one.errors(key, size_over_width) for one in near])
     size, packing = (rms(column[np.isfinite(column)]) * math.hypot(1.0, least) for column in pairs.T)
     from_ = f"{', '.join(one.name for one in near)}{' of other wheels' if least else ''}"
-    found = Budget(size=size, packing=packing, sources={"size": from_, "packing": from_ if packing else "a continuum has none"})
+    found = Budget.single("size", size, from_)
+    found = found.updated(Budget.single("packing", packing, from_ if packing else "a continuum has none"))
     if ground == "continuum" and scheme:
         for part in ("step", "contact"):
             error, what = scheme[part, key]
@@ -226,7 +228,8 @@ class RunErrors:
             return parts
         known = replace(self.family.components(key, self.run.size, value.standard_error), time=math.nan)
         if error is not None or known.size < parts.size:
-            known = replace(known, size=math.nan)  # tables of inputs/costs are of runs without cell averages, which hide a part of it
+            # tables of inputs/costs are of runs without cell averages, which hide a part of it
+            known = replace(known, size=math.nan)
         return parts.updated(replace(known, sources=dict.fromkeys(known.known, "table of runs of the scene")))
 
     def _held(self, value: SteadyValue) -> float:
@@ -259,8 +262,8 @@ def _budgets_and_doubt(folder: Path) -> tuple[dict[str, Budget], str]:
         return RunErrors(read_wheel_run(folder)).all(), ""
     except ResultsError as error:
         doubt = str(error)
-    values = summary_values(folder)
-    return {name: IMPOSED if value.imposed else Budget(time=value.standard_error) for name, value in values.items()}, doubt
+    values = summary_values(folder).items()
+    return {name: IMPOSED if value.imposed else Budget(time=value.standard_error) for name, value in values}, doubt
 
 
 # ---- a value over the nearest tests
@@ -297,7 +300,8 @@ def over_tests(run: WheelRun) -> list[OverTests]:
         scale, label, opposed = 1 / run.radius, "hub drop over radius", False
         if name != "hub_drop":
             scale, label = 1.0, name.replace("_", " ")
-            opposed = near is not None and (name == "resistance_coefficient") != (near.nearest.words["motion"] == "towed")
+            towed = near is not None and near.nearest.words["motion"] == "towed"
+            opposed = near is not None and (name == "resistance_coefficient") != towed
         tests = [test for test in TESTS.stored() if near and near.nearest.has(test) and math.isfinite(test.computed)]
         value, error = scale * values[name].mean, scale * budget.total
         source = near.source() if near else ""

@@ -51,7 +51,8 @@ class TableTest(unittest.TestCase):
         family = cost_table.families(made_runs())[GRAINS]
         value, parts = family.best_estimate("sinkage", 0.04, 0.12 * 1.12, 1e-4) or self.fail()
         zero, error = family.reference("sinkage")
-        self.assertEqual((value, [parts.part(name) for name in parts.NUMERICAL]), (zero, [0.0, error, family.domain_error("sinkage"), 0.0]))
+        numerical = [parts.part(name) for name in parts.NUMERICAL]
+        self.assertEqual((value, numerical), (zero, [0.0, error, family.domain_error("sinkage"), 0.0]))
 
     def test_a_run_of_another_load_moves_as_its_family_does(self) -> None:
         family = cost_table.families(made_runs())[CONTINUUM]
