@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from ..errors import ResultsError
-from .prediction import Limit, require_positive, require_range, require_wheel
+from .prediction import Limit, report_of, require_positive, require_range, require_wheel
 from .tyre_size import INCH
 
 POUND_FORCE = 4.4482216152605  # [N]
@@ -55,9 +55,9 @@ class Traction:
             ("towed: sinkage", f"{1e3 * self.towed_sinkage:.4g} mm"),
         )
         known = [(name, value) for name, value in rows if not value.startswith("nan")]
-        lines = [f"{self.method}  ({self.source})", *(f"  {name:27} {value}" for name, value in known)]
-        lines += [f"  MARK: {self.mark}"] if self.mark else []
-        return "\n".join([*lines, *(f"  EXTRAPOLATED: {limit}" for limit in self.outside)])
+        notes = [f"MARK: {self.mark}"] if self.mark else []
+        notes += [f"EXTRAPOLATED: {limit}" for limit in self.outside]
+        return report_of(self.method, self.source, known, 27, notes)
 
 
 @dataclass(frozen=True)
@@ -348,11 +348,9 @@ class VehicleConeIndex:
     one_pass: float
 
     def report(self) -> str:
-        return (
-            f"Vehicle cone index, fine-grained soil  ({VCI_SOURCE})\n"
-            f"  mobility index              {self.mobility_index:.2f}\n"
-            f"  VCI of one pass             {self.one_pass / PSI:.2f} psi, {1e-3 * self.one_pass:.4g} kPa"
-        )
+        one_pass = f"{self.one_pass / PSI:.2f} psi, {1e-3 * self.one_pass:.4g} kPa"
+        rows = [("mobility index", f"{self.mobility_index:.2f}"), ("VCI of one pass", one_pass)]
+        return report_of("Vehicle cone index, fine-grained soil", VCI_SOURCE, rows, 27)
 
 
 def weight_factor(kips: float) -> float:
@@ -372,18 +370,13 @@ def vehicle_cone_index(vehicle: WheeledVehicle) -> VehicleConeIndex:
     pounds, width = vehicle.weight / POUND_FORCE, tyre.width / INCH
     radius, kips = 0.5 * tyre.diameter / INCH, pounds / 1000
     contact = pounds / (width * radius * vehicle.tyres)
-    tyre_factor = (10 + width) / 100
-    grip = 1.05 if vehicle.chains else 1.0
-    load = kips / (2 * vehicle.axles)
-    clearance = vehicle.clearance / INCH / 10
+    grip = (10 + width) / 100 * (1.05 if vehicle.chains else 1.0)
+    load, clearance = kips / (2 * vehicle.axles), vehicle.clearance / INCH / 10
     engine = 1.0 if vehicle.power / HORSEPOWER / (pounds / SHORT_TON) >= 10 else 1.05
     transmission = 1.05 if vehicle.manual else 1.0
-    weight = weight_factor(kips / vehicle.axles)
-    index = (contact * weight / (tyre_factor * grip) + load - clearance) * engine * transmission
+    index = (contact * weight_factor(kips / vehicle.axles) / grip + load - clearance) * engine * transmission
     if index <= 0:
-        raise ResultsError(
-            f"{method}: the mobility index is {index:.3g}, below 0; check weight, tyres and clearance"
-        )
+        raise ResultsError(f"{method}: the mobility index is {index:.3g}, below 0; check weight, tyres and clearance")
     psi = 11.48 + 0.2 * index - 39.2 / (index + 3.74) if index <= 115 else 4.1 * index**0.446
     if math.isfinite(tyre.deflection_ratio):
         psi *= (0.15 / tyre.deflection_ratio) ** 0.25

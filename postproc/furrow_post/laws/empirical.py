@@ -17,7 +17,8 @@ from scipy.optimize import brentq
 from ..arrays import Floats
 from ..errors import ResultsError
 from ..read.wheel_run import WheelRun
-from .prediction import Limit, OutOfRange, Prediction, Result, require_positive, require_range, require_wheel
+from .prediction import Limit, OutOfRange, Prediction, Result
+from .prediction import report_of, require_positive, require_range, require_wheel
 from .terrain_values import TerrainValues, terrain, terrains
 
 # ---- snow
@@ -135,13 +136,13 @@ class SnowTraction:
 
     def report(self) -> str:
         """Lines for a person."""
-        return (
-            f"snow_traction, {self.surface}  ({TRACTION_SOURCE})\n"
-            f"  contact pressure           {self.pressure / 1e3:.4g} kPa\n"
-            f"  gross traction             {self.gross:.4g} N\n"
-            f"  gross traction coefficient {self.coefficient:.4f}\n"
-            "  Subtract the motion resistance, for example of nrmm, for the net traction."
-        )
+        rows = [
+            ("contact pressure", f"{self.pressure / 1e3:.4g} kPa"),
+            ("gross traction", f"{self.gross:.4g} N"),
+            ("gross traction coefficient", f"{self.coefficient:.4f}"),
+        ]
+        note = "Subtract the motion resistance, for example of nrmm, for the net traction."
+        return report_of(f"snow_traction, {self.surface}", TRACTION_SOURCE, rows, 26, [note])
 
 
 def snow_traction(surface: str, load: float, contact_area: float) -> SnowTraction:

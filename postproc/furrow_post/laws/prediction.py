@@ -2,7 +2,7 @@
 """Result of an empirical formula, and the range in which its tests support it."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -82,15 +82,21 @@ class Prediction:
         coefficient = f"{self.coefficient:.4f}"
         if self.coefficient_scatter > 0:
             coefficient = f"{with_error(self.coefficient, self.coefficient_scatter)}  (scatter of tests)"
-        lines = [
-            f"{self.method}  ({self.source})",
-            f"  sinkage                {sinkage}",
-            f"  motion resistance      {self.resistance:.4g} N",
-            f"  resistance coefficient {coefficient}",
-            *(f"  {r.name:22} {r.value:.4g} {r.unit}" for r in self.extra),
-            *(f"  EXTRAPOLATED: {limit}" for limit in self.outside),
+        rows = [
+            ("sinkage", sinkage),
+            ("motion resistance", f"{self.resistance:.4g} N"),
+            ("resistance coefficient", coefficient),
+            *((r.name, f"{r.value:.4g} {r.unit}") for r in self.extra),
         ]
-        return "\n".join(lines)
+        return report_of(self.method, self.source, rows, 22, [f"EXTRAPOLATED: {limit}" for limit in self.outside])
+
+
+def report_of(
+    title: str, source: str, rows: Iterable[tuple[str, str]], wide: int, notes: Iterable[str] = ()
+) -> str:
+    """Lines for a person: title with source, names and values in columns, notes."""
+    lines = [*(f"{name:{wide}} {value}" for name, value in rows), *notes]
+    return "\n".join([f"{title}  ({source})", *(f"  {line}" for line in lines)])
 
 
 def require_range(method: str, limits: Sequence[Limit], extrapolate: bool) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ import math
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +23,7 @@ from ..csv_table import read_numbers
 from ..errors import ResultsError
 from ..programs import find_program
 from ..run.tools import Refused, answer
-from .fitter import NotComputed, Parameter, Search, fit, judge, slopes
+from .fitter import NotComputed, Parameter, Residuals, Search, fit, judge, slopes
 from .tyre_estimate import Catalogue, Guess, guesses, tyre_text
 
 # Columns of a test, as furrow-tyre prints them -> relative error of a measurement
@@ -140,66 +141,47 @@ class TyreFit:
         return tyre_text(title, comments, self.known, self.values(), notes)
 
 
-@dataclass
-class _Trials:
-    """The residuals of trial tyres, by a coarse mesh corrected to a fine one."""
-
-    known: Catalogue
-    tests: Sequence[PlateTest]
-    solve: Solver
-    names: Sequence[str]
-
-    def __post_init__(self) -> None:
-        self.errors = np.array([MEASURED[name] for test in self.tests for name in test.measured])
-        self.correction = np.zeros(len(self.errors))
-        self.solved: dict[tuple[str, Mesh], States] = {}
-
-    def states(self, values: Floats, mesh: Mesh) -> States:
-        named, blank = dict(zip(self.names, map(float, values))), dict.fromkeys(self.names, "")
-        try:
-            text = tyre_text("trial", [], self.known, named, blank)
-        except ResultsError as error:
-            raise NotComputed(str(error)) from error
-        if (text, mesh) not in self.solved:
-            self.solved[text, mesh] = self.solve(text, self.tests, mesh)
-        return self.solved[text, mesh]
-
-    def misfit(self, states: Sequence[dict[str, float]]) -> Floats:
-        """Logarithms over measurements, in errors of a measurement."""
-        pairs = [state[name] / value for test, state in zip(self.tests, states) for name, value in test.measured.items()]
-        misfit: Floats = np.log(pairs) / self.errors
-        return misfit
-
-    def coarse(self, values: Floats) -> Floats:
-        return self.misfit(self.states(values, COARSE)) + self.correction
-
-    def correct(self, values: Floats) -> States:
-        """The states by the fine mesh, which the coarse one reproduces at these values from here on."""
-        states = self.states(values, FINE)
-        self.correction += self.misfit(states) - self.coarse(values)
-        return states
-
-
 def fit_tyre(known: Catalogue, tests: Sequence[PlateTest], solve: Solver = press) -> TyreFit:
     """@raises ResultsError where the guessed tyre does not come to rest in all tests"""
     start = guesses(known)
-    trials = _Trials(known, tests, solve, list(start))
     # x: logarithm over the guess, in units of its spread
     parameters = [Parameter(name, "", 0.0, -math.inf, math.inf, spread=1.0) for name in start]
+    errors = np.array([MEASURED[name] for test in tests for name in test.measured])
+    solved = cache(lambda text, mesh: solve(text, tests, mesh))
 
-    def values(x: Floats) -> Floats:
-        return np.array([guess.value * math.exp(guess.spread * shift) for guess, shift in zip(start.values(), x)])
+    def values(x: Floats) -> dict[str, float]:
+        pairs = zip(start.items(), x)
+        return {name: float(guess.value * math.exp(guess.spread * shift)) for (name, guess), shift in pairs}
 
-    states: States = []
+    def states(x: Floats, mesh: Mesh) -> States:
+        try:
+            text = tyre_text("trial", [], known, values(x), dict.fromkeys(start, ""))
+        except ResultsError as error:
+            raise NotComputed(str(error)) from error
+        found: States = solved(text, mesh)
+        return found
+
+    def misfit(x: Floats, mesh: Mesh) -> Floats:
+        """Logarithms over measurements, in errors of a measurement."""
+        pairs = zip(tests, states(x, mesh))
+        ratios = [state[name] / value for test, state in pairs for name, value in test.measured.items()]
+        logarithms: Floats = np.log(ratios) / errors
+        return logarithms
+
+    def coarse(at: Floats) -> Residuals:
+        """Misfit by a coarse mesh, which at one place reproduces that by the fine one."""
+        correction = misfit(at, FINE) - misfit(at, COARSE)
+        return lambda x: misfit(x, COARSE) + correction
+
     found = judge(parameters, np.zeros(len(start)), np.zeros(0), np.zeros((0, len(start))))
     if tests:
-        trials.correct(values(found.z))
-        found = fit(parameters, lambda x: trials.coarse(values(x)), SEARCH)
-        states = trials.correct(values(found.z))
-        misfit, slope = trials.misfit(states), slopes(parameters, lambda x: trials.coarse(values(x)), found.z, SEARCH)
-        found = judge(parameters, found.z, misfit, slope)
+        found = fit(parameters, coarse(found.z), SEARCH)
+        slope = slopes(parameters, coarse(found.z), found.z, SEARCH)
+        found = judge(parameters, found.z, misfit(found.z, FINE), slope)
+    results = zip(start.items(), values(found.z).values(), found.parameters)
     fitted = [
         FittedTyre(name, value, guess.spread * one.deviation, one.share, guess)
-        for (name, guess), value, one in zip(start.items(), map(float, values(found.z)), found.parameters)
+        for (name, guess), value, one in results
     ]
-    return TyreFit(known, tests, states, fitted, found.singular_values / found.scatter, found.correlation, found.scatter)
+    at_end, singular = states(found.z, FINE) if tests else [], found.singular_values / found.scatter
+    return TyreFit(known, tests, at_end, fitted, singular, found.correlation, found.scatter)
