@@ -7,7 +7,8 @@ height, delta: deflection of the tyre on hard ground, W: load.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from typing import Any
 
 from ..errors import ResultsError
 from .prediction import Limit, report_of, require_positive, require_range, require_wheel
@@ -122,9 +123,8 @@ class ConeFormula:
             outside.extend(require_range(self.method, limits, extrapolate))
             return tuple(outside)
 
-        values = self.equations(cone_index, tyre, slip, within)
-        answer = Traction(self.method, self.source, slip=slip, load=tyre.load, **values)
-        return replace(answer, outside=tuple(outside), mark=self.mark)
+        values: dict[str, Any] = {**self.equations(cone_index, tyre, slip, within), "outside": tuple(outside)}
+        return Traction(self.method, self.source, slip=slip, load=tyre.load, mark=self.mark, **values)
 
 
 def _formula(method: str, source: str, deflected: bool = True, mark: str = "") -> Callable[[Equations], ConeFormula]:

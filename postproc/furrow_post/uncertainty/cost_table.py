@@ -57,9 +57,8 @@ class Row:
 
     def value(self, key: str) -> tuple[float, float]:
         """A quantity and the standard error of its time average. key: of QUANTITY_KEYS"""
-        if key == "sinkage":
-            return self.sinkage, self.sinkage_error
-        return self.coefficient, self.coefficient_error
+        value, error = getattr(self, key), getattr(self, f"{key}_error")
+        return float(value), float(error)
 
 
 HEADER = [f.name for f in fields(Row)]

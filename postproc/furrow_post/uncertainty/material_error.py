@@ -62,25 +62,30 @@ def _content(file: Path) -> dict[str, Any]:
         return dict(yaml.safe_load(file.read_text(encoding="utf-8")))
 
 
+def _with_bases(file: Path) -> list[Path]:
+    """A material file after its bases."""
+    base = _content(file).get("base")
+    return [*(_with_bases(file.parent / str(base)) if base else []), file]
+
+
 def _merged(file: Path) -> dict[str, Any]:
     """With its bases, section by section, as Furrow reads it."""
-    own = _content(file)
-    merged = _merged(file.parent / str(own["base"])) if "base" in own else {}
-    for name, section in own.items():
-        below = merged.get(name)
-        same = isinstance(section, dict) and isinstance(below, dict) and section.get("type", below.get("type")) == below.get("type")
+    merged: dict[str, Any] = {}
+    for name, section in (item for one in _with_bases(file) for item in _content(one).items()):
+        below: Any = merged.get(name)
+        mappings = isinstance(section, dict) and isinstance(below, dict)
+        same = mappings and section.get("type", below.get("type")) == below.get("type")
         merged[name] = {**below, **section} if same and below else section
     return merged
 
 
 def _errors(file: Path) -> dict[tuple[str | int, ...], float]:
     """Keys of a parameter -> standard error, with those of the bases."""
-    own = _content(file)
-    found = _errors(file.parent / str(own["base"])) if "base" in own else {}
-    beside = file.with_suffix(BESIDE)
-    if beside.is_file():
-        with content_of(beside, "it has the columns parameter and error, as 'furrow-post fit law' writes it"):
-            found |= {_keys(row["parameter"]): float(row["error"]) for row in read_rows(beside)}
+    found: dict[tuple[str | int, ...], float] = {}
+    for beside in (one.with_suffix(BESIDE) for one in _with_bases(file)):
+        if beside.is_file():
+            with content_of(beside, "it has the columns parameter and error, as 'furrow-post fit law' writes it"):
+                found |= {_keys(row["parameter"]): float(row["error"]) for row in read_rows(beside)}
     return found
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Errors of a scene by its cells or grains and by its material, as 'furrow-post converge' stores them for later runs."""
+"""Errors of a scene by cells or grains, and by its material, as 'furrow-post converge' stores them for later runs."""
 
 import json
 import math
@@ -12,7 +12,7 @@ from ..errors import ResultsError, content_of
 from ..json_text import parse_json
 from ..read.wheel_run import WheelRun, cells_or_grains
 from ..run.record import digest
-from ..run.summary import Summary
+from ..run.summary import SteadyValue, Summary
 from .grid_convergence import Convergence, grid_convergence
 
 CONVERGENCE, MATERIAL = ".convergence.json", ".material.json"  # behind the stem of the scene's script
@@ -94,9 +94,18 @@ def of_runs(path: Path, script: Path, runs: Sequence[WheelRun], names: Sequence[
 
 def values_of(run: WheelRun, names: Sequence[str]) -> dict[str, tuple[float, float]]:
     """Value and its error over time."""
-    summary = Summary(run.folder)
-    found = {name: run.values.get(name) or summary.quantity(name) for name in names}
-    return {name: (value.mean, value.standard_error) for name, value in found.items() if value}
+    values = steady_values(run)
+    return {name: (values[name].mean, values[name].standard_error) for name in names if name in values}
+
+
+def steady_values(run: WheelRun) -> dict[str, SteadyValue]:
+    """Values of the summary, with those of the run in their place."""
+    return summary_values(run.folder) | run.values
+
+
+def summary_values(folder: Path) -> dict[str, SteadyValue]:
+    summary = Summary(folder)
+    return {name: value for name in summary.quantities if (value := summary.quantity(name))}
 
 
 def read_convergence(path: Path) -> SceneConvergence:

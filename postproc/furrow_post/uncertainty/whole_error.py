@@ -22,7 +22,7 @@ from ..run.summary import BUDGET, SteadyValue, Summary
 from .budget import IMPOSED, Budget
 from .cost_table import Family, FamilyKey, parsed_row
 from .model_error import MISMATCH, OF_RUN, REGIMES, RELATIVE, TESTS, Case, ModelError, Test, model_error
-from .scene_errors import convergence_of, material_error_of
+from .scene_errors import convergence_of, material_error_of, steady_values, summary_values
 from .statistics import grouped, rms
 from .validation_table import Rows, ValidationTable
 
@@ -239,16 +239,6 @@ class RunErrors:
         if not level or not load > 0:
             return math.nan
         return abs(self.load / load - 1.0) * (abs(value.mean) if value.unit else 0.0)
-
-
-def steady_values(run: WheelRun) -> dict[str, SteadyValue]:
-    """Values of the summary, with those of the run in their place."""
-    return summary_values(run.folder) | run.values
-
-
-def summary_values(folder: Path) -> dict[str, SteadyValue]:
-    summary = Summary(folder)
-    return {name: value for name in summary.quantities if (value := summary.quantity(name))}
 
 
 def budgets_of(folder: Path) -> dict[str, Budget]:
