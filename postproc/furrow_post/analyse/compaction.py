@@ -175,7 +175,7 @@ def _contact(results: Results, loads: pd.DataFrame, spacing: float) -> Contact:
             f"the load; allowed: {100 * CARRIED[0]:.0f} to {100 * CARRIED[1]:.0f} %. End the run while "
             "the body presses steadily on the ground"
         )
-    touching, *range_ = (loads[loads.stress > share * loads.stress.max()] for share in (TOUCHING, *TOUCHING_RANGE))
+    touching, wide, narrow = (loads[loads.stress > share * loads.stress.max()] for share in (TOUCHING, *TOUCHING_RANGE))
     area = float(touching.area.sum())
     along = touching.x - np.average(touching.x, weights=touching.area)
     moments = [np.average(v**2, weights=touching.area) for v in (along, touching.y)]
@@ -183,8 +183,7 @@ def _contact(results: Results, loads: pd.DataFrame, spacing: float) -> Contact:
     semi_axes = math.sqrt(area / math.pi * ratio), math.sqrt(area / math.pi / ratio)
     # rows of particles at the edge, each uncertain by its place in a particle's width
     edge = 2 * math.pi * math.sqrt(0.5 * (semi_axes[0] ** 2 + semi_axes[1] ** 2)) / spacing
-    larger, smaller = (one.area.sum() for one in range_)
-    area_error = math.hypot(0.5 * (larger - smaller), spacing**2 * math.sqrt(edge / 12))
+    area_error = math.hypot(0.5 * (wide.area.sum() - narrow.area.sum()), spacing**2 * math.sqrt(edge / 12))
     last = load[-max(2, int(AT_END * len(load))) :]
     return Contact(float(load[-1]), float(last.std() / last.mean()), area, area_error, semi_axes, carried)
 

@@ -96,12 +96,13 @@ def grid_convergence(
     if order > ASYMPTOTIC:  # its coarse sizes are not in the asymptotic range
         used, factor, fitted = FORMAL_ORDER, UNSURE, 2
     weights = _weights(f, u)[:fitted]
-    zero, slope, residual = _fit(h[:fitted], f[:fitted], weights, used)
-    spread = max(residual / (fitted - LEAST_SIZES), 1.0) if fitted > LEAST_SIZES else 1.0
+    (slope, zero), left, *_ = np.polyfit(h[:fitted] ** used, f[:fitted], 1, w=weights, full=True)
+    spread = max(float(left[0]) / (fitted - LEAST_SIZES), 1.0) if fitted > LEAST_SIZES else 1.0
     noise = 0.0
     if float(np.max(u)) > 0.0 or spread > 1.0:
         noise = math.sqrt(spread * zero_variance(h[:fitted], 1.0 / weights, used, slope if fitted > 2 else None))
-    return Convergence(*series, zero, factor * abs(f[0] - zero) / COVERAGE, noise, order, used, slope, spread)
+    index_error = factor * abs(f[0] - zero) / COVERAGE
+    return Convergence(*series, float(zero), float(index_error), noise, order, used, float(slope), spread)
 
 
 def observed_order(h: Floats, f: Floats, u: Floats) -> float:
@@ -164,17 +165,6 @@ def _weights(f: Floats, u: Floats) -> Floats:
     least = 1e-3 * largest or LEAST_RELATIVE_ERROR * max(float(np.max(np.abs(f))), 1e-300)
     weights: Floats = 1.0 / np.maximum(u, least)
     return weights
-
-
-def _fit(h: Floats, f: Floats, weights: Floats, order: float) -> tuple[float, float, float]:
-    """f0, a, and the weighted sum of squares that is left."""
-    target = f * weights
-    design = np.column_stack([np.ones_like(h), h**order]) * weights[:, None]
-    scale = np.abs(design).max(axis=0)
-    solution, *_ = np.linalg.lstsq(design / scale, target, rcond=None)
-    solution = solution / scale
-    left = target - design @ solution
-    return float(solution[0]), float(solution[1]), float(left @ left)
 
 
 # ---- runs that differ in packing or domain
