@@ -161,16 +161,14 @@ def track_density(run: WheelRun) -> tuple[float, float]:
     ground = ground_points(run)
     radius, width = run.radius, run.number("wheel_width")
     left, bottom = height_left(run), run.floor - run.ground_level
-    x, y, size = ground.x[:, 0], ground.x[:, 1], ground.size
-    parts = []
     stations = np.linspace(-1.3 * radius, -0.6 * radius, 5)
-    for low, high in zip(stations[:-1], stations[1:]):
-        touches = ~((x > high + size) | (x < low - size))
-        near = np.flatnonzero(touches & (np.abs(y) < 0.25 * width + size))
-        reach = 0.5 * size[near, None, None] * _IN_SPHERE
-        points = (ground.x[near, None, :] + reach).reshape(-1, 3)
-        mass = np.repeat(ground.mass[near] / len(_IN_SPHERE), len(_IN_SPHERE))
-        along, across, z = points.T
-        inside = (along > low) & (along < high) & (np.abs(across) < 0.25 * width) & (z > bottom)
-        parts.append(mass[inside].sum() / ((high - low) * 0.5 * width * left))
+    x, y, size = ground.x[:, 0], ground.x[:, 1], ground.size
+    beside = np.abs(y) < 0.25 * width + size
+    near = np.flatnonzero((x > stations[0] - size) & (x < stations[-1] + size) & beside)
+    reach = 0.5 * size[near, None, None] * _IN_SPHERE
+    along, across, z = (ground.x[near, None, :] + reach).reshape(-1, 3).T
+    mass = np.repeat(ground.mass[near] / len(_IN_SPHERE), len(_IN_SPHERE))
+    inside = (np.abs(across) < 0.25 * width) & (z > bottom)
+    sums, _ = np.histogram(along[inside], stations, weights=mass[inside])
+    parts = sums / (np.diff(stations) * 0.5 * width * left)
     return float(np.mean(parts)), float(np.std(parts, ddof=1) / np.sqrt(len(parts)))

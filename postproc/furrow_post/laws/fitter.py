@@ -146,7 +146,6 @@ class Fit:
     residuals: Floats  # of the rows that were fitted
     held: Floats  # of those held out
     slope: Floats
-    covariance: Floats
     correlation: Floats
     singular_values: Floats
     directions: Floats
@@ -401,7 +400,6 @@ def judge(
         residuals=at_end,
         held=rows[held] if held is not None else np.zeros(0),
         slope=slope,
-        covariance=covariance,
         correlation=correlation,
         singular_values=singular,
         directions=directions.T,

@@ -107,8 +107,6 @@ class Verdict:
     """The verdict on two values of one quantity."""
 
     quantity: Quantity
-    first: str  # whose values: labels of runs, or "measured"
-    second: str
     agreement: Agreement
     sentence: str
     with_measurement: bool = False
@@ -136,7 +134,7 @@ def judge(a: Entry, b: Entry) -> Verdict:
         sentence += f" ({100 * difference / a.value:+.0f} %)"
     if math.isfinite(allowed):
         sentence += f", {quantity.scale * allowed:.2g} allowed{' by the known parts' if unknown else ''}"
-    return Verdict(quantity, a.source, b.source, agreement, sentence, MEASURED in (a.kind, b.kind), unknown)
+    return Verdict(quantity, agreement, sentence, MEASURED in (a.kind, b.kind), unknown)
 
 
 def remedies(unknown: Sequence[str]) -> list[str]:
