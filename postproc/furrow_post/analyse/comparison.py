@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The same scene on several grounds: aligned, with uncertainties and verdicts.
+"""The same scene on several grounds: aligned, with uncertainties and verdicts; compare.txt, compare.csv, compare.h5.
 
 Refused are runs whose conditions differ too far (conditions.py).
 """
@@ -8,42 +8,36 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
+import h5py
 import numpy as np
 import pandas as pd
 
-from ..csv_table import read_numbers
+from ..csv_table import in_cells, read_numbers, write_rows
 from ..errors import ResultsError
-from ..formatting import percent
+from ..formatting import duration, percent
 from ..laws.prediction import Prediction
 from ..read.wheel_run import WheelRun
 from ..run.summary import SteadyValue
 from ..uncertainty.budget import Budget
 from ..uncertainty.cost_table import FamilyKey, Row, families
-from ..uncertainty.verdict import (
-    BEST,
-    COVERAGE,
-    FORMULA,
-    MEASURED,
-    QUANTITIES,
-    RUN,
-    TRACK_DENSITY,
-    Entry,
-    Quantity,
-    Verdict,
-    judge,
-    summed_up,
-)
+from ..uncertainty.verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, TRACK_DENSITY
+from ..uncertainty.verdict import Entry, Quantity, Verdict, conclusion, judge, summed_up
 from ..uncertainty.whole_error import Families, RunErrors
 from .conditions import TOLERANCES, Difference, incomparable, require_comparable
-from .density import track_density
-from .wheel_histories import settling_curve
+from .density import sections, track_density
+from .wheel_histories import cruise_history, settling_curve
 
 NAME_IN_RUN = {"sinkage": "hub_drop", "coefficient": "resistance_coefficient"}
 NAME_IN_REFERENCE = {"sinkage": "sinkage_m", "coefficient": "resistance"}
 NEAR = {"depth": (0.9, 1.1), "density": (0.85, 1.15)}  # measurements near a run, over its depth and density
 COLUMNS = {"depth": "depth_m", "density": "density_kgm3"}  # of them in a reference.csv
 ROUNDING = 1e-9  # of a ratio of two decimal numbers
+SHOWN_CONDITIONS = (
+    *("load", "speed", "slip", "slip_by_vehicle_speed", "wheel_diameter", "wheel_width", "depth", "density"),
+)
+Line = dict[str, str | float]
 
 
 @dataclass
@@ -77,6 +71,11 @@ class Comparison:
     def overall_of_best_estimates(self) -> str:
         """The same of the runs' best estimates; empty where fewer than two are known."""
         return f"{BEST.capitalize()}: {summed_up(self.best_estimates, 'runs')}" if self.best_estimates else ""
+
+    def findings(self) -> list[str]:
+        """The sentences of all verdicts, then the remarks."""
+        sentences = [v.sentence for v in (*self.verdicts, *self.best_estimates)]
+        return sentences + [f"also: {text}" for text in self.remarks]
 
 
 def uniquely_labelled(runs: Sequence[WheelRun]) -> list[WheelRun]:
@@ -228,3 +227,84 @@ def measured_entries(path: Path, run: WheelRun) -> list[Entry]:
     note = f"mean and scatter of {len(rows)} tests"
     columns = [(quantity, rows[NAME_IN_REFERENCE[quantity.key]]) for quantity in QUANTITIES]
     return [Entry(q, MEASURED, column.mean(), Budget(time=column.std()), MEASURED, note) for q, column in columns]
+
+
+# ---- for people and programs
+
+
+def table_rows(result: Comparison) -> list[Line]:
+    """Lines of compare.csv: texts and SI numbers."""
+    lines: list[Line] = []
+    for e in (*result.entries, *result.tracks.values()):
+        parts = e.parts if e.of_run else Budget()
+        line: Line = {"quantity": e.quantity.name, "source": e.source, "kind": e.kind, "value": e.value}
+        line |= {"uncertainty": e.uncertainty, **{f"u_{name}": parts.part(name) for name in Budget.NAMES}}
+        lines.append({**line, "cpu_time": e.cpu_time, "note": e.note})
+    return lines
+
+
+def parts_cell(entry: Entry) -> str:
+    """Parts of an entry's uncertainty in its unit, and what is unknown; empty for others than runs."""
+    return entry.parts.scaled(entry.quantity.scale).parts_text() if entry.of_run else ""
+
+
+def comparison_report(result: Comparison) -> str:
+    """The tables and the verdict for a person."""
+    wide = max([len(e.label) for e in result.entries] + [10])
+    lines = ["Conditions"]
+    for name in SHOWN_CONDITIONS:
+        texts = [run.text(name, "?") for run in result.runs]
+        lines.append(f"  {name.replace('_', ' '):22} " + "   ".join(dict.fromkeys(texts)))
+    for run in result.runs:
+        size = f"{run.ground}, {run.describe_size()}, {run.model} model, {run.elements} {run.elements_name}"
+        lines.append(f"  {run.label:{wide}}  {size}")
+    for quantity in QUANTITIES:
+        lines += ["", f"  {quantity.label:{wide}}  {'':18} {'cost':9}parts of the error"]
+        for e in result.of(quantity):
+            notes = ", ".join(filter(None, [parts_cell(e), e.note]))
+            lines.append(f"  {e.label:{wide}}  {e.text():18} {duration(e.cpu_time):9}{notes}".rstrip())
+    if result.tracks:
+        lines += ["", f"  {TRACK_DENSITY.label:{wide}}  {'':27} parts of the error"]
+        lines += [f"  {e.label:{wide}}  {e.text():27} {parts_cell(e)}" for e in result.tracks.values()]
+    lines += ["", "± is one standard error, from the parts that are known. Verdicts allow two."]
+    if result.differences:
+        lines += ["", "COMPARED ALTHOUGH CONDITIONS DIFFER"]
+        lines += [f"  {d.condition}: {d.text}" for d in result.differences]
+    verdicts = (result.overall(), result.overall_of_best_estimates())
+    unknown = [part for verdict in (*result.verdicts, *result.best_estimates) for part in verdict.unknown]
+    return "\n".join([*lines, "", *conclusion(verdicts, result.findings(), unknown)])
+
+
+def write_comparison(result: Comparison, folder: Path) -> None:
+    """compare.txt, compare.csv, compare.h5."""
+    folder.mkdir(parents=True, exist_ok=True)
+    report = comparison_report(result)
+    (folder / "compare.txt").write_text(report + "\n", encoding="utf-8")
+    lines = table_rows(result)
+    head = "# SI units; uncertainties are one standard error; empty: not known"
+    write_rows(folder / "compare.csv", [in_cells(line, 9) for line in lines], [head])
+    with h5py.File(folder / "compare.h5", "w") as content:
+        _write_hdf5(content, result, lines)
+
+
+def _write_hdf5(content: Any, result: Comparison, lines: list[Line]) -> None:
+    table = content.create_group("table")
+    for name, sample in lines[0].items():
+        values = [line[name] for line in lines]
+        kind = h5py.string_dtype() if isinstance(sample, str) else np.float64
+        table[name] = np.array(values, dtype=kind)
+    content.attrs["verdict"] = result.overall()
+    content.attrs["unit"] = "SI; uncertainties are one standard error, NaN: not known"
+    for run in result.runs:
+        group = content.create_group(f"runs/{run.label.replace('/', '_')}")
+        for name, values in cruise_history(run)._asdict().items():
+            group[f"history/{name}"] = values
+        for name, values in settling_curve(run)._asdict().items():
+            group[f"settling/{name}"] = values
+        for name, condition in run.conditions.items():
+            group.attrs[name] = condition.value
+        if run.has_density:
+            for name, cut in zip(("lengthwise", "across"), sections(run)):
+                part = group.create_group(f"density/{name}")
+                part["density"], part["edges"] = cut.density, cut.across_edges
+                part["z_edges"] = cut.z_edges

@@ -9,8 +9,7 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from ..analyse.comparison import Comparison
-from ..analyse.comparison_report import findings, parts_cell
+from ..analyse.comparison import Comparison, parts_cell
 from ..uncertainty.verdict import QUANTITIES
 from ..uncertainty.whole_error import RunErrors, headline
 from ..formatting import duration, in_unit
@@ -53,7 +52,7 @@ def verdict_values(result: Comparison) -> dict[str, Any]:
     """Verdict, findings and differences of a comparison."""
     return {
         "verdict": result.overall(),
-        "findings": findings(result),
+        "findings": result.findings(),
         "differences": [f"{each.condition}: {each.text}" for each in result.differences],
     }
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from furrow_post.analyse import comparison, comparison_report, conditions
+from furrow_post.analyse import comparison, conditions
 from furrow_post.analyse.comparison import Comparison, best_estimates
 from furrow_post.uncertainty.budget import Budget
 from furrow_post.uncertainty.cost_table import families
@@ -221,8 +221,8 @@ class CompareTest(FolderTest):
             result.overall_of_best_estimates(),
             "Best estimate: The runs agree in hub drop.",
         )
-        self.assertIn(verdict.sentence, comparison_report.findings(result))
-        kinds = [line["kind"] for line in comparison_report.table_rows(result)]
+        self.assertIn(verdict.sentence, result.findings())
+        kinds = [line["kind"] for line in comparison.table_rows(result)]
         self.assertEqual(kinds, [BEST] * 2)
         self.assertEqual(Comparison([run]).overall_of_best_estimates(), "")
 
@@ -232,7 +232,7 @@ class CompareTest(FolderTest):
         (found,) = result.of(HUB_DROP, FORMULA)
         self.assertEqual((found.source, found.value), ("made", 0.04))
         self.assertEqual(result.verdicts, [])
-        said = comparison_report.comparison_report(result).split("Verdict\n")[1]
+        said = comparison.comparison_report(result).split("Verdict\n")[1]
         self.assertEqual(said, "  none: there is nothing to compare the run with")
 
 

@@ -8,8 +8,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 from furrow_post.analyse import comparison
-from furrow_post.analyse.comparison import compare
-from furrow_post.analyse.comparison_report import comparison_report, table_rows
+from furrow_post.analyse.comparison import compare, comparison_report, table_rows
 from furrow_post.uncertainty.whole_error import SIZES, RunErrors, headline, report
 from furrow_post.csv_table import read_rows
 from furrow_post.figures.page import results_tables, run_values
