@@ -25,7 +25,7 @@ from ..uncertainty.cost_table import FamilyKey, Row, families
 from ..uncertainty.verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, TRACK_DENSITY
 from ..uncertainty.verdict import Entry, Quantity, Verdict, conclusion, judge, summed_up
 from ..uncertainty.whole_error import Families, RunErrors
-from .conditions import TOLERANCES, Difference, incomparable, require_comparable
+from .conditions import TOLERANCES, Difference, incomparable, require_comparable, require_different_labels
 from .density import sections, track_density
 from .wheel_histories import cruise_history, settling_curve
 
@@ -101,7 +101,8 @@ def compare(
     """
     runs = uniquely_labelled(runs)
     result = Comparison(runs, differences=incomparable(runs))
-    require_comparable("run", [run.label for run in runs], result.differences, anyway)
+    require_different_labels("runs", [run.label for run in runs])
+    require_comparable("runs", result.differences, anyway)
     known = families(table) if table else {}
     for run in runs:
         errors = RunErrors(run, known)

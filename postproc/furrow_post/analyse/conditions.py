@@ -81,12 +81,16 @@ def incomparable(runs: Sequence[WheelRun]) -> list[Difference]:
     return found
 
 
-def require_comparable(what: str, labels: Sequence[str], differences: Sequence[Difference], anyway: bool) -> None:
-    """what: "run". @raises ResultsError for two equal labels, and with every difference unless compared anyway"""
+def require_different_labels(what: str, labels: Sequence[str]) -> None:
+    """what: "runs". @raises ResultsError for two equal labels"""
     if len(set(labels)) < len(labels):
-        raise ResultsError(f"two {what}s are called '{commonest(labels)}'; write LABEL=FOLDER")
+        raise ResultsError(f"two {what} are called '{commonest(labels)}'; write LABEL=FOLDER")
+
+
+def require_comparable(what: str, differences: Sequence[Difference], anyway: bool) -> None:
+    """what: "runs". @raises ResultsError with every difference unless compared anyway"""
     if differences and not anyway:
         reasons = "\n".join(f"  {d.condition}: {d.text}" for d in differences)
         raise ResultsError(
-            f"these {what}s are not comparable:\n{reasons}\n  --anyway compares them all the same, and says so"
+            f"these {what} are not comparable:\n{reasons}\n  --anyway compares them all the same, and says so"
         )

@@ -23,7 +23,7 @@ from ..read.laboratory import LaboratoryTest, PointRun, cell_curve
 from ..read.wheel_run import GROUNDS_OF_CELLS
 from ..uncertainty.statistics import rms
 from ..uncertainty.verdict import COVERAGE, conclusion
-from .conditions import Difference, Tolerance, require_comparable
+from .conditions import Difference, Tolerance, require_comparable, require_different_labels
 
 PLATE_LEVELS = (0.05, 0.1, 0.2, 0.3, 0.5)  # sinkage over depth of the ground
 STRESS_LEVELS = (2e3, 1e4, 5e4, 1e5, 2e5, 5e5)  # [Pa]
@@ -169,11 +169,12 @@ class CurveComparison:
 
 def compare_curves(curves: Sequence[Curve], anyway: bool = False) -> CurveComparison:
     """Values at common levels. @raises ResultsError where tests are not the same"""
+    require_different_labels("curves", [curve.label for curve in curves])
     if len({curve.kind for curve in curves}) > 1:
         what = ", ".join(f"{c.label} is a {c.kind.value}" for c in curves)
         raise ResultsError(f"these tests are not comparable: {what}")
     kind, differences = curves[0].kind, _differences(curves)
-    require_comparable("test", [curve.label for curve in curves], differences, anyway)
+    require_comparable("tests", differences, anyway)
     plate = kind is CurveKind.PLATE
     depth = curves[0].facts.get("depth", 1.0)
     wanted = [share * depth for share in PLATE_LEVELS] if plate else list(STRESS_LEVELS)
