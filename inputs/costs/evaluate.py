@@ -7,7 +7,7 @@ A table keeps the comments above its rows.
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from furrow_post.analyse import cost_table
+from furrow_post.uncertainty import cost_table
 from furrow_post.csv_table import read_rows
 from furrow_post.read.wheel_run import read_wheel_run
 from furrow_post.run.case import Case, named_values, script_case

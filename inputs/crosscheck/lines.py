@@ -4,10 +4,10 @@
 import math
 from collections.abc import Iterable, Mapping
 
-from furrow_post.analyse.budget import Budget
-from furrow_post.analyse.judgement import judge
+from furrow_post.uncertainty.budget import Budget
 from furrow_post.analyse.plates import pressure_at
-from furrow_post.analyse.verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, Agreement, Entry, Quantity
+from furrow_post.uncertainty.verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN
+from furrow_post.uncertainty.verdict import Agreement, Entry, Quantity, judge
 from furrow_post.formatting import in_unit, percent
 from furrow_post.csv_table import markdown
 

@@ -11,10 +11,10 @@ from lines import OutputRow, line_of
 from wheel_cases import BEKKER
 
 from furrow_post.analyse import curves, plates
-from furrow_post.analyse.budget import Budget
+from furrow_post.uncertainty.budget import Budget
 from furrow_post.analyse.curves import Curve
-from furrow_post.analyse.verdict import FORMULA, MEASURED, Entry
-from furrow_post.analyse.terrain_values import terrain
+from furrow_post.uncertainty.verdict import FORMULA, MEASURED, Entry
+from furrow_post.laws.terrain_values import terrain
 from furrow_post.csv_table import read_numbers
 from furrow_post.figures.curves_figure import Line, draw_curves
 from furrow_post.study.study_files import Output

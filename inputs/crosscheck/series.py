@@ -16,10 +16,10 @@ import numpy as np
 from cases import BASE, SERIES, Made, Planned
 from lines import OutputRow, entry_of, line_of, series_value
 
-from furrow_post.analyse.budget import Budget
-from furrow_post.analyse.cost_table import Row, row_of
-from furrow_post.analyse.grid_convergence import same_size
-from furrow_post.analyse.verdict import BEST, COVERAGE, HUB_DROP, QUANTITIES, RUN, Entry
+from furrow_post.uncertainty.budget import Budget
+from furrow_post.uncertainty.cost_table import Row, row_of
+from furrow_post.uncertainty.grid_convergence import same_size
+from furrow_post.uncertainty.verdict import BEST, COVERAGE, HUB_DROP, QUANTITIES, RUN, Entry
 from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
 from furrow_post.read.wheel_run import read_wheel_run
 

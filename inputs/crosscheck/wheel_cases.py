@@ -9,12 +9,13 @@ from typing import NamedTuple
 from cases import BASE, CHECKS, FLOW, HERE, INPUTS, LAW, Made
 from lines import OutputRow, line_of, number_line
 
-from furrow_post.analyse import cost_table, empirical
+from furrow_post.laws import empirical
+from furrow_post.uncertainty import cost_table
 from furrow_post.analyse.comparison import Comparison, compare, formula_entries
 from furrow_post.analyse.flow import compare_flows
-from furrow_post.analyse.prediction import Prediction
-from furrow_post.analyse.terrain_values import terrain
-from furrow_post.analyse.verdict import BEST, QUANTITIES, RUN, Entry
+from furrow_post.laws.prediction import Prediction
+from furrow_post.laws.terrain_values import terrain
+from furrow_post.uncertainty.verdict import BEST, QUANTITIES, RUN, Entry
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.figures.comparison_figure import draw_comparison

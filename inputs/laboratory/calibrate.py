@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Adjusts parameters of a ground of grains to measurements with laboratory tests.
 
-Least squares in the logarithms of the parameters (furrow_post/analyse/fitter.py). Differences of 20 % make the
+Least squares in the logarithms of the parameters (furrow_post/laws/fitter.py). Differences of 20 % make the
 Jacobian, all runs of which have one packing. Runs are kept in FOLDER: a calibration that was stopped continues where it
 was. The result goes to CALIBRATION.result.json, next to the input. It states whether the calibration has converged, and
 by what factor the next step would change each parameter.
@@ -33,8 +33,8 @@ import numpy as np
 
 from task import Task, read_task
 
-from furrow_post.analyse.fitter import Fit, Parameter, Search, fit
-from furrow_post.analyse.statistics import rms
+from furrow_post.laws.fitter import Fit, Parameter, Search, fit
+from furrow_post.uncertainty.statistics import rms
 from furrow_post.arguments import at_least, fraction, path
 from furrow_post.arrays import Floats
 from furrow_post.cli.main import start

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from furrow_post.analyse.fitter import Parameter, fit
+from furrow_post.laws.fitter import Parameter, fit
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError
 from furrow_post.laboratory.evaluation import values_of

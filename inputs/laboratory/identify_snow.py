@@ -27,7 +27,7 @@ from snow_laws import LAWS, Material, deviation, fit, is_fitted, is_ratio, judge
 from snow_paths import Points, predicted
 from snow_record import Row, Values, read_record, record_of, write_record
 
-from furrow_post.analyse.statistics import rms
+from furrow_post.uncertainty.statistics import rms
 from furrow_post.arguments import path
 from furrow_post.cli.main import start
 from furrow_post.cli.parameters import Given, argument, command, option

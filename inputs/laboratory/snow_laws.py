@@ -11,8 +11,8 @@ import numpy as np
 from snow_paths import Points, confined, end_of, predicted
 from snow_record import Place, Row
 
-from furrow_post.analyse.fitter import Parameter, Search
-from furrow_post.analyse.fitter import fit as least_squares
+from furrow_post.laws.fitter import Parameter, Search
+from furrow_post.laws.fitter import fit as least_squares
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError
 

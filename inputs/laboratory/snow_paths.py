@@ -10,8 +10,8 @@ import numpy as np
 from snow_record import STRAINS, TRIAXIAL_STRAIN, Row, Values
 
 from furrow_post.analyse.evaluations import last_piece
-from furrow_post.analyse.fitter import NotComputed
-from furrow_post.analyse.point_curves import PointPaths
+from furrow_post.laws.fitter import NotComputed
+from furrow_post.laws.point_curves import PointPaths
 from furrow_post.arrays import Floats
 from furrow_post.run.tools import Tools
 

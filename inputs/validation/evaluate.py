@@ -7,9 +7,9 @@ from typing import Any
 
 import pandas
 
-from furrow_post.analyse import model_error, whole_error
-from furrow_post.analyse.model_error import Case, Test
-from furrow_post.analyse.whole_error import SizeSeries
+from furrow_post.uncertainty import model_error, whole_error
+from furrow_post.uncertainty.model_error import Case, Test
+from furrow_post.uncertainty.whole_error import SizeSeries
 from furrow_post.tables.frames import rows_of
 
 DIGITS = {"size_mm": 3, "core_minutes": 3, "hub_drop_m": 4, "numerical": 2, "whole": 2}

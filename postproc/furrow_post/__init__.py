@@ -2,9 +2,10 @@
 """Pictures, plots, tables and studies from the results of Furrow.
 
 Folders, each of which imports only from those to its left: run (what makes and records runs), read
-(files), study (runs and values of studies), analyse (numbers), laboratory (tests on samples), figures,
-sweep (curves over a variable), scene (the command inputs/run), soil (soil cards), tables (what studies
-make of their runs), surrogate (fast models), cli (the command furrow-post). Steady values and their standard errors come from the program
+(files), study (runs and values of studies), uncertainty (the error of a number), laws (formulas, and fits of
+parameters), analyse (readings of runs), laboratory (tests on samples), figures, sweep (curves over a
+variable), scene (the command inputs/run), soil (soil cards), tables (what studies make of their runs),
+surrogate (fast models), cli (the command furrow-post). Steady values and their standard errors come from the program
 furrow-resistance, never from here.
 """
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from furrow_post.analyse.grid_convergence import grid_convergence
+from furrow_post.uncertainty.grid_convergence import grid_convergence
 from furrow_post.study.runs import Runs
 from furrow_post.tables.element_measures import cone_resistance, plate
 

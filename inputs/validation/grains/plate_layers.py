@@ -16,7 +16,7 @@ import furrow_post  # first: says which of the next ones are missing
 import numpy as np
 import pandas
 
-from furrow_post.analyse.statistics import rms
+from furrow_post.uncertainty.statistics import rms
 from furrow_post.arguments import path, positive
 from furrow_post.cli.main import start
 from furrow_post.cli.parameters import Given, argument, command

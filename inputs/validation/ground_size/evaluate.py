@@ -7,7 +7,7 @@ import numpy as np
 import pandas
 from scipy.optimize import least_squares
 
-from furrow_post.analyse.statistics import rms
+from furrow_post.uncertainty.statistics import rms
 
 NOISE, SHARE = 0.02, 0.2  # of a change: what a fit may miss, at small and at large changes
 

@@ -3,7 +3,7 @@
 
 import math
 
-from furrow_post.analyse.empirical import snow_traction
+from furrow_post.laws.empirical import snow_traction
 
 LOAD, RADIUS, WIDTH = 6237.0, 0.37, 0.272  # [N], [m] of the wheel
 TYRE_AREA = 0.03645  # [m2] on a hard surface at 179 kPa [Shoop2001] Table 6

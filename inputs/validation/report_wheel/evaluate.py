@@ -5,8 +5,8 @@ import math
 
 import numpy as np
 
-from furrow_post.analyse import empirical
-from furrow_post.analyse.compressed_snow import CompressedSnow
+from furrow_post.laws import empirical
+from furrow_post.laws.compressed_snow import CompressedSnow
 
 LOAD, RADIUS, WIDTH, PRESSURE = 636 * 9.80665, 0.37, 0.272, 179e3  # [N], [m], [Pa]
 # [Shoop2001] Table 3 as fresh_snow_shoop.yaml has it, beta 22.53 degrees: p_b [Pa] at eps

@@ -3,8 +3,8 @@
 
 import numpy as np
 
-from furrow_post.analyse.compressed_snow import CompressedSnow, cam_clay_confined
-from furrow_post.analyse.empirical import nrmm_resistance, nrmm_sinkage  # for study.yaml
+from furrow_post.laws.compressed_snow import CompressedSnow, cam_clay_confined
+from furrow_post.laws.empirical import nrmm_resistance, nrmm_sinkage  # for study.yaml
 from furrow_post.arrays import Floats
 
 __all__ = ["nrmm_resistance", "nrmm_sinkage"]

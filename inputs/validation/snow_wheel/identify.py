@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Identifies the beginning of the field snow's compaction curve, three stresses, on the calibration rows with the tyre.
 
-The fitter of laws (furrow_post/analyse/fitter.py) sees the twelve calibration rows only: sinkage and resistance, over
+The fitter of laws (furrow_post/laws/fitter.py) sees the twelve calibration rows only: sinkage and resistance, over
 the goals, and, weakly, the density under the wheel. Runs are made at three depths; rows between them are interpolated.
 Every run is kept. Each trial is printed and goes to identified.csv next to this file.
 """
@@ -21,9 +21,9 @@ import furrow_post  # first: reports which of the next ones are missing
 
 import numpy as np
 
-from furrow_post.analyse.compressed_snow import cam_clay_material
-from furrow_post.analyse.fitter import Parameter, Search, fit
-from furrow_post.analyse.statistics import rms
+from furrow_post.laws.compressed_snow import cam_clay_material
+from furrow_post.laws.fitter import Parameter, Search, fit
+from furrow_post.uncertainty.statistics import rms
 from furrow_post.arguments import at_least, path, positive
 from furrow_post.arrays import Floats
 from furrow_post.cli.main import start

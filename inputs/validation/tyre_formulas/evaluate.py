@@ -6,8 +6,8 @@ from functools import cache
 from statistics import fmean
 from typing import Any
 
-from furrow_post.analyse.cone_formulas import Formulas, formulas_for
-from furrow_post.analyse.whole_error import budgets_of
+from furrow_post.laws.cone_formulas import Formulas, formulas_for
+from furrow_post.uncertainty.whole_error import budgets_of
 from furrow_post.cli.answer_command import Compared, EstimatedTyre, compared, estimate_tyre
 from furrow_post.errors import ResultsError
 from furrow_post.run.summary import Summary
@@ -67,7 +67,7 @@ def combinations() -> Iterator[dict[str, Any]]:
 def formulas(size: str, soil: str, slip: float = SLIP) -> Formulas:
     """Formulas for one tyre on the cone index of one soil."""
     ground = soil_named(soil)
-    return formulas_for(ground.kind, ground.cone_index, estimate(size).tyre, slip, "R" in size)
+    return formulas_for(ground.kind, ground.cone_index, estimate(size).tyre, slip)
 
 
 def compared_with_formulas(run: Run) -> list[dict[str, Any]]:

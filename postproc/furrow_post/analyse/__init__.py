@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Numbers made of results: densities, comparisons, errors, costs, soil parameters, formulas."""
+"""Readings of runs: densities, stresses, flow and histories, and runs next to each other."""

@@ -13,15 +13,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
-from ..arrays import Booleans, Floats
+from ..arrays import Floats
 from ..csv_table import write_rows
 from ..errors import ResultsError
 from ..formatting import with_error
 from ..read.results import Results
 from ..read.terrain import Outline, Terrain, is_half, read_terrain_fields
-from .half_space import ELASTIC, SOEHNE, below_ellipse, below_point_loads
-from .statistics import block_mean
+from ..laws.half_space import ELASTIC, SOEHNE, below_ellipse, below_point_loads
+from ..uncertainty.statistics import block_mean
 
 TOUCHING = 0.1  # of the largest surface stress: what more stress counts as contact
 TOUCHING_RANGE = (0.05, 0.2)  # the same, whose areas give the error of the area
@@ -32,6 +33,12 @@ FAR = 0.2  # of the particles of a layer: those whose density is that before
 AT_END = 0.1  # of the history: whose loads must be steady
 UNSTEADY = 0.05  # of the load
 CARRIED = (0.5, 2.0)  # share of the load in the uppermost particles of a body that presses steadily
+# Layers of particles below the track: depth, distance and place of the largest vertical stress, from the axle [m];
+# stresses [Pa], boussinesq_surface from the stress of the uppermost particles; densities [kg/m3]
+LAYERS = (
+    *("depth", "distance", "place", "vertical_stress", "vertical_stress_error", "mean_stress", "mean_stress_error"),
+    *("boussinesq_surface", "density", "density_error", "density_before"),
+)
 
 
 @dataclass(frozen=True)
@@ -62,52 +69,24 @@ class Contact:
 
     def ellipse_error(self, depth: Floats, concentration: float) -> Floats:
         """By the error of the area [Pa]."""
-        ends = [
-            self.ellipse(depth, concentration, self.area + sign * self.area_error)
-            for sign in (-1, 1)
-        ]
-        error: Floats = 0.5 * np.abs(ends[0] - ends[1])
+        less, more = (self.ellipse(depth, concentration, self.area + sign * self.area_error) for sign in (-1, 1))
+        error: Floats = 0.5 * np.abs(less - more)
         return error
 
 
 @dataclass(frozen=True)
 class Compaction:
-    """Compaction of one run, an entry for each layer of particles from above [m, Pa, kg/m3]."""
+    """Compaction of one run. layers: a row for each layer of particles from above, with the columns LAYERS."""
 
     label: str
     inflation: float  # pressure [Pa]; NaN for a rigid wheel
     contact: Contact
-    depth: Floats
-    distance: Floats
-    place: Floats  # of the largest vertical stress, from the axle
-    stress: Floats
-    stress_error: Floats
-    mean_stress: Floats
-    mean_stress_error: Floats
-    of_surface: Floats  # by Boussinesq from the stress of the uppermost particles
-    density: Floats
-    density_error: Floats
-    density_before: Floats
+    layers: pd.DataFrame
 
     @property
     def title(self) -> str:
         inflated = "" if math.isnan(self.inflation) else f", {1e-3 * self.inflation:.0f} kPa"
         return f"{self.label}: {1e-3 * self.contact.load:.2f} kN{inflated}"
-
-
-@dataclass(frozen=True)
-class _Ground:
-    """Particles at the end of a run; x, y: from the centre of the body [m]."""
-
-    x: Floats
-    y: Floats
-    z: Floats
-    level: Floats  # at which they stood [m]
-    stress: Floats  # vertical, less the weight above [Pa]
-    mean_stress: Floats
-    density: Floats
-    density_before: Floats
-    track: Booleans  # those of the rows next to the middle plane
 
 
 def read_compaction(folder: Path | str, label: str | None = None) -> Compaction:
@@ -122,127 +101,91 @@ def read_compaction(folder: Path | str, label: str | None = None) -> Compaction:
         )
     ground = _read_ground(results, terrain, body)
     length = float(np.ptp(body.surface.x[:, 0]))
-    contact, loads = _contact(results, ground, terrain, length)
+    below = ground[ground.x.abs() < 0.5 * length]
+    loads = _surface_loads(below[below.level == ground.level.max()], terrain)
+    contact = _contact(results, loads, terrain.spacing)
     lowest = float(body.surface.x[:, 2].min())
     travelled = float(np.ptp(results.columns["x"])) > BEHIND[1] * length
+    track = ground[ground.track]
     rows = []
-    for level in np.unique(ground.level[ground.track])[::-1]:
-        layer = ground.track & (ground.level == level) & (np.abs(ground.x) < 0.5 * length)
-        depth = terrain.level - float(level)
-        reach = max(PEAK_REACH * math.hypot(contact.semi_axes[0], depth), 2.5 * terrain.spacing)
-        if np.count_nonzero(layer) < LEAST_PARTICLES:
+    for level, layer in below[below.track].groupby("level", sort=True):
+        if len(layer) < LEAST_PARTICLES:
             continue
-        place, stress, error = _peak(ground.x[layer], ground.stress[layer], reach)
-        _, mean_stress, mean_error = _peak(ground.x[layer], ground.mean_stress[layer], reach)
-        near = np.abs(ground.x[layer] - place) < reach
-        distance = lowest - float(ground.z[layer][near].mean())
-        density, density_error, before = _density(ground, float(level), length, travelled)
-        below = distance - loads.depth
-        surface = math.nan
-        if below > 0:
-            surface = below_point_loads(below, loads.x - place, loads.y, loads.force, ELASTIC)
-        stresses = [stress, error, mean_stress, mean_error, surface]
-        rows.append([depth, distance, place, *stresses, density, density_error, before])
+        depth = terrain.level - level
+        reach = max(PEAK_REACH * math.hypot(contact.semi_axes[0], depth), 2.5 * terrain.spacing)
+        x = layer.x.to_numpy()
+        place, *stress = _peak(x, layer.stress.to_numpy(), reach)
+        _, *mean_stress = _peak(x, layer.mean_stress.to_numpy(), reach)
+        distance = lowest - layer.z[np.abs(x - place) < reach].mean()
+        z = distance - (terrain.level - ground.level.max())  # below the centres of the uppermost particles
+        surface = below_point_loads(z, loads.x - place, loads.y, loads.force, ELASTIC) if z > 0 else math.nan
+        density = _density(track[track.level == level], length, travelled)
+        rows.append([depth, distance, place, *stress, *mean_stress, surface, *density])
     if not rows:
         raise ResultsError(f"{results.folder}: has no terrain below the body")
     wheel = results.styles().of_kind("wheel")
     inflation = wheel.number("pressure") if wheel and wheel.has("pressure") else math.nan
-    columns = np.array(rows).T
-    return Compaction(label or results.folder.resolve().name, inflation, contact, *columns)
+    layers = pd.DataFrame(rows[::-1], columns=LAYERS)
+    return Compaction(label or results.folder.resolve().name, inflation, contact, layers)
 
 
-def _read_ground(results: Results, terrain: Terrain, body: Outline) -> _Ground:
-    """Half models are mirrored."""
+def _read_ground(results: Results, terrain: Terrain, body: Outline) -> pd.DataFrame:
+    """Particles at the end of a run; half models are mirrored. Columns: x, y from the centre of the body and z [m];
+    level at which they stood [m]; track: in the rows next to the middle plane; stress: vertical, less the weight
+    above, and mean_stress [Pa]; density, and before [kg/m3]; volume [m3]."""
     fields = read_terrain_fields(results.folder)
     fields.require_finite("vertical_stress", "pressure")
-    vertical, pressure = fields["vertical_stress"], fields["pressure"]
-    if is_half(fields["initial_position"]):
-        vertical, pressure = np.tile(vertical, 2), np.tile(pressure, 2)
-    level = np.round(terrain.initial_position[:, 2], 6)
-    y = terrain.initial_position[:, 1] - body.centre[1]
-    before = _density_before(level, np.abs(y), terrain.density)
-    soil = results.styles().of_kind("terrain")
-    gravity = soil.number("gravity", 0.0) if soil else 0.0
-    surcharge = soil.number("surcharge", 0.0) if soil else 0.0
-    weight = surcharge + gravity * _mass_above(level, before, terrain.level)
+    halves = 2 if is_half(fields["initial_position"]) else 1
     x, lateral, z = (terrain.x - [body.centre[0], body.centre[1], 0.0]).T
-    track = np.abs(y) < np.abs(y).min() + 0.5 * terrain.spacing
-    return _Ground(
-        x, lateral, z, level, -vertical - weight, pressure, terrain.density, before, track
-    )
+    aside = np.abs(terrain.initial_position[:, 1] - body.centre[1])
+    columns = {"x": x, "y": lateral, "z": z, "level": np.round(terrain.initial_position[:, 2], 6), "aside": aside}
+    ground = pd.DataFrame({**columns, "density": terrain.density, "volume": terrain.volume})
+    ground["track"] = aside < aside.min() + 0.5 * terrain.spacing
+    ground["mean_stress"] = np.tile(fields["pressure"], halves)
+    # particles of each layer that stand farthest from the track
+    far = ground.aside >= ground.groupby("level").aside.transform("quantile", 1 - FAR)
+    ground["before"] = ground.level.map(ground[far].groupby("level").density.median())
+    soil = results.styles().of_kind("terrain")
+    gravity, surcharge = (soil.number(name, 0.0) if soil else 0.0 for name in ("gravity", "surcharge"))
+    weight = surcharge + gravity * ground.level.map(_mass_above(ground.groupby("level").before.mean(), terrain.level))
+    ground["stress"] = -np.tile(fields["vertical_stress"], halves) - weight
+    return ground
 
 
-def _density_before(level: Floats, aside: Floats, density: Floats) -> Floats:
-    """Density around each particle (n) before: median of those of its layer that stand farthest from the track."""
-    levels, layer = np.unique(level, return_inverse=True)
-    found = np.empty(len(levels))
-    for k in range(len(levels)):
-        inside = layer == k
-        far = aside >= np.quantile(aside[inside], 1 - FAR)
-        found[k] = np.median(density[inside & far])
-    before: Floats = found[layer]
-    return before
-
-
-def _mass_above(level: Floats, density: Floats, top: float) -> Floats:
-    """[kg/m2] of undisturbed ground above particles (n)."""
-    levels, layer = np.unique(level, return_inverse=True)
-    mean = np.bincount(layer, density) / np.bincount(layer)
+def _mass_above(density: pd.Series, top: float) -> pd.Series:
+    """[kg/m2] of undisturbed ground above the middle of layers, from their densities by level."""
+    levels = density.index.to_numpy()
     edges = np.append(0.5 * (levels[1:] + levels[:-1]), top)  # upper ends of the layers
-    thick = np.diff(edges, prepend=2 * levels[0] - edges[0])
-    mass = mean * thick
-    above: Floats = (np.cumsum(mass[::-1])[::-1] - 0.5 * mass)[layer]
-    return above
+    mass = density * np.diff(edges, prepend=2 * levels[0] - edges[0])
+    return mass[::-1].cumsum()[::-1] - 0.5 * mass
 
 
-@dataclass(frozen=True)
-class _SurfaceLoads:
-    """Forces [N] of the uppermost particles, at places from the body's centre [m]."""
-
-    x: Floats
-    y: Floats
-    force: Floats
-    depth: float  # of their centres below the surface [m]
+def _surface_loads(top: pd.DataFrame, terrain: Terrain) -> pd.DataFrame:
+    """The uppermost particles with their areas [m2] before, seen from above, and forces [N]."""
+    area = top.volume * top.density / top.before / (2 * (terrain.level - top.level))
+    return top.assign(area=area, force=top.stress * area)
 
 
-def _contact(
-    results: Results, ground: _Ground, terrain: Terrain, length: float
-) -> tuple[Contact, _SurfaceLoads]:
-    top = float(ground.level.max())
-    near = (ground.level == top) & (np.abs(ground.x) < 0.5 * length)
-    depth = terrain.level - top
-    volume = terrain.volume[near] * terrain.density[near] / ground.density_before[near]
-    area = volume / (2 * depth)  # that a particle had, seen from above
-    stress, x, y = ground.stress[near], ground.x[near], ground.y[near]
+def _contact(results: Results, loads: pd.DataFrame, spacing: float) -> Contact:
     load = results.columns["force_z"]
-    carried = float((stress * area).sum() / load[-1]) if load[-1] > 0 else 0.0
+    carried = float(loads.force.sum() / load[-1]) if load[-1] > 0 else 0.0
     if not CARRIED[0] < carried < CARRIED[1]:
         raise ResultsError(
             f"{results.folder}: the stress of the uppermost particles carries {100 * carried:.0f} % of "
             f"the load; allowed: {100 * CARRIED[0]:.0f} to {100 * CARRIED[1]:.0f} %. End the run while "
             "the body presses steadily on the ground"
         )
-    touching = stress > TOUCHING * stress.max()
-    areas = [area[stress > share * stress.max()].sum() for share in TOUCHING_RANGE]
-    found = float(area[touching].sum())
-    x_contact, y_contact, weights = x[touching], y[touching], area[touching]
-    middle = np.average(x_contact, weights=weights)
-    moments = [np.average(v**2, weights=weights) for v in (x_contact - middle, y_contact)]
+    touching, wide, narrow = (loads[loads.stress > share * loads.stress.max()] for share in (TOUCHING, *TOUCHING_RANGE))
+    area = float(touching.area.sum())
+    along = touching.x - np.average(touching.x, weights=touching.area)
+    moments = [np.average(v**2, weights=touching.area) for v in (along, touching.y)]
     ratio = math.sqrt(moments[0] / moments[1]) if min(moments) > 0 else 1.0
-    semi_axes = math.sqrt(found / math.pi * ratio), math.sqrt(found / math.pi / ratio)
+    semi_axes = math.sqrt(area / math.pi * ratio), math.sqrt(area / math.pi / ratio)
     # rows of particles at the edge, each uncertain by its place in a particle's width
-    edge = 2 * math.pi * math.sqrt(0.5 * (semi_axes[0] ** 2 + semi_axes[1] ** 2)) / terrain.spacing
-    area_error = math.hypot(0.5 * float(areas[0] - areas[1]), terrain.spacing**2 * math.sqrt(edge / 12))
+    edge = 2 * math.pi * math.sqrt(0.5 * (semi_axes[0] ** 2 + semi_axes[1] ** 2)) / spacing
+    area_error = math.hypot(0.5 * (wide.area.sum() - narrow.area.sum()), spacing**2 * math.sqrt(edge / 12))
     last = load[-max(2, int(AT_END * len(load))) :]
-    contact = Contact(
-        float(load[-1]),
-        float(last.std() / last.mean()),
-        found,
-        area_error,
-        semi_axes,
-        carried,
-    )
-    return contact, _SurfaceLoads(x, y, stress * area, depth)
+    return Contact(float(load[-1]), float(last.std() / last.mean()), area, area_error, semi_axes, carried)
 
 
 def _peak(x: Floats, values: Floats, reach: float) -> tuple[float, float, float]:
@@ -261,69 +204,44 @@ def _peak(x: Floats, values: Floats, reach: float) -> tuple[float, float, float]
     return float(middle + reach * top), float(at @ fit), error
 
 
-def _density(
-    ground: _Ground, level: float, length: float, travelled: bool
-) -> tuple[float, float, float]:
-    """Below the track behind the axle, or under a body that did not travel; its standard error over
-    stretches, and the density before."""
+def _density(layer: pd.DataFrame, length: float, travelled: bool) -> tuple[float, float, float]:
+    """Density of a layer of the track behind the axle, or under a body that did not travel; its standard error over
+    parts along the track, and the density before."""
     low, high = BEHIND
-    if travelled:
-        place = (ground.x > -high * length) & (ground.x < -low * length)
-    else:
-        place = np.abs(ground.x) < 0.05 * length
-    chosen = np.flatnonzero(ground.track & (ground.level == level) & place)
-    if len(chosen) == 0:
+    chosen = layer.x.between(-high * length, -low * length, "neither") if travelled else layer.x.abs() < 0.05 * length
+    behind = layer[chosen].sort_values("x")
+    if behind.empty:
         return math.nan, math.nan, math.nan
-    order = chosen[np.argsort(ground.x[chosen])]
-    mean, error = block_mean(ground.density[order], 4)
-    return mean, error, float(ground.density_before[order].mean())
+    return *block_mean(behind.density.to_numpy(), 4), float(behind.before.mean())
 
 
 def compaction_rows(runs: Sequence[Compaction]) -> list[dict[str, object]]:
     """A row for each layer of each run."""
     rows: list[dict[str, object]] = []
     for run in runs:
-        contact, z = run.contact, run.distance
-        factors = (ELASTIC, *SOEHNE)
-        circle = contact.circle(z)
-        formulas = np.array([contact.ellipse(z, factor) for factor in factors])
-        errors = np.array([contact.ellipse_error(z, factor) for factor in factors])
-        names = ("boussinesq_ellipse", *(f"soehne_{factor:.0f}" for factor in SOEHNE))
-        for k in range(len(z)):
-            row: dict[str, object] = {
-                "run": run.label,
-                "load_N": f"{contact.load:.1f}",
-                "inflation_kPa": "" if math.isnan(run.inflation) else f"{1e-3 * run.inflation:g}",
-                "depth_m": f"{run.depth[k]:.4f}",
-                "distance_m": f"{z[k]:.4f}",
-                "place_m": f"{run.place[k]:.4f}",
-                "vertical_stress_kPa": _kilopascals(run.stress[k]),
-                "vertical_stress_error_kPa": _kilopascals(run.stress_error[k]),
-                "mean_stress_kPa": _kilopascals(run.mean_stress[k]),
-                "mean_stress_error_kPa": _kilopascals(run.mean_stress_error[k]),
-                "boussinesq_surface_kPa": _kilopascals(run.of_surface[k]),
-                "boussinesq_circle_kPa": _kilopascals(circle[k]),
-            }
-            for name, values, error in zip(names, formulas, errors):
-                row[f"{name}_kPa"] = _kilopascals(values[k])
-                row[f"{name}_error_kPa"] = _kilopascals(error[k])
-            row["density_kgm3"] = f"{run.density[k]:.5g}"
-            row["density_error_kgm3"] = f"{run.density_error[k]:.2g}"
-            row["density_before_kgm3"] = f"{run.density_before[k]:.5g}"
-            rows.append(row)
+        contact, layers = run.contact, run.layers.set_index(["depth", "distance", "place"])
+        z = run.layers.distance.to_numpy()
+        stresses = layers.drop(columns=["density", "density_error", "density_before"])
+        stresses["boussinesq_circle"] = contact.circle(z)
+        for name, factor in (("boussinesq_ellipse", ELASTIC), *((f"soehne_{factor:.0f}", factor) for factor in SOEHNE)):
+            stresses[name], stresses[f"{name}_error"] = contact.ellipse(z, factor), contact.ellipse_error(z, factor)
+        head = {"run": run.label, "load_N": f"{contact.load:.1f}"}
+        head["inflation_kPa"] = "" if math.isnan(run.inflation) else f"{1e-3 * run.inflation:g}"
+        for places, values, densities in zip(stresses.index, stresses.to_dict("records"), layers.itertuples()):
+            rows.append({
+                **head,
+                **{f"{name}_m": f"{place:.4f}" for name, place in zip(stresses.index.names, places)},
+                **{f"{name}_kPa": "" if math.isnan(value) else f"{1e-3 * value:.4g}" for name, value in values.items()},
+                "density_kgm3": f"{densities.density:.5g}",
+                "density_error_kgm3": f"{densities.density_error:.2g}",
+                "density_before_kgm3": f"{densities.density_before:.5g}",
+            })  # fmt: skip
     return rows
 
 
-def _kilopascals(stress: float) -> str:
-    return "" if math.isnan(stress) else f"{1e-3 * stress:.4g}"
-
-
 def write_compaction(runs: Sequence[Compaction], file: Path) -> None:
-    write_rows(
-        file,
-        compaction_rows(runs),
-        ["# below the track at the end of the run; furrow_post/analyse/compaction.py defines the columns"],
-    )
+    head = "# below the track at the end of the run; furrow_post/analyse/compaction.py defines the columns"
+    write_rows(file, compaction_rows(runs), [head])
 
 
 def report(run: Compaction) -> list[str]:
@@ -337,7 +255,5 @@ def report(run: Compaction) -> list[str]:
         f"  the uppermost particles carry {100 * contact.carried:.0f} % of the load",
     ]
     if contact.fluctuation > UNSTEADY:
-        lines.append(
-            f"  the load fluctuates by {100 * contact.fluctuation:.0f} % at the end: run longer"
-        )
+        lines.append(f"  the load fluctuates by {100 * contact.fluctuation:.0f} % at the end: run longer")
     return lines

@@ -21,14 +21,15 @@ from ..errors import ResultsError, content_of
 from ..formatting import percent
 from ..read.laboratory import LaboratoryTest, PointRun, cell_curve
 from ..read.wheel_run import GROUNDS_OF_CELLS
-from .judgement import remedies
-from .statistics import commonest, rms
-from .verdict import COVERAGE
+from ..uncertainty.statistics import rms
+from ..uncertainty.verdict import COVERAGE, conclusion
+from .conditions import Difference, Tolerance, require_comparable, require_different_labels
 
 PLATE_LEVELS = (0.05, 0.1, 0.2, 0.3, 0.5)  # sinkage over depth of the ground
 STRESS_LEVELS = (2e3, 1e4, 5e4, 1e5, 2e5, 5e5)  # [Pa]
+PARTS = 40  # of the curve of a plate, each with its mean
 SAME = 1e-3  # of a value: curves of material points without an error agree within it
-TOLERANCES = {"size": 0.02, "depth": 0.06, "density": 0.1, "speed": 0.02}  # relative
+TOLERANCES = {"size": Tolerance(0.02), "depth": Tolerance(0.06), "density": Tolerance(0.1), "speed": Tolerance(0.02)}
 
 
 class CurveKind(enum.Enum):
@@ -70,11 +71,12 @@ class Curve:
     @property
     def unknown(self) -> list[str]:
         """Parts of its error that are unknown: "size of soft". A material point has none."""
-        if self.kind is CurveKind.OEDOMETER:
-            parts = [] if self.ground in GROUNDS_OF_CELLS else ["packing", "size"]
-        else:
-            parts = ["domain", "size"] + ([] if self.ground in GROUNDS_OF_CELLS else ["packing"])
-        return [f"{part} of {self.label}" for part in sorted(parts)]
+        parts = ["domain"] if self.kind is CurveKind.PLATE else []
+        if self.ground not in GROUNDS_OF_CELLS:
+            parts.append("packing")
+        if parts:
+            parts.append("size")
+        return [f"{part} of {self.label}" for part in parts]
 
     @property
     def box(self) -> float:
@@ -87,69 +89,54 @@ def is_curve(folder: Path | str) -> bool:
     return any((Path(folder) / name).is_file() for name in ("facts.txt", "point.csv"))
 
 
-def _smoothed(x: Floats, y: Floats, parts: int = 40) -> tuple[Floats, Floats, Floats]:
-    """Means over equal stretches of x and y, and the standard error of each of y."""
-    groups = [g for g in np.array_split(np.arange(len(x)), min(parts, len(x))) if len(g)]
-    errors = [y[g].std(ddof=1) / math.sqrt(len(g)) if len(g) > 1 else 0.0 for g in groups]
-    return (
-        np.array([x[g].mean() for g in groups]),
-        np.array([y[g].mean() for g in groups]),
-        np.array(errors),
-    )
-
-
 def read_curve(folder: Path | str, label: str | None = None) -> Curve:
     """@raises ResultsError for a folder of another test"""
     folder = Path(folder)
     if (folder / "point.csv").is_file():
-        return _point_curve(PointRun(folder), label)
+        point = PointRun(folder)
+        return _oedometer(label or point.label, "continuum", *_compression(point), {})
     test = LaboratoryTest(folder)
-    facts = test.numbers
     if test.kind == "plate":
-        rows = test.curve()
-        rows = rows[rows[:, 1] > 0]
-        if len(rows) < 2:
-            raise ResultsError(f"{folder}: the plate does not come into the ground; run it longer")
-        x, y, noise = _smoothed(rows[:, 1], rows[:, 3])
-        ground = test.facts.get("family", "grains")
-        return Curve(label or folder.name, CurveKind.PLATE, ground, x, y, facts, noise)
-    if test.kind == "oedometer":
-        with content_of(folder, "run the test again"):
-            _, stress, density = cell_curve(test.curve())
-        axial = np.maximum.accumulate(np.maximum(stress[:, 2], 1e-3))
-        end = int(np.argmax(stress[:, 2])) + 1
-        facts["density"] = float(density[0])  # that of the facts is of a grain's substance
-        return Curve(
-            label or test.label,
-            CurveKind.OEDOMETER,
-            "grains",
-            axial[:end],
-            density[:end] / density[0],
-            facts,
-            np.zeros(end),
-        )
-    raise ResultsError(f"{folder}: compare takes plates and oedometers, not '{test.kind}'")
+        return _plate(label or folder.name, test)
+    if test.kind != "oedometer":
+        raise ResultsError(f"{folder}: compare takes plates and oedometers, not '{test.kind}'")
+    with content_of(folder, "run the test again"):
+        _, stress, density = cell_curve(test.curve())
+    # the density of the facts is of a grain's substance
+    return _oedometer(label or test.label, "grains", stress[:, 2], density, test.numbers)
 
 
-def _point_curve(point: PointRun, label: str | None) -> Curve:
+def _plate(label: str, test: LaboratoryTest) -> Curve:
+    """Means over equal parts of the curve, and the standard error of each."""
+    rows = test.curve()
+    rows = rows[rows[:, 1] > 0]
+    if len(rows) < 2:
+        raise ResultsError(f"{test.folder}: the plate does not come into the ground; run it longer")
+    groups = np.array_split(rows[:, [1, 3]], min(PARTS, len(rows)))
+    x, y = np.array([group.mean(axis=0) for group in groups]).T
+    noise = [group[:, 1].std(ddof=1) / math.sqrt(len(group)) if len(group) > 1 else 0.0 for group in groups]
+    return Curve(label, CurveKind.PLATE, test.facts.get("family", "grains"), x, y, test.numbers, np.array(noise))
+
+
+def _compression(point: PointRun) -> tuple[Floats, Floats]:
+    """Axial stress [Pa] and density [kg/m3] of a path. @raises ResultsError where it is no compression"""
     stress, density = point.columns["axial_stress"], point.columns["density"]
     if len(stress) < 2 or not (stress.max() > 1.0 and density.min() > 0):
         raise ResultsError(
             f"{point.columns.file}: is no compression; compare takes oedometers ('furrow-point "
             "run' of a confined path)"
         )
+    return stress, density
+
+
+def _oedometer(label: str, ground: str, stress: Floats, density: Floats, facts: dict[str, float]) -> Curve:
+    """Up to the greatest stress."""
     end = int(np.argmax(stress)) + 1
+    floor = 1e-3 if ground == "grains" else 1.0  # [Pa]
     rising = np.maximum.accumulate(stress[:end])
-    keep = rising > 1.0
-    return Curve(
-        label or point.label,
-        CurveKind.OEDOMETER,
-        "continuum",
-        rising[keep],
-        (density[:end] / density[0])[keep],
-        {"density": float(density[0])},
-        np.zeros(keep.sum()),
-    )
+    kept = rising > 1.0 if ground == "continuum" else np.full(end, True)
+    x, y = np.maximum(rising, floor)[kept], (density[:end] / density[0])[kept]
+    return Curve(label, CurveKind.OEDOMETER, ground, x, y, {**facts, "density": float(density[0])}, np.zeros(len(x)))
 
 
 @dataclass
@@ -161,7 +148,7 @@ class CurveComparison:
     values: Floats  # (levels, curves)
     errors: Floats  # (levels, curves): noise of the curves, in y's unit
     findings: list[str] = field(default_factory=list)
-    differences: list[str] = field(default_factory=list)  # of conditions, compared all the same
+    differences: list[Difference] = field(default_factory=list)  # of conditions, compared all the same
 
     @property
     def kind(self) -> CurveKind:
@@ -182,21 +169,12 @@ class CurveComparison:
 
 def compare_curves(curves: Sequence[Curve], anyway: bool = False) -> CurveComparison:
     """Values at common levels. @raises ResultsError where tests are not the same"""
-    labels = [curve.label for curve in curves]
-    if len(set(labels)) < len(labels):
-        raise ResultsError(f"two curves are called '{commonest(labels)}'; write LABEL=FOLDER")
-    kinds = {curve.kind for curve in curves}
-    if len(kinds) > 1:
+    require_different_labels("curves", [curve.label for curve in curves])
+    if len({curve.kind for curve in curves}) > 1:
         what = ", ".join(f"{c.label} is a {c.kind.value}" for c in curves)
         raise ResultsError(f"these tests are not comparable: {what}")
-    kind = kinds.pop()
-    differences = _differences(curves)
-    if differences and not anyway:
-        raise ResultsError(
-            "these tests are not comparable:\n  "
-            + "\n  ".join(differences)
-            + "\n  --anyway compares them all the same, and says so"
-        )
+    kind, differences = curves[0].kind, _differences(curves)
+    require_comparable("tests", differences, anyway)
     plate = kind is CurveKind.PLATE
     depth = curves[0].facts.get("depth", 1.0)
     wanted = [share * depth for share in PLATE_LEVELS] if plate else list(STRESS_LEVELS)
@@ -204,10 +182,8 @@ def compare_curves(curves: Sequence[Curve], anyway: bool = False) -> CurveCompar
     if not levels:
         ranges = "; ".join(f"{c.label}: {c.x[0]:.3g} to {c.x[-1]:.3g}" for c in curves)
         raise ResultsError(f"these tests have no common range: {ranges}")
-    values, errors = (
-        np.column_stack([_at_levels(c, levels, y) for c, y in pairs])
-        for pairs in ([(c, c.y) for c in curves], [(c, c.noise) for c in curves])
-    )
+    values = np.column_stack([_at_levels(c, levels, c.y) for c in curves])
+    errors = np.column_stack([_at_levels(c, levels, c.noise) for c in curves])
     result = CurveComparison(list(curves), levels, values, errors, differences=differences)
     for k, curve in enumerate(curves[1:], 1):
         ratio = np.log(values[:, k] / values[:, 0])
@@ -227,15 +203,14 @@ def _at_levels(curve: Curve, levels: Sequence[float], y: Floats) -> Floats:
     return np.interp(levels, curve.x, y)
 
 
-def _differences(curves: Sequence[Curve]) -> list[str]:
-    """Facts that differ beyond TOLERANCES, in words."""
+def _differences(curves: Sequence[Curve]) -> list[Difference]:
+    """Facts that differ beyond TOLERANCES."""
     differences = []
-    for name, relative in TOLERANCES.items():
-        have = [(curve.label, curve.facts[name]) for curve in curves if name in curve.facts]
-        values = [value for _, value in have]
-        if len(values) > 1 and max(values) - min(values) > relative * max(values):
-            texts = "; ".join(f"{label}: {value:.4g}" for label, value in have)
-            differences.append(f"{name}: {texts} (they may differ by {100 * relative:g} %)")
+    for name, tolerance in TOLERANCES.items():
+        have = {curve.label: curve.facts[name] for curve in curves if name in curve.facts}
+        if len(have) > 1 and tolerance.exceeded(list(have.values())):
+            texts = "; ".join(f"{label}: {value:.4g}" for label, value in have.items())
+            differences.append(Difference(name, f"{texts} ({tolerance.text()})"))
     return differences
 
 
@@ -249,11 +224,8 @@ def curve_report(result: CurveComparison) -> str:
     for level, row in zip(result.levels, result.values):
         cells = "".join(f"{scale * v:{wide}.4g}" for v in row)
         lines.append(f"{result.kind.level_text(level):14}{cells}")
-    lines += ["", *(f"COMPARED ALTHOUGH THEY DIFFER: {d}" for d in result.differences)]
-    lines += ["Verdict", f"  {result.verdict()}", *(f"  - {finding}" for finding in result.findings)]
-    if needed := remedies(result.unknown):
-        lines += ["", "To find what is unknown", *(f"  - {line}" for line in needed)]
-    return "\n".join(lines)
+    lines += ["", *(f"COMPARED ALTHOUGH THEY DIFFER: {d.condition}: {d.text}" for d in result.differences)]
+    return "\n".join([*lines, *conclusion([result.verdict()], result.findings, result.unknown)])
 
 
 def write_curves(result: CurveComparison, folder: Path) -> None:

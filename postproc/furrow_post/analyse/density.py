@@ -17,6 +17,7 @@ from ..arrays import Floats
 from ..read.terrain import read_terrain_fields
 from ..read.wheel_run import WheelRun
 
+CELL = 0.01  # [m] of a section
 Interval = tuple[float, float]  # low, high [m]
 
 
@@ -51,12 +52,8 @@ def _points_in_sphere() -> Floats:
     shells = [((2 * k + 1) / 8) ** (1 / 3) for k in range(4)]  # of equal volume
     golden = np.pi * (3 - np.sqrt(5))
     heights = (np.arange(12) + 0.5) / 6 - 1
-    directions = np.array(
-        [
-            (np.sqrt(1 - u * u) * np.cos(k * golden), np.sqrt(1 - u * u) * np.sin(k * golden), u)
-            for k, u in enumerate(heights)
-        ]
-    )
+    turns, across = golden * np.arange(12), np.sqrt(1 - heights**2)
+    directions = np.column_stack([across * np.cos(turns), across * np.sin(turns), heights])
     return np.concatenate([shell * directions for shell in shells])
 
 
@@ -82,9 +79,7 @@ def ground_points(run: WheelRun) -> GroundPoints:
     low, high = reference.corners
     space = (high - low)[0] * (high - low)[1] * (run.number("depth") - run.below)
     # without a bulk density: density over that at the start
-    substance = (
-        run.number("density") * space / solid if "density" in run.conditions else space / solid
-    )
+    substance = (run.number("density") if "density" in run.conditions else 1.0) * space / solid
     x = grains.nearest_image(grains.x - origin)
     return GroundPoints(x, substance * volume, volume, 2 * grains.radius, True)
 
@@ -95,65 +90,52 @@ def _blurred(image: Floats, reach: float) -> Floats:
     return blurred
 
 
-def section(
-    ground: GroundPoints,
-    along: int,
-    slab_axis: int,
-    slab: Interval,
-    across: Interval,
-    z: Interval,
-    cell: float,
-) -> Section:
+def section(ground: GroundPoints, along: int, slab: Interval, across: Interval, z: Interval, cell: float) -> Section:
     """Density over the plane (along, z), mean over the slab of the third axis.
 
-    along, slab_axis: 0 or 1; cell: edge of the picture's cells [m].
+    along: 0 or 1; cell: edge of the picture's cells [m].
     """
     across_edges, z_edges = (np.arange(low, high + 0.5 * cell, cell) for low, high in (across, z))
     area = cell * cell * (slab[1] - slab[0])
-    place = ground.x[:, slab_axis]
+    place = ground.x[:, 1 - along]
     inside = (place > slab[0] - ground.size) & (place < slab[1] + ground.size)
-    x, mass = ground.x[inside], ground.mass[inside]
-    volume, size = ground.volume[inside], ground.size[inside]
+    size = ground.size[inside]
     offsets = 0.5 * _IN_SPHERE if ground.grains else _IN_CUBE
-    points = (x[:, None, :] + size[:, None, None] * offsets).reshape(-1, 3)
-    kept = (points[:, slab_axis] > slab[0]) & (points[:, slab_axis] < slab[1])
+    points = (ground.x[inside, None, :] + size[:, None, None] * offsets).reshape(-1, 3)
+    kept = (points[:, 1 - along] > slab[0]) & (points[:, 1 - along] < slab[1])
     edges: Any = (z_edges, across_edges)  # numpy's type hints know no edges of each axis
-    mass_in, volume_in = (
-        np.histogram2d(
-            points[kept, 2],
-            points[kept, along],
-            edges,
-            weights=np.repeat(weight / len(offsets), len(offsets))[kept],
-        )[0]
-        for weight in (mass, volume)
-    )
+
+    def blurred(weight: Floats, reach: float) -> Floats:
+        """Sums of what the points carry in each cell, smoothed over so many cells."""
+        weights = np.repeat(weight[inside] / len(offsets), len(offsets))[kept]
+        return _blurred(np.histogram2d(points[kept, 2], points[kept, along], edges, weights=weights)[0], reach)
+
     if ground.grains:
         reach = 0.5 * float(np.mean(size)) / cell
-        room = _blurred(np.ones_like(mass_in), reach)  # what edges of the picture and floor cut off
-        smooth = _blurred(mass_in, reach) / room / area
-        solid = _blurred(volume_in, reach) / room / area
+        smooth, solid = (blurred(weight, reach) for weight in (ground.mass, ground.volume))
+        room = _blurred(np.ones_like(solid), reach) * area  # what edges of the picture and floor cut off
+        solid = solid / room
         typical = np.median(solid[solid > 0.05]) if (solid > 0.05).any() else 1.0
-        return Section(np.where(solid > 0.45 * typical, smooth, np.nan), across_edges, z_edges)
+        return Section(np.where(solid > 0.45 * typical, smooth / room, np.nan), across_edges, z_edges)
     # A little smoothing: the particles' cubes overlap and leave gaps where the ground is sheared.
     reach = 0.35 * float(np.mean(size)) / cell
-    mass_in, volume_in = _blurred(mass_in, reach), _blurred(volume_in, reach)
+    mass, volume = (blurred(weight, reach) for weight in (ground.mass, ground.volume))
     with np.errstate(invalid="ignore", divide="ignore"):
-        density = np.where(volume_in > 0.45 * area, mass_in / volume_in, np.nan)
-    return Section(density, across_edges, z_edges)
+        return Section(np.where(volume > 0.45 * area, mass / volume, np.nan), across_edges, z_edges)
 
 
-def sections(run: WheelRun, cell: float = 0.01) -> tuple[Section, Section]:
+def sections(run: WheelRun) -> tuple[Section, Section]:
     """Lengthwise in the wheel's middle plane, and across in the track behind the wheel.
 
-    The window is the same for every run of a wheel. cell [m]
+    The window is the same for every run of a wheel.
     """
     ground = ground_points(run)
     radius, width, depth = run.radius, run.number("wheel_width"), run.number("depth")
     z = (-depth, 0.4 * depth)
     middle = (-0.25 * width, 0.25 * width)
-    lengthwise = section(ground, 0, 1, middle, (-1.7 * radius, 1.4 * radius), z, cell)
+    lengthwise = section(ground, 0, middle, (-1.7 * radius, 1.4 * radius), z, CELL)
     behind = (-1.3 * radius, -0.6 * radius)
-    across = section(ground, 1, 0, behind, (-1.4 * width, 1.4 * width), z, cell)
+    across = section(ground, 1, behind, (-1.4 * width, 1.4 * width), z, CELL)
     return lengthwise, across
 
 
@@ -179,16 +161,14 @@ def track_density(run: WheelRun) -> tuple[float, float]:
     ground = ground_points(run)
     radius, width = run.radius, run.number("wheel_width")
     left, bottom = height_left(run), run.floor - run.ground_level
-    x, y, size = ground.x[:, 0], ground.x[:, 1], ground.size
-    parts = []
     stations = np.linspace(-1.3 * radius, -0.6 * radius, 5)
-    for low, high in zip(stations[:-1], stations[1:]):
-        touches = ~((x > high + size) | (x < low - size))
-        near = np.flatnonzero(touches & (np.abs(y) < 0.25 * width + size))
-        reach = 0.5 * size[near, None, None] * _IN_SPHERE
-        points = (ground.x[near, None, :] + reach).reshape(-1, 3)
-        mass = np.repeat(ground.mass[near] / len(_IN_SPHERE), len(_IN_SPHERE))
-        along, across, z = points.T
-        inside = (along > low) & (along < high) & (np.abs(across) < 0.25 * width) & (z > bottom)
-        parts.append(mass[inside].sum() / ((high - low) * 0.5 * width * left))
+    x, y, size = ground.x[:, 0], ground.x[:, 1], ground.size
+    beside = np.abs(y) < 0.25 * width + size
+    near = np.flatnonzero((x > stations[0] - size) & (x < stations[-1] + size) & beside)
+    reach = 0.5 * size[near, None, None] * _IN_SPHERE
+    along, across, z = (ground.x[near, None, :] + reach).reshape(-1, 3).T
+    mass = np.repeat(ground.mass[near] / len(_IN_SPHERE), len(_IN_SPHERE))
+    inside = (np.abs(across) < 0.25 * width) & (z > bottom)
+    sums, _ = np.histogram(along[inside], stations, weights=mass[inside])
+    parts = sums / (np.diff(stations) * 0.5 * width * left)
     return float(np.mean(parts)), float(np.std(parts, ddof=1) / np.sqrt(len(parts)))

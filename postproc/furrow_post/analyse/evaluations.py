@@ -90,16 +90,12 @@ def wheel_means(wheel: Mapping[str, Floats], low: float, high: float) -> Floats:
 def steady_columns(wheel: Mapping[str, Floats], window: float) -> dict[str, float]:
     """Means over the last part of the travel [m], with half the difference between its halves."""
     end = float(wheel["x"][-1] - wheel["x"][0])
-    value = wheel_means(wheel, end - window, end)
-    first = wheel_means(wheel, end - window, end - window / 2)
-    change = 0.5 * np.abs(wheel_means(wheel, end - window / 2, end) - first)
-    return {
-        "sinkage_m": round(float(value[0]), 4),
-        "sinkage_change_m": round(float(change[0]), 4),
-        "resistance": round(float(value[1]), 4),
-        "resistance_change": round(float(change[1]), 4),
-        "slip": round(float(value[2]), 3),
-    }
+    sinkage, resistance, slip = wheel_means(wheel, end - window, end)
+    middle = end - window / 2
+    changes = 0.5 * np.abs(wheel_means(wheel, middle, end) - wheel_means(wheel, end - window, middle))
+    names = ("sinkage_m", "sinkage_change_m", "resistance", "resistance_change")
+    row = dict(zip(names, (sinkage, changes[0], resistance, changes[1])))
+    return {name: round(float(value), 4) for name, value in row.items()} | {"slip": round(float(slip), 3)}
 
 
 def watched_mean(folder: Path, column: int, columns: int, since: float, step: float) -> float:
@@ -108,9 +104,7 @@ def watched_mean(folder: Path, column: int, columns: int, since: float, step: fl
     return float(watch[watch[:, 0] * step > since, column].mean())
 
 
-def cost_ratio(
-    name: str, seconds: Mapping[str, float], pairs: Sequence[tuple[str, str]]
-) -> list[dict[str, object]]:
+def cost_ratio(name: str, seconds: Mapping[str, float], pairs: Sequence[tuple[str, str]]) -> list[dict[str, object]]:
     """Core seconds of the first run of each pair over those of the second: mean and standard error
     over the pairs, in one row; no row where fewer than two pairs were run.
 
@@ -119,15 +113,8 @@ def cost_ratio(
     ratios = [seconds[dear] / seconds[cheap] for dear, cheap in pairs if {dear, cheap} <= seconds.keys()]
     if len(ratios) < 2:
         return []
-    error = np.std(ratios, ddof=1) / math.sqrt(len(ratios))
-    return [
-        {
-            "run": name,
-            "pairs": len(ratios),
-            "ratio": round(float(np.mean(ratios)), 3),
-            "ratio_error": round(float(error), 3),
-        }
-    ]
+    ratio, error = mean_of_packings(ratios)
+    return [{"run": name, "pairs": len(ratios), "ratio": round(ratio, 3), "ratio_error": round(error, 3)}]
 
 
 def mean_of_packings(values: Sequence[float]) -> tuple[float, float]:

@@ -95,87 +95,71 @@ class FlowComparison:
         return math.isfinite(self.stress_difference)
 
 
-class _Points(NamedTuple):
-    x: Floats  # (n, 2) in the wheel's plane [m]
-    mass: Floats  # (n) [kg]
-    displacement: Floats  # (n, 2) [m]
-    load: Floats  # (n) vertical stress times volume, compression positive [J]
-
-
 def _moved_and_loaded(run: WheelRun) -> tuple[Floats, Floats]:
-    """Displacement (n, 3) [m] and load (n) [J] of the points of density.ground_points, in their
-    order; the load NaN of a run that kept none."""
+    """Displacement (n, 3) [m] and load, vertical stress times volume, compression positive (n) [J], of the points of
+    density.ground_points, in their order; the load NaN of a run that kept none."""
     if run.ground == "continuum":
         fields = read_terrain_fields(run.folder)
         moved: Floats = fields["x"] - fields["initial_position"]
         load: Floats = -fields["vertical_stress"] * fields["volume"]
-        if run.half:
-            return np.concatenate([moved, moved * MIRROR]), np.tile(load, 2)
-        return moved, load
+        return (np.concatenate([moved, moved * MIRROR]), np.tile(load, 2)) if run.half else (moved, load)
     grains = run.results.grains("final")
     moved = grains.displacement_from(run.results.grains("reference"))
-    load = np.full(len(moved), np.nan) if grains.virial is None else -grains.virial[:, 2]
-    return moved, load
+    return moved, np.full(len(moved), np.nan) if grains.virial is None else -grains.virial[:, 2]
 
 
-def _points_in_plane(run: WheelRun) -> tuple[_Points, float]:
-    """Those of the middle half of the wheel's width, and their mean size [m]."""
-    ground, (moved, load) = ground_points(run), _moved_and_loaded(run)
-    middle = np.abs(ground.x[:, 1]) < 0.25 * run.number("wheel_width")
-    above = ground.x[:, 2] > run.floor - run.ground_level
-    followed = middle & above & np.isfinite(moved).all(axis=1)
-    if not followed.any():
-        raise ResultsError(
-            f"{run.label}: has no ground under the wheel whose displacement is known; repeat the "
-            "run with its history and terrain written to the end"
-        )
-    plane = [0, 2]
-    points = _Points(
-        ground.x[followed][:, plane],
-        ground.mass[followed],
-        moved[followed][:, plane],
-        load[followed],
-    )
-    return points, float(np.mean(ground.size[followed]))
+class _Points(NamedTuple):
+    """Points of the middle half of a wheel's width."""
 
+    x: Floats  # (n, 2) in the wheel's plane [m]
+    carried: Floats  # (n, 4) mass [kg], mass times displacement along x and z [kg m], load [J]
+    size: float  # mean [m]
 
-def _coarse_grained(
-    label: str, points: _Points, window: Window, width: float, slab: float, depth: float
-) -> Flow:
-    """slab: [m] across, over which the masses are spread; depth: [m] of the floor"""
-    columns, rows = len(window.x), len(window.z)
-    # mass, mass times displacement along x and z, stress times volume
-    sums = np.zeros((4, rows * columns))
-    moved = points.mass[:, None] * points.displacement
-    carried = np.column_stack([points.mass, moved, points.load])
-    step_x, step_z = window.x[1] - window.x[0], window.z[1] - window.z[0]
-    near_x, near_z = (math.ceil(REACH * width / step) for step in (step_x, step_z))
-    centre_x = np.rint((points.x[:, 0] - window.x[0]) / step_x).astype(int)
-    centre_z = np.rint((points.x[:, 1] - window.z[0]) / step_z).astype(int)
-    for down in range(-near_z, near_z + 1):
-        for along in range(-near_x, near_x + 1):
-            i, j = centre_z + down, centre_x + along
-            inside = (i >= 0) & (i < rows) & (j >= 0) & (j < columns)
-            i, j = i[inside], j[inside]
-            x, z = points.x[inside].T
-            square = (window.x[j] - x) ** 2 + (window.z[i] - z) ** 2
-            weight = np.where(
-                square <= (REACH * width) ** 2, np.exp(-square / (2 * width**2)), 0.0
+    @classmethod
+    def of(cls, run: WheelRun) -> "_Points":
+        """@raises ResultsError where there are none"""
+        ground, (moved, load) = ground_points(run), _moved_and_loaded(run)
+        middle = np.abs(ground.x[:, 1]) < 0.25 * run.number("wheel_width")
+        above = ground.x[:, 2] > run.floor - run.ground_level
+        followed = middle & above & np.isfinite(moved).all(axis=1)
+        if not followed.any():
+            raise ResultsError(
+                f"{run.label}: has no ground under the wheel whose displacement is known; repeat the "
+                "run with its history and terrain written to the end"
             )
-            for total, values in zip(sums, carried[inside].T):
-                total += np.bincount(i * columns + j, weight * values, rows * columns)
-    mass = sums[0].reshape(rows, columns)
-    momentum = sums[1:3].T.reshape(rows, columns, 2)
-    kernel = 2 * math.pi * width**2 * (1 - math.exp(-(REACH**2) / 2)) * slab
-    volume = kernel * norm.cdf((window.z + depth) / width)[:, None]
-    density = mass / volume
-    stress = sums[3].reshape(rows, columns) / volume
-    there = density > COVERED * np.median(density[density > 0])
-    with np.errstate(invalid="ignore", divide="ignore"):
-        displacement = np.where(there[:, :, None], momentum / mass[:, :, None], np.nan)
-    return Flow(
-        label, displacement, np.where(there, density, np.nan), np.where(there, stress, np.nan)
-    )
+        plane, mass = [0, 2], ground.mass[:, None]
+        carried = np.hstack([mass, mass * moved[:, plane], load[:, None]])
+        return cls(ground.x[followed][:, plane], carried[followed], float(np.mean(ground.size[followed])))
+
+    def sums(self, window: Window, width: float) -> Floats:
+        """(rows, columns, 4) of what the points carry, weighted by the kernel's exponential."""
+        columns, rows = len(window.x), len(window.z)
+        sums = np.zeros((4, rows * columns))
+        steps = np.array([window.x[1] - window.x[0], window.z[1] - window.z[0]])
+        near_x, near_z = np.ceil(REACH * width / steps).astype(int)
+        centres = np.rint((self.x - [window.x[0], window.z[0]]) / steps).astype(int)
+        for down in range(-near_z, near_z + 1):
+            for along in range(-near_x, near_x + 1):
+                j, i = (centres + [along, down]).T
+                inside = (i >= 0) & (i < rows) & (j >= 0) & (j < columns)
+                i, j, (x, z) = i[inside], j[inside], self.x[inside].T
+                square = (window.x[j] - x) ** 2 + (window.z[i] - z) ** 2
+                weight = np.where(square <= (REACH * width) ** 2, np.exp(-square / (2 * width**2)), 0.0)
+                for total, values in zip(sums, self.carried[inside].T):
+                    total += np.bincount(i * columns + j, weight * values, rows * columns)
+        found: Floats = sums.T.reshape(rows, columns, 4)
+        return found
+
+    def flow(self, label: str, window: Window, width: float, slab: float, depth: float) -> Flow:
+        """slab: [m] across, over which the masses are spread; depth: [m] of the floor"""
+        sums = self.sums(window, width)
+        kernel = 2 * math.pi * width**2 * (1 - math.exp(-(REACH**2) / 2)) * slab
+        volume = kernel * norm.cdf((window.z + depth) / width)[:, None]
+        density, stress = sums[:, :, 0] / volume, sums[:, :, 3] / volume
+        there = density > COVERED * np.median(density[density > 0])
+        with np.errstate(invalid="ignore", divide="ignore"):
+            displacement = np.where(there[:, :, None], sums[:, :, 1:3] / sums[:, :, :1], np.nan)
+        return Flow(label, displacement, *(np.where(there, field, np.nan) for field in (density, stress)))
 
 
 def _mean_difference(a: Floats, b: Floats) -> float:
@@ -194,40 +178,27 @@ def compare_flows(runs: Sequence[WheelRun], width: float | None = None) -> FlowC
     for run in runs:
         if not run.has_density:
             raise ResultsError(f"{run.label}: has no terrain of grains or of a continuum, and so no flow")
-    taken = [_points_in_plane(run) for run in runs]
-    least = GRAINS_PER_WIDTH * max(size for _, size in taken)
+    taken = [_Points.of(run) for run in runs]
+    least = GRAINS_PER_WIDTH * max(points.size for points in taken)
     kernel = least if width is None else width
     if kernel < least * (1 - 1e-9):
         raise ResultsError(
             f"--width is {1e3 * kernel:.3g} mm; allowed: at least {1e3 * least:.3g} mm, the size "
             "of the coarser ground"
         )
-    radius, depth = runs[0].radius, runs[0].number("depth")
-    slab = 0.5 * runs[0].number("wheel_width")
+    radius, depth, slab = runs[0].radius, runs[0].number("depth"), 0.5 * runs[0].number("wheel_width")
     cell = kernel / CELLS_PER_WIDTH
-    window = Window(
-        np.arange(-1.5 * radius, 1.5 * radius, cell),
-        np.arange(-depth + 0.5 * cell, 0.4 * depth, cell),
-    )
-    a, b = (
-        _coarse_grained(run.label, points, window, kernel, slab, depth)
-        for run, (points, _) in zip(runs, taken)
-    )
+    window = Window(np.arange(-1.5 * radius, 1.5 * radius, cell), np.arange(-depth + 0.5 * cell, 0.4 * depth, cell))
+    a, b = (points.flow(run.label, window, kernel, slab, depth) for run, points in zip(runs, taken))
     both = a.covered & b.covered
     if not both.any():
         raise ResultsError("the two runs have no ground in common under the wheel")
     rho = 0.5 * (a.density + b.density)[both]
-    apart = np.linalg.norm(a.displacement - b.displacement, axis=2)[both]
-    mean = 0.5 * (a.length + b.length)[both]
-    moved = float(np.sum(rho * mean))
-    return FlowComparison(
-        window,
-        kernel,
-        (a, b),
-        float(np.sum(rho * apart)) / moved if moved > 0 else math.nan,
-        _mean_difference(a.density[both], b.density[both]),
-        _mean_difference(a.vertical_stress[both], b.vertical_stress[both]),
-    )
+    apart = float(np.sum(rho * np.linalg.norm(a.displacement - b.displacement, axis=2)[both]))
+    moved = float(np.sum(rho * 0.5 * (a.length + b.length)[both]))
+    density = _mean_difference(a.density[both], b.density[both])
+    stress = _mean_difference(a.vertical_stress[both], b.vertical_stress[both])
+    return FlowComparison(window, kernel, (a, b), apart / moved if moved > 0 else math.nan, density, stress)
 
 
 def flow_report(result: FlowComparison) -> str:
@@ -238,39 +209,27 @@ def flow_report(result: FlowComparison) -> str:
         if result.has_stress
         else "is not known: a run that was interrupted, or of an older Furrow, keeps none of grains"
     )
-    return "\n".join(
-        [
-            f"{a.label} and {b.label} in the wheel's plane, kernel of {1e3 * result.width:.3g} mm",
-            f"  displacement     differs by {100 * result.displacement_difference:.0f} % of its "
-            "mean (0: equal fields, 200 %: opposite)",
-            f"  density          differs by {100 * result.density_difference:.1f} % of its mean",
-            f"  vertical stress  {stress}",
-        ]
-    )
+    lines = [
+        f"{a.label} and {b.label} in the wheel's plane, kernel of {1e3 * result.width:.3g} mm",
+        f"  displacement     differs by {100 * result.displacement_difference:.0f} % of its "
+        "mean (0: equal fields, 200 %: opposite)",
+        f"  density          differs by {100 * result.density_difference:.1f} % of its mean",
+        f"  vertical stress  {stress}",
+    ]
+    return "\n".join(lines)
 
 
 def write_flow(result: FlowComparison, folder: Path) -> None:
     """flow.csv: the numbers; flow.h5: the fields."""
     folder.mkdir(parents=True, exist_ok=True)
-    a, b = result.flows
-    write_rows(
-        folder / "flow.csv",
-        [
-            {
-                "first": a.label,
-                "second": b.label,
-                "kernel_m": result.width,
-                "displacement_difference": result.displacement_difference,
-                "density_difference": result.density_difference,
-                "stress_difference": result.stress_difference,
-            }
-        ],
-        ["# differences as furrow_post/analyse/flow.py defines them"],
-    )
+    labels = {place: flow.label for place, flow in zip(("first", "second"), result.flows)}
+    names = (f"{name}_difference" for name in ("displacement", "density", "stress"))
+    row: dict[str, object] = {**labels, "kernel_m": result.width, **{name: getattr(result, name) for name in names}}
+    write_rows(folder / "flow.csv", [row], ["# differences as furrow_post/analyse/flow.py defines them"])
     with h5py.File(folder / "flow.h5", "w") as content:
         content.attrs["kernel"] = result.width
         content["x"], content["z"] = result.window
-        for place, flow in zip(("first", "second"), result.flows):
+        for place, flow in zip(labels, result.flows):
             group: Any = content.create_group(place)
             group.attrs["label"] = flow.label
             group["displacement"], group["density"] = flow.displacement, flow.density

@@ -6,13 +6,14 @@ As of wheels (cost_table.py), on the logarithm of the pressure.
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from .budget import Budget
+from ..uncertainty.budget import Budget
 from .curves import Curve
-from .grid_convergence import grid_convergence, mean_shift, noise_of, pooled_scatter, same_size
-from .verdict import BEST, RUN, Entry, Quantity
+from ..uncertainty.grid_convergence import grid_convergence, mean_shift, noise_of, pooled_scatter, same_size
+from ..uncertainty.verdict import BEST, RUN, Entry, Quantity
 
 
 def pressure_at(sinkage: float) -> Quantity:
@@ -25,27 +26,25 @@ class PlateFamily:
     """ln p at one sinkage [m] of the curves of one test on one ground, the first being the base."""
 
     def __init__(self, curves: Sequence[Curve], sinkage: float) -> None:
-        self.base = curves[0]
+        self.base, self.sinkage = curves[0], sinkage
         logs = ((curve, _log_at(curve, sinkage)) for curve in curves)
         self.logs = [(curve, log) for curve, log in logs if math.isfinite(log)]
-        self.noise = {
-            id(curve): float(np.interp(sinkage, curve.x, curve.noise)) / math.exp(log)
-            for curve, log in self.logs
-        }
+        self.in_box = [(curve, log) for curve, log in self.logs if same_size(curve.box, self.base.box)]
+
+    def noise(self, curve: Curve, log: float) -> float:
+        """Relative."""
+        return float(np.interp(self.sinkage, curve.x, curve.noise)) / math.exp(log)
 
     def of_size(self, size: float) -> list[float]:
         """ln p of all packings of this size in the base's box."""
-        return [log for curve, log in self.in_box() if same_size(curve.size, size)]
-
-    def in_box(self) -> list[tuple[Curve, float]]:
-        return [(curve, log) for curve, log in self.logs if same_size(curve.box, self.base.box)]
+        return [log for curve, log in self.in_box if same_size(curve.size, size)]
 
     def packing(self) -> float:
         """Relative standard deviation of one packing; 0 of a lattice, NaN where there is one."""
         if self.base.ground == "continuum":
             return 0.0
         sizes: list[float] = []
-        for curve, _ in self.in_box():
+        for curve, _ in self.in_box:
             if not any(same_size(curve.size, size) for size in sizes):
                 sizes.append(curve.size)
         return pooled_scatter(self.of_size(size) for size in sizes)
@@ -63,21 +62,17 @@ class PlateFamily:
         if not math.isfinite(log):
             return []
         value, packing, domain = math.exp(log), self.packing(), self.domain()
-        runs = self.in_box()
-        sizes = [curve.size for curve, _ in runs]
-        size = math.nan
-        best = []
+        parts, best = Budget(self.noise(self.base, log), domain=domain, packing=packing), []
+        sizes = [curve.size for curve, _ in self.in_box]
         if not all(same_size(size, self.base.size) for size in sizes):
             # errors of ln p are relative: those of a value of 1
-            noise = [noise_of(1.0, self.noise[id(curve)], packing) for curve, _ in runs]
-            series = grid_convergence(sizes, [log for _, log in runs], noise)
-            size = series.size_error(self.base.size)
+            noise = [noise_of(1.0, self.noise(*one), packing) for one in self.in_box]
+            series = grid_convergence(sizes, [log for _, log in self.in_box], noise)
+            parts = replace(parts, size=series.size_error(self.base.size))
             estimate = math.exp(series.value)
-            parts = Budget(0.0, estimate * series.error, estimate * domain, 0.0)
-            best = [Entry(quantity, self.base.label, estimate, parts, BEST)]
-        relative = (self.noise[id(self.base)], size, domain, packing)
-        parts = Budget(*(value * error for error in relative))
-        return [Entry(quantity, self.base.label, value, parts, RUN), *best]
+            relative = Budget(0.0, series.error, domain, 0.0)
+            best = [Entry(quantity, self.base.label, estimate, relative.scaled(estimate), BEST)]
+        return [Entry(quantity, self.base.label, value, parts.scaled(value), RUN), *best]
 
 
 def plate_entries(base: Curve, checks: Sequence[Curve], sinkage: float) -> list[Entry]:

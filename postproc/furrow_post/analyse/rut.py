@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Densities and depth of the rut that a wheel leaves in continuum terrain."""
+"""Densities, depth and displacements of the rut that a wheel leaves in continuum terrain.
+
+Displacements are the tracers of [Shoop2001] Figs 65 and 66 as numbers.
+"""
 
 from dataclasses import dataclass
 
@@ -11,6 +14,7 @@ from ..read.terrain import Outline, Terrain
 UNDER = 0.04  # m along the track to both sides of the axle that count as under the wheel
 SHOULDER = 0.05  # m outwards of the wheel's side that count as its shoulder
 TRACK = 0.12  # m along the track to both sides of the finished rut's section
+FAR = 0.10  # m from the wheel's side: the second place beside the track
 BEHIND = 0.6  # of the length of terrain behind the axle: where the finished rut is cut
 
 
@@ -28,30 +32,15 @@ class RutDensities:
     in_rut: float
     shoulder: float
 
-    def named(self) -> dict[str, float]:
-        """With the names that people read."""
-        return {
-            "undisturbed": self.undisturbed,
-            "under the wheel": self.under,
-            "greatest under the wheel": self.greatest_under,
-            "in the rut behind": self.in_rut,
-            "at the shoulder": self.shoulder,
-        }
-
     def report(self) -> str:
         """One line per density, and how they are meant."""
-        lines = [
-            f"  {name:26} {value:6.0f} kg/m3" if np.isfinite(value) else f"  {name:26}    not known"
-            for name, value in self.named().items()
-        ]
-        return "\n".join(
-            [
-                "Density",
-                *lines,
-                f"  under: {100 * UNDER:.0f} cm to both sides of the axle, middle half of the "
-                f"width, all depths; shoulder: {100 * SHOULDER:.0f} cm beside the wheel",
-            ]
+        names = ("undisturbed", "under the wheel", "greatest under the wheel", "in the rut behind", "at the shoulder")
+        texts = (f"{value:6.0f} kg/m3" if np.isfinite(value) else "   not known" for value in vars(self).values())
+        meaning = (
+            f"  under: {100 * UNDER:.0f} cm to both sides of the axle, middle half of the "
+            f"width, all depths; shoulder: {100 * SHOULDER:.0f} cm beside the wheel"
         )
+        return "\n".join(["Density", *(f"  {name:26} {text}" for name, text in zip(names, texts)), meaning])
 
 
 def rut_place(terrain: Terrain, body: Outline) -> float:
@@ -120,3 +109,60 @@ def _tops(terrain: Terrain, inside: Booleans) -> Floats:
     squeeze = terrain.undisturbed / terrain.density[inside]
     tops: Floats = terrain.x[inside, 2] + 0.5 * terrain.spacing * squeeze
     return tops
+
+
+@dataclass(frozen=True)
+class Displacements:
+    """Mean displacements of particles that stood where the finished rut is [m]; NaN where there is none.
+
+    surface, middle: the upper layer of particles and the one at half of the depth, in the middle
+    half of the wheel's width; aside, raised: greatest over the layers, of the particles that stood
+    next to the wheel's side; aside_far: of those that stood FAR from it. Outward and upward are
+    positive.
+    """
+
+    surface_down: float
+    surface_forward: float
+    middle_down: float
+    middle_forward: float
+    aside: float
+    aside_far: float
+    raised: float
+
+    def report(self) -> str:
+        """Lines for a person."""
+        down = "  surface of the track        {surface_down} down, {surface_forward} forward\n"
+        half = "  at half of the depth        {middle_down} down, {middle_forward} forward\n"
+        beside = "  beside the wheel            {aside} outwards, {raised} up at most\n"
+        far = f"  {100 * FAR:.0f} cm from its side         {{aside_far}} outwards at most"
+        centimetres = {name: f"{100 * value:.1f}" for name, value in vars(self).items()}
+        return "Displacement where the finished rut is, cm\n" + (down + half + beside + far).format(**centimetres)
+
+
+def displacements(terrain: Terrain, body: Outline) -> Displacements:
+    before = terrain.initial_position
+    moved = terrain.x - before
+    section = np.abs(before[:, 0] - body.centre[0] - rut_place(terrain, body)) < UNDER
+    y = before[:, 1] - body.centre[1]
+    track = section & (np.abs(y) < 0.5 * body.half_width)
+    levels = terrain.levels(section)
+    if len(levels) == 0:
+        return Displacements(*[np.nan] * 7)
+    half_depth = levels[np.abs(levels - 0.5 * terrain.level).argmin()]
+    surface, middle = (track & terrain.at_level(z) for z in (levels[-1], half_depth))
+    outward, up = moved[:, 1] * np.sign(y), moved[:, 2]
+
+    def greatest(field: Floats, distance: float) -> float:
+        """Greatest displacement of the layers in a column one particle wide, at a distance from the wheel's side [m]."""
+        off = np.abs(y) - body.half_width - distance
+        column = section & (off > 0) & (off < terrain.spacing)
+        means = [_mean(field, column & terrain.at_level(level)) for level in levels]
+        return max((value for value in means if np.isfinite(value)), default=np.nan)
+
+    track_means = [_mean(field, layer) for layer in (surface, middle) for field in (-up, moved[:, 0])]
+    beside = [greatest(outward, 0.0), greatest(outward, FAR), greatest(up, 0.0)]
+    return Displacements(*track_means, *beside)
+
+
+def _mean(values: Floats, chosen: Booleans) -> float:
+    return float(values[chosen].mean()) if chosen.any() else np.nan

@@ -50,18 +50,11 @@ def arc_ahead(terrain: Terrain, stress: TerrainStress, body: Outline) -> Arc:
     if not below.any():
         return Arc(np.empty(0), np.empty(0), 0.0, np.nan)
     edges = np.linspace(float(terrain.x[below, 2].min()), lowest, LEVELS + 1)
-    greatest = float(stress.mises[near].max())
-    places = []
-    for low, high in zip(edges[:-1], edges[1:]):
-        level = np.flatnonzero(below & (terrain.x[:, 2] >= low) & (terrain.x[:, 2] < high))
-        if len(level) == 0:
-            continue
-        at = level[stress.mises[level].argmax()]
-        if stress.mises[at] > SHARE * greatest:
-            places.append(at)
+    level = np.digitize(terrain.x[:, 2], edges)
+    layers = (np.flatnonzero(below & (level == number)) for number in range(1, LEVELS + 1))
+    places = [layer[stress.mises[layer].argmax()] for layer in layers if len(layer)]
+    places = [at for at in places if stress.mises[at] > SHARE * stress.mises[near].max()]
     if not places:
         return Arc(np.empty(0), np.empty(0), 0.0, np.nan)
     top = places[int(stress.mises[places].argmax())]
-    return Arc(
-        terrain.x[places, 0], terrain.x[places, 2], float(stress.mises[top]), float(x[top])
-    )
+    return Arc(terrain.x[places, 0], terrain.x[places, 2], float(stress.mises[top]), float(x[top]))

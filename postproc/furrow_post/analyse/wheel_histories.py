@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..read.wheel_run import WheelRun
-from .statistics import moving_mean
+from ..uncertainty.statistics import moving_mean
 
 
 class Stage(enum.IntEnum):
@@ -49,17 +49,13 @@ def cruise_history(run: WheelRun) -> CruiseHistory:
     columns = run.results.columns
     stage, x = columns["stage"], columns["x"]
     stage = stage[: _rows_of_first_pass(stage)]
-    cruise = np.flatnonzero(stage == Stage.CRUISE)
-    begin = x[cruise[0]] if len(cruise) else x[-1]
-    moving = np.flatnonzero(stage >= Stage.ACCELERATE)
-    distance = x[moving] - begin
+    cruise, moving = np.flatnonzero(stage == Stage.CRUISE), np.flatnonzero(stage >= Stage.ACCELERATE)
+    distance = x[moving] - (x[cruise[0]] if len(cruise) else x[-1])
     step = max(np.median(np.diff(distance[-max(len(cruise), 2) :])), 1e-9)
     window = max(int(0.1 * run.radius / step), 1)
-    force_x = moving_mean(columns["force_x"][moving], window)
-    force_z = moving_mean(columns["force_z"][moving], window)
+    force_x, force_z = (moving_mean(columns[name][moving], window) for name in ("force_x", "force_z"))
     with np.errstate(invalid="ignore", divide="ignore"):
-        carried = force_z > 0.2 * run.number("load")
-        coefficient = np.where(carried, -force_x / force_z, np.nan)
+        coefficient = np.where(force_z > 0.2 * run.number("load"), -force_x / force_z, np.nan)
     shift = run.number("datum_shift") if "datum_shift" in run.conditions else 0.0
     return CruiseHistory(distance, columns["hub_drop"][moving] + shift, coefficient)
 
@@ -67,14 +63,12 @@ def cruise_history(run: WheelRun) -> CruiseHistory:
 def settling_curve(run: WheelRun) -> SettlingCurve:
     """Force over the projected contact of a rigid cylinder, 2 b sqrt(2 r z - z^2), against z."""
     columns = run.results.columns
-    deep_enough = columns["hub_drop"] > 0.02 * run.radius
     rows = _rows_of_first_pass(columns["stage"])
-    chosen = np.flatnonzero((columns["stage"] == Stage.SETTLE)[:rows] & deep_enough[:rows])
-    z = columns["hub_drop"][chosen]
-    chord = np.sqrt(np.maximum(2 * run.radius * z - z * z, 1e-12))
-    area = 2 * run.number("wheel_width") * chord
+    settling, deep_enough = columns["stage"] == Stage.SETTLE, columns["hub_drop"] > 0.02 * run.radius
+    chosen = np.flatnonzero((settling & deep_enough)[:rows])
+    z, force = columns["hub_drop"][chosen], columns["force_z"][chosen]
+    area = 2 * run.number("wheel_width") * np.sqrt(np.maximum(2 * run.radius * z - z * z, 1e-12))
     window = max(len(z) // 60, 1)
-    force = columns["force_z"][chosen]
     if len(z):
         force = np.convolve(force, np.ones(window) / window, "same")
     return SettlingCurve(z, force / area)

@@ -4,11 +4,11 @@
 from pathlib import Path
 from typing import NamedTuple
 
-from ..analyse.cone_formulas import Formulas, Tyre, formulas_for
-from ..analyse.tyre_estimate import Catalogue
-from ..analyse.tyre_fit import PlateTest, fit_tyre, press
-from ..analyse.tyre_size import read_size
-from ..analyse.whole_error import budgets_of
+from ..laws.cone_formulas import Formulas, Tyre, formulas_for
+from ..laws.tyre_estimate import Catalogue
+from ..laws.tyre_fit import PlateTest, fit_tyre, press
+from ..laws.tyre_size import read_size
+from ..uncertainty.whole_error import budgets_of
 from ..csv_table import write_rows
 from ..arguments import between, fraction, path, positive, seconds
 from ..programs import results_folder
@@ -73,7 +73,7 @@ def answer(given: Given) -> int:
     words += ["--quick"] if given.quick else []
     status = post("run", SCENE, "-o", run, *words)
     if status == 0:
-        formulas = formulas_for(given.soil, 1e3 * given.cone_index, estimated.tyre, given.slip or USUAL_SLIP, "R" in given.size.upper())
+        formulas = formulas_for(given.soil, 1e3 * given.cone_index, estimated.tyre, given.slip or USUAL_SLIP)
         rows = compared(run, formulas, given.slip is None)
         write_rows(folder / TABLE, [row._asdict() for row in rows])
         print("\n".join(["", "Formulas of this cone index", formulas.report(), "", *(row.sentence() for row in rows)]))
@@ -94,7 +94,7 @@ def estimate_tyre(text: str, load: float, pressure: float, command: str) -> Esti
     fit = fit_tyre(Catalogue(size, 1e3 * pressure), [])
     file_text = fit.file_text(size.designation, [command])
     (state,) = press(file_text, [PlateTest(pressure, load, {})])
-    tyre = Tyre(load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"])
+    tyre = Tyre(load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"], radial="R" in text.upper())
     return EstimatedTyre(file_text, fit.values()["belt_radius"], tyre)
 
 

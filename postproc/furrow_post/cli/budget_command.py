@@ -4,7 +4,7 @@
 import json
 from pathlib import Path
 
-from ..analyse.whole_error import as_json, report, write_budget
+from ..uncertainty.whole_error import as_json, report, write_budget
 from .parameters import Given, command, flag, results_argument
 
 

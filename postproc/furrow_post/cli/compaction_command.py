@@ -5,7 +5,7 @@
 import numpy as np
 
 from ..analyse.compaction import Compaction, read_compaction, report, write_compaction
-from ..analyse.half_space import ELASTIC, SOEHNE
+from ..laws.half_space import ELASTIC, SOEHNE
 from ..figures.compaction_figure import draw_compaction
 from ..formatting import value_text
 from ..csv_table import in_columns
@@ -34,23 +34,12 @@ def _table(run: Compaction) -> list[list[str]]:
     """Some layers; stresses in kPa."""
     heads = ["depth [cm]", "vertical [kPa]", "mean [kPa]", "Boussinesq [kPa]"]
     rows = [[*heads, *(f"Söhne {factor:.0f} [kPa]" for factor in SOEHNE), "density [kg/m3]"]]
-    count = len(run.depth)
+    count = len(run.layers)
     for k in np.unique(np.linspace(0, count - 1, min(LINES, count)).round().astype(int)):
-        z = run.distance[k : k + 1]
-        formulas = [
-            value_text(
-                1e-3 * run.contact.ellipse(z, factor)[0],
-                1e-3 * run.contact.ellipse_error(z, factor)[0],
-            )
-            for factor in (ELASTIC, *SOEHNE)
-        ]
-        rows.append(
-            [
-                f"{100 * run.depth[k]:.1f}",
-                value_text(1e-3 * run.stress[k], 1e-3 * run.stress_error[k]),
-                value_text(1e-3 * run.mean_stress[k], 1e-3 * run.mean_stress_error[k]),
-                *formulas,
-                value_text(run.density[k], run.density_error[k]),
-            ]
-        )
+        layer, contact = run.layers.iloc[k], run.contact
+        z = np.array([layer.distance])
+        pairs = [(layer.vertical_stress, layer.vertical_stress_error), (layer.mean_stress, layer.mean_stress_error)]
+        pairs += [(contact.ellipse(z, factor)[0], contact.ellipse_error(z, factor)[0]) for factor in (ELASTIC, *SOEHNE)]
+        stresses = [value_text(1e-3 * value, 1e-3 * error) for value, error in pairs]
+        rows.append([f"{100 * layer.depth:.1f}", *stresses, value_text(layer.density, layer.density_error)])
     return rows

@@ -2,7 +2,7 @@
 """furrow-post compare: the same scene on several grounds, or the same test of the laboratory."""
 
 
-from ..analyse.comparison_report import comparison_report, write_comparison
+from ..analyse.comparison import comparison_report, write_comparison
 from ..analyse.curves import compare_curves, curve_report, is_curve, read_curve, write_curves
 from ..errors import ResultsError
 from ..figures.comparison_figure import draw_comparison

@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..analyse import cost_table
+from ..uncertainty import cost_table
 from ..analyse.comparison import Comparison, compare
-from ..analyse.formulas import predictions_for
+from ..laws.empirical import predictions_for
 from ..arguments import WrongText, path, words
 from ..read.results import require_different
 from ..read.wheel_run import read_wheel_run

@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-from ..analyse import cost_table
+from ..uncertainty import cost_table
 from ..arguments import path
 from ..figures.cost_figure import draw_cost
 from ..read.results import require_different

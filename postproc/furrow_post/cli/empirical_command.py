@@ -7,9 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
-from ..analyse import cone_formulas, empirical
-from ..analyse.prediction import Prediction
-from ..analyse.terrain_values import CARD, TerrainValues, terrain, terrain_of_card, with_stress_place
+from ..laws import cone_formulas, empirical
+from ..laws.prediction import Prediction
+from ..laws.terrain_values import CARD, TerrainValues, terrain, terrain_of_card, with_stress_place
 from ..arguments import at_least, between, number, positive
 from ..errors import ResultsError
 from ..read.soil_card import read_card
@@ -80,7 +80,7 @@ class Method(NamedTuple):
 
 def _tyre(g: Given) -> cone_formulas.Tyre:
     sizes = (g.load, g.diameter, g.width, g.section_height, g.deflection)
-    return cone_formulas.Tyre(*(math.nan if size is None else size for size in sizes))
+    return cone_formulas.Tyre(*(math.nan if size is None else size for size in sizes), radial=g.radial)
 
 
 def _nrmm(g: Given) -> Report:
@@ -125,20 +125,16 @@ def _wong_reece(g: Given) -> Report:
     return _report(empirical.wong_reece(g.load, g.diameter, g.width, g.slip, ground, g.extrapolate), ground)
 
 
-def _brixius(g: Given) -> Report:
-    return cone_formulas.brixius(g.cone_index, _tyre(g), g.slip, g.radial, g.extrapolate)
-
-
 def _vehicle_cone_index(g: Given) -> Report:
     vehicle = (g.weight, g.axles, g.tyres, _tyre(g), g.clearance, g.power, g.manual, g.chains)
     return cone_formulas.vehicle_cone_index(cone_formulas.WheeledVehicle(*vehicle))
 
 
 def _by_cone_index(g: Given) -> Report:
-    return cone_formulas.formulas_for(g.soil, g.cone_index, _tyre(g), g.slip, g.radial)
+    return cone_formulas.formulas_for(g.soil, g.cone_index, _tyre(g), g.slip)
 
 
-def _on_cone(formula: Callable[[float, cone_formulas.Tyre, float, bool], Report]) -> Any:
+def _on_cone(formula: cone_formulas.ConeFormula) -> Any:
     return lambda g: formula(g.cone_index, _tyre(g), g.slip, g.extrapolate)
 
 
@@ -152,7 +148,7 @@ METHODS = {
     "bekker": Method(WHEEL, ("terrain", "k_c", "k_phi", "n"), _bekker),
     "wong_reece": Method((*WHEEL, "slip"), ("terrain", *GROUND), _wong_reece),
     "wismer_luth": Method(ON_CONE, (), _on_cone(cone_formulas.wismer_luth)),
-    "brixius": Method((*ON_CONE, *DEFLECTED), ("radial",), _brixius),
+    "brixius": Method((*ON_CONE, *DEFLECTED), ("radial",), _on_cone(cone_formulas.brixius)),
     "gee_clough": Method((*ON_CONE, *DEFLECTED), (), _on_cone(cone_formulas.gee_clough)),
     "vti_clay": Method((*ON_CONE, *DEFLECTED), (), _on_cone(cone_formulas.vti_clay)),
     "drove_sand": Method((*ON_CONE, *DEFLECTED), (), _on_cone(cone_formulas.drove_sand)),
@@ -169,7 +165,7 @@ METHODS = {
     *(option(f"--{name}", name, parse=number, help=unit) for name, unit in GROUND.items()),
     option(
         "--terrain",
-        help="name in furrow_post/analyse/terrains.csv, e.g. 'LETE sand', or a soil card's file (YAML, or Chrono's JSON)",
+        help="name in furrow_post/laws/terrains.csv, e.g. 'LETE sand', or a soil card's file (YAML, or Chrono's JSON)",
     ),
     option(
         "--surface",

@@ -5,9 +5,8 @@ import importlib
 import sys
 from pathlib import Path
 
-from ..analyse.law_fit import fit_law
-from ..analyse.law_fit_report import report, write_fit
-from ..analyse.point_curves import PROGRAM, PointCurves
+from ..laws.law_fit import fit_law, report, write_fit
+from ..laws.point_curves import PROGRAM, PointCurves
 from ..arguments import path
 from .parameters import Given, argument, command, flag, target_option
 
@@ -29,4 +28,4 @@ def fit_law_(given: Given) -> int:
     if not given.no_plot:  # without a figure nobody waits for matplotlib
         figures = importlib.import_module("..figures.point_figure", __package__)
         print(f"  figure        {figures.draw_point(folder)}")
-    return 0 if fit.fit.converged else 1
+    return 0 if fit.converged else 1

@@ -4,9 +4,9 @@
 import shlex
 from pathlib import Path
 
-from ..analyse.tyre_estimate import Catalogue, hub_mass
-from ..analyse.tyre_fit import MEASURED, PlateTest, TyreFit, fit_tyre, press, read_tests
-from ..analyse.tyre_size import INCH, read_size
+from ..laws.tyre_estimate import Catalogue, hub_mass
+from ..laws.tyre_fit import MEASURED, PlateTest, TyreFit, fit_tyre, press, read_tests
+from ..laws.tyre_size import INCH, read_size
 from ..arguments import WrongText, number, path, positive
 from ..errors import ResultsError
 from .parameters import Given, argument, command, flag, option

@@ -8,9 +8,8 @@ from pathlib import Path
 
 from markupsafe import Markup
 
-from ..analyse import cost_table
-from ..analyse.comparison import Comparison
-from ..analyse.comparison_report import parts_cell, write_comparison
+from ..uncertainty import cost_table
+from ..analyse.comparison import Comparison, parts_cell, write_comparison
 from ..errors import ResultsError
 from ..figures.comparison_figure import draw_comparison
 from ..figures.cost_figure import draw_cost

@@ -4,8 +4,8 @@ numbers."""
 
 from pathlib import Path
 
-from ..analyse.displacement import displacements
-from ..analyse.whole_error import headline
+from ..analyse.rut import displacements
+from ..uncertainty.whole_error import headline
 from ..errors import ResultsError
 from ..figures.terrain_figure import draw_terrain
 from ..figures.terrain_stress_figure import draw_stress

@@ -4,11 +4,10 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from ..analyse.compaction import Compaction
-from ..analyse.half_space import ELASTIC, SOEHNE
+from ..laws.half_space import ELASTIC, SOEHNE
 from .style import CENTIMETRE, KILOPASCAL, RUN_COLOURS, annotate_panel, save, use_style
 
 
@@ -18,24 +17,24 @@ def draw_compaction(runs: Sequence[Compaction], target: Path) -> None:
     vertical, mean, density = figure.subplots(1, 3, sharey=True)
     for number, run in enumerate(runs):
         colour = RUN_COLOURS[number % len(RUN_COLOURS)]
-        depth = CENTIMETRE * run.depth
+        layers = run.layers
+        depth = CENTIMETRE * layers.depth
         points = {"fmt": "o", "ms": 3, "lw": 1, "color": colour, "label": run.title}
-        vertical.errorbar(KILOPASCAL * run.stress, depth, xerr=KILOPASCAL * run.stress_error, **points)
+        stress, error = KILOPASCAL * layers.vertical_stress, KILOPASCAL * layers.vertical_stress_error
+        vertical.errorbar(stress, depth, xerr=error, **points)
         elastic, low, high = (
-            KILOPASCAL * run.contact.ellipse(run.distance, factor)
+            KILOPASCAL * run.contact.ellipse(layers.distance.to_numpy(), factor)
             for factor in (ELASTIC, SOEHNE[0], SOEHNE[-1])
         )
         vertical.plot(elastic, depth, "--", color=colour, lw=1)
         vertical.fill_betweenx(depth, low, high, color=colour, alpha=0.15, lw=0)
-        mean.errorbar(
-            KILOPASCAL * run.mean_stress, depth, xerr=KILOPASCAL * run.mean_stress_error, **points
-        )
-        ratio = run.density / run.density_before
-        density.errorbar(ratio, depth, xerr=run.density_error / run.density_before, **points)
+        mean.errorbar(KILOPASCAL * layers.mean_stress, depth, xerr=KILOPASCAL * layers.mean_stress_error, **points)
+        ratio = layers.density / layers.density_before
+        density.errorbar(ratio, depth, xerr=layers.density_error / layers.density_before, **points)
     annotate_panel(vertical, "a", "largest vertical stress")
     annotate_panel(mean, "b", "largest mean stress")
     annotate_panel(density, "c", "density")
-    deepest = max(float(np.max(run.depth)) for run in runs)
+    deepest = max(float(run.layers.depth.max()) for run in runs)
     vertical.set(xlabel="kPa", ylabel="depth [cm]", xlim=(0, None), ylim=(CENTIMETRE * deepest, 0))
     mean.set(xlabel="kPa", xlim=(0, None))
     density.set(xlabel="over the density before")

@@ -13,9 +13,9 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 from matplotlib.image import AxesImage
 
-from ..analyse.comparison import Comparison, overall
+from ..analyse.comparison import Comparison
 from ..analyse.density import Section, sections
-from ..analyse.verdict import BARS, BEST, COEFFICIENT, COVERAGE, FORMULA, HUB_DROP, MEASURED, QUANTITIES, RUN, Quantity
+from ..uncertainty.verdict import BARS, BEST, COEFFICIENT, COVERAGE, FORMULA, HUB_DROP, MEASURED, QUANTITIES, RUN, Quantity
 from ..analyse.wheel_histories import cruise_history, settling_curve
 from ..read.wheel_run import WheelRun
 from .style import (
@@ -60,7 +60,7 @@ def draw_comparison(result: Comparison, target: Path) -> None:
         annotate_panel(axes, next(letters), title)
     if grounds:
         _draw_sections(figure, grid, grounds, [next(letters) for _ in range(2 * len(grounds))])
-    title = overall(result) or ", ".join(run.label for run in result.runs)
+    title = result.overall() or ", ".join(run.label for run in result.runs)
     figure.suptitle("\n".join(textwrap.wrap(title, 110)), fontsize=11, fontweight="bold")
     save(figure, target)
 

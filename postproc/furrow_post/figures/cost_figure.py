@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from ..analyse import cost_table
-from ..analyse.cost_table import FamilyKey, Row
-from ..analyse.verdict import BARS, COVERAGE, QUANTITIES, Quantity
+from ..uncertainty import cost_table
+from ..uncertainty.cost_table import FamilyKey, Row
+from ..uncertainty.verdict import BARS, COVERAGE, QUANTITIES, Quantity
 from .style import MILLIMETRE, RUN_COLOURS, annotate_panel, save, use_style
 
 

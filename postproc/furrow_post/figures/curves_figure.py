@@ -8,7 +8,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 
 from ..analyse.curves import CurveComparison, CurveKind
-from ..analyse.verdict import BARS, COVERAGE
+from ..uncertainty.verdict import BARS, COVERAGE
 from ..arrays import Floats
 from .style import KILOPASCAL, MILLIMETRE, RUN_COLOURS, annotate_panel, save, use_style
 

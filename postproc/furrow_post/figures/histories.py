@@ -10,9 +10,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..analyse.budget import Budget
+from ..uncertainty.budget import Budget
 from ..analyse.wheel_histories import Stage
-from ..analyse.whole_error import OverTests, budgets_of, headline, over_tests
+from ..uncertainty.whole_error import OverTests, budgets_of, headline, over_tests
 from ..arrays import Floats
 from ..errors import ResultsError
 from ..formatting import with_error

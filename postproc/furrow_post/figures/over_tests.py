@@ -6,8 +6,8 @@ import textwrap
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..analyse.verdict import COVERAGE
-from ..analyse.whole_error import OverTests
+from ..uncertainty.verdict import COVERAGE
+from ..uncertainty.whole_error import OverTests
 
 COLOURS = {"known": "#1f5a8a", "held out": "#4d8a4a", "blind": "#7a4b8c"}  # labels of tests
 RUN_COLOUR = "C3"

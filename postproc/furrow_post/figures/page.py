@@ -9,10 +9,9 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from ..analyse.comparison import Comparison, overall
-from ..analyse.comparison_report import findings, parts_cell
-from ..analyse.verdict import QUANTITIES
-from ..analyse.whole_error import budgets, headline
+from ..analyse.comparison import Comparison, parts_cell
+from ..uncertainty.verdict import QUANTITIES
+from ..uncertainty.whole_error import RunErrors, headline
 from ..formatting import duration, in_unit
 from ..read.wheel_run import WheelRun
 from ..run.summary import Summary
@@ -52,8 +51,8 @@ def escaped(text: object) -> str:
 def verdict_values(result: Comparison) -> dict[str, Any]:
     """Verdict, findings and differences of a comparison."""
     return {
-        "verdict": overall(result),
-        "findings": findings(result),
+        "verdict": result.overall(),
+        "findings": result.findings(),
         "differences": [f"{each.condition}: {each.text}" for each in result.differences],
     }
 
@@ -95,7 +94,7 @@ def all_condition_rows(runs: Sequence[WheelRun]) -> list[list[str]]:
 def run_values(run: WheelRun, histories: Path) -> dict[str, Any]:
     """Conditions and values of one run. histories: its drawn histories"""
     summary = Summary(run.folder)
-    steady, errors = [], budgets(run)
+    steady, errors = [], RunErrors(run).all()
     for name, value in summary.quantities.items():
         known = summary.quantity(name)
         number = errors[name].value_text(known.mean) if known else ""

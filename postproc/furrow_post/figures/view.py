@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ..analyse.whole_error import headline
+from ..uncertainty.whole_error import headline
 from ..arrays import Floats
 from ..errors import ResultsError
 from ..read.motion import Body, Cloud, Motion, Points, evenly_chosen

@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
-from ..analyse.fitter import Parameter, fit
-from ..analyse.statistics import block_mean, line_fit
+from ..laws.fitter import Parameter, fit
+from ..uncertainty.statistics import block_mean, line_fit
 from ..arrays import Booleans, Floats
 from ..read.laboratory import LaboratoryTest, cell_curve
 from .quantity import LaboratoryQuantity

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..analyse.statistics import rms
+from ..uncertainty.statistics import rms
 from ..errors import ResultsError, content_of
 from ..read.laboratory import KINDS, LaboratoryTest, cell_curve
 from . import curve_tests, deposit

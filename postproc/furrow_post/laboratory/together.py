@@ -5,8 +5,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from ..analyse.fitter import fit, plain
-from ..analyse.statistics import line_fit
+from ..laws.fitter import fit, plain
+from ..uncertainty.statistics import line_fit
 from ..arrays import Floats
 from ..errors import content_of
 from ..read.laboratory import LaboratoryTest

@@ -4,10 +4,9 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..analyse.convergence import ENDING as CONVERGENCE
-from ..analyse.convergence import RELATIVE, SceneConvergence, of_runs, places, values_of
-from ..analyse.material_error import ENDING as MATERIAL
-from ..analyse.material_error import SceneMaterial, found_file, require_intervals, varied_text
+from ..uncertainty.material_error import require_intervals, varied_text
+from ..uncertainty.scene_errors import CONVERGENCE, MATERIAL, RELATIVE, SceneConvergence, SceneMaterial
+from ..uncertainty.scene_errors import found_file, of_runs, places, values_of
 from ..errors import ResultsError
 from ..formatting import duration
 from ..read.wheel_run import cells_or_grains, read_wheel_run

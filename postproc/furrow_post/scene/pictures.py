@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-from ..analyse.whole_error import headline
+from ..uncertainty.whole_error import headline
 from ..figures.histories import draw_histories
 from ..figures.picture import draw_picture
 from ..figures.terrain_figure import draw_terrain

@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-from ..analyse.whole_error import budgets_of, report, value_text, write_budget
+from ..uncertainty.whole_error import budgets_of, report, value_text, write_budget
 from ..run.summary import Summary
 
 QUICK = "quick run, too short for steady values"

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..analyse.budget import Budget
-from ..analyse.convergence import convergence_of
-from ..analyse.whole_error import SNOW, budgets, budgets_of
+from ..uncertainty.budget import Budget
+from ..uncertainty.scene_errors import convergence_of
+from ..uncertainty.whole_error import SNOW, RunErrors, budgets_of
 from ..errors import ResultsError
 from ..formatting import duration
 from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun, read_wheel_run
@@ -166,7 +166,7 @@ def _forecast(
     if longer > 1.0:
         usual = float(script_variables(script, {}).defaults[length])
         variables.append((length, f"{longer * usual:.4g}"))
-    found = budgets(replace(pilot, size=ratio * pilot.size))
+    found = RunErrors(replace(pilot, size=ratio * pilot.size)).all()
     names = ["hub_drop", _coefficient(pilot)]
     parts = {name: replace(found[name], time=found[name].time / math.sqrt(longer)) for name in names}
     values = {name: abs(pilot.values[name].mean) if name in pilot.values else 0.0 for name in names}

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..errors import ResultsError
-from ..analyse.terrain_values import LOOSE_SAND, terrain
+from ..laws.terrain_values import LOOSE_SAND, terrain
 from ..read.soil_card import CHRONO, UNITS, SoilCard
 
 # Damping of Chrono's sample files [Pa s/m]: a card has none

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from ..analyse.fitter import fit, plain
-from ..analyse.statistics import line_fit
+from ..laws.fitter import fit, plain
+from ..uncertainty.statistics import line_fit
 from ..arrays import Floats
 from ..errors import ResultsError
 from ..read.soil_card import INDEX_DEPTH, Cone, Fitted, PressureSinkage, Range, Shear

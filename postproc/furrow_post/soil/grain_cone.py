@@ -9,7 +9,7 @@ So the index over these three shows what the size of the grains changes.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..analyse.grid_convergence import Convergence, grid_convergence, noise_of, pooled_scatter
+from ..uncertainty.grid_convergence import Convergence, grid_convergence, noise_of, pooled_scatter
 from ..read.soil_card import Cone, Fitted
 from .fits import ConeCurve, cone_index
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..analyse.statistics import line_fit
+from ..uncertainty.statistics import line_fit
 from ..arrays import Floats
 from ..csv_table import read_matrix
 from ..errors import ResultsError

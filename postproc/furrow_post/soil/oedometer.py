@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..analyse.measurements import Column, read_as, read_columns
-from ..analyse.point_curves import PointPaths
-from ..analyse.statistics import rms
+from ..laws.measurements import Column, read_as, read_columns
+from ..laws.point_curves import PointPaths
+from ..uncertainty.statistics import rms
 from ..arrays import Floats
 from ..errors import ResultsError
 from .material import require_plausible

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ..analyse.statistics import rms
+from ..uncertainty.statistics import rms
 from ..errors import ResultsError
 from ..read.soil_card import INDEX_DEPTH, Cone, NoResult, Shear, SoilCard, write_card
 from .exports import EXPORTS

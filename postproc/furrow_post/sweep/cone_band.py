@@ -9,10 +9,10 @@ from pathlib import Path
 
 import yaml
 
-from ..analyse.cone_formulas import Formulas, Tyre, formulas_for
-from ..analyse.tyre_estimate import FLANGE, TREAD_OVER_DIAMETER
-from ..analyse.tyre_fit import PlateTest, press
-from ..analyse.verdict import COVERAGE
+from ..laws.cone_formulas import Formulas, Tyre, formulas_for
+from ..laws.tyre_estimate import FLANGE, TREAD_OVER_DIAMETER
+from ..laws.tyre_fit import PlateTest, press
+from ..uncertainty.verdict import COVERAGE
 from ..errors import ResultsError, content_of
 from ..json_text import parse_json
 from ..programs import find_program
@@ -90,7 +90,7 @@ def _band(line: Line, soil: Soil) -> ConeBand:
         run = point.runs[0]
         try:
             slip = ROLLING if _is_towed(run) else run.number("slip")
-            formulas.append(formulas_for(soil.kind, soil.cone_index, _tyre_of(run), slip, radial=True))
+            formulas.append(formulas_for(soil.kind, soil.cone_index, _tyre_of(run), slip))
         except ResultsError as error:
             formulas.append(None)
             reasons.append(f"{line.label}: no formula at {point.name}: {error}")
@@ -141,4 +141,4 @@ def formula_tyre(file: Path, pressure: float, load: float) -> Tyre:
     (state,) = press(text, [PlateTest(1e-3 * pressure, load, {})], MESH)
     diameter = 0.02 * state["crown_radius_cm"] / (1 - 2 * TREAD_OVER_DIAMETER)
     width = 1e-2 * state["section_width_cm"]
-    return Tyre(load, diameter, width, 0.5 * diameter - bead + FLANGE, 1e-2 * state["deflection_cm"])
+    return Tyre(load, diameter, width, 0.5 * diameter - bead + FLANGE, 1e-2 * state["deflection_cm"], radial=True)

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
-from ..analyse.verdict import BARS, COVERAGE
+from ..uncertainty.verdict import BARS, COVERAGE
 from ..figures.resistance_parts import Panel, draw_parts
 from ..figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
 from .cone_band import ConeBand

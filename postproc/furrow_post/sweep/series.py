@@ -19,8 +19,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..analyse.budget import Budget
-from ..analyse.whole_error import Families, budgets
+from ..uncertainty.budget import Budget
+from ..uncertainty.whole_error import Families, RunErrors
 from ..errors import ResultsError
 from ..run.summary import ResistanceParts, Summary
 from ..read.wheel_run import WheelRun, read_wheel_run
@@ -57,7 +57,7 @@ def quantities(runs: Sequence[WheelRun], families: Families) -> dict[str, Value]
 def _of_run(run: WheelRun, families: Families) -> dict[str, Value]:
     summary = Summary(run.folder)
     steady = {name: run.values.get(name) or summary.quantity(name) for name in summary.quantities}
-    errors = budgets(run, families)
+    errors = RunErrors(run, families).all()
     found = {name: Value(v.mean, v.unit, errors[name], v.steady, v.imposed) for name, v in steady.items() if v}
     load, pull, torque = found["force_z"], found["drawbar_pull"], found["drive_torque"]
     if "net_traction_coefficient" not in found:

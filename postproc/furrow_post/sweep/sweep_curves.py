@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..analyse.conditions import TOLERANCES, answers_of_ground, differ
+from ..analyse.conditions import TOLERANCES, answers_of_ground
 from ..errors import ResultsError
 from ..formatting import in_unit
 from .series import Series, SweepPoint, Value
@@ -160,7 +160,7 @@ def _varying(points: Sequence[SweepPoint]) -> list[str]:
     found = []
     for name in CONDITIONS:
         known = [n for n in (point.number(name) for point in points) if math.isfinite(n)]
-        if len(known) > 1 and name not in answers and differ(known, TOLERANCES[name]):
+        if len(known) > 1 and name not in answers and TOLERANCES[name].exceeded(known):
             found.append(name)
     return found
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..analyse import cost_table
-from ..analyse.formulas import require_formulas
+from ..uncertainty import cost_table
+from ..laws.empirical import require_formulas
 from ..errors import ResultsError
 from ..figures.page import condition_rows, render
 from ..figures.resistance_parts import CAPTION as PARTS_CAPTION

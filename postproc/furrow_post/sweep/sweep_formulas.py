@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..analyse.prediction import Prediction
-from ..analyse.formulas import predictions_for
+from ..laws.prediction import Prediction
+from ..laws.empirical import predictions_for
 from ..errors import ResultsError
 from .sweep_curves import EFFICIENCY, HUB_DROP, PULL, RESISTANCE, TORQUE, Axis, Line
 from .series import speed_over_rim

@@ -9,7 +9,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from ..analyse.budget import Budget
+from ..uncertainty.budget import Budget
 from ..csv_table import column_names, in_cells, number_or_text, write_rows
 from ..formatting import duration, value_text
 from .sweep_curves import CONDITIONS, Figure

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..analyse.evaluations import last_piece_of, path_states, plate_curve, pressure_near, whole_plate_curve
-from ..analyse.statistics import rms
+from ..uncertainty.statistics import rms
 from ..csv_table import read_columns
 from ..laboratory.evaluation import evaluate, reference_error
 from ..read.laboratory import LaboratoryTest, cell_curve, read_oedometer_reference

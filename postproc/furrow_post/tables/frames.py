@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pandas
 
-from ..analyse.statistics import block_mean, drift, rms
+from ..uncertainty.statistics import block_mean, drift, rms
 from ..csv_table import read_rows
 from ..errors import ResultsError
 from ..study.values import NOT_ESTIMATED

@@ -7,11 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ..analyse.displacement import displacements
 from ..analyse.evaluations import whole_plate_curve
-from ..analyse.half_space import ELASTIC, below_point_loads
-from ..analyse.rut import bow_wave, rut_densities, rut_depth, share_left
-from ..analyse.statistics import block_mean, place_of_greatest
+from ..laws.half_space import ELASTIC, below_point_loads
+from ..analyse.rut import bow_wave, displacements, rut_densities, rut_depth, share_left
+from ..uncertainty.statistics import block_mean, place_of_greatest
 from ..arrays import Booleans, Floats
 from ..laboratory.deposit import outer_radius, slope_angle
 from ..read.results import MIRROR, Results
@@ -34,7 +33,7 @@ def rut(run: Run) -> Row:
 
 
 def moved(run: Run) -> Row:
-    """Displacements where the finished rut is [m]: names of displacement.py."""
+    """Displacements where the finished rut is [m]: names of Displacements in rut.py."""
     terrain = Terrain.read(run.folder)
     return dict(vars(displacements(terrain, Outline(run.folder, terrain))))
 

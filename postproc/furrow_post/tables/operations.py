@@ -15,9 +15,9 @@ import numpy as np
 import pandas
 
 from ..analyse import evaluations
-from ..analyse.grid_convergence import grid_convergence
-from ..analyse.response import Response
-from ..analyse.statistics import rms
+from ..uncertainty.grid_convergence import grid_convergence
+from ..laws.response import Response
+from ..uncertainty.statistics import rms
 from ..errors import ResultsError
 from .frames import Row, value_of
 
@@ -281,7 +281,7 @@ def identify(
 ) -> pandas.DataFrame:
     """The parameter of a material that measured rows ask for, and what it predicts of the other rows.
 
-    A row for each reading and each choice of measured rows whose places its runs reach (analyse/response.py).
+    A row for each reading and each choice of measured rows whose places its runs reach (laws/response.py).
 
     runs: tables with a row for each run; readings: name -> values (of the parameter), places, runs (names by value and
     place), columns (quantity -> column of a run that is read as such), models (value -> model of the frame's columns

@@ -12,7 +12,10 @@ from support.command import SOURCE
 
 PACKAGE = SOURCE / "postproc" / "furrow_post"
 # A room imports from those before it and from itself
-ROOMS = ("", "run", "read", "study", "analyse", "laboratory", "figures", "sweep", "scene", "soil", "tables", "surrogate", "cli")
+ROOMS = (
+    *("", "run", "read", "study", "uncertainty", "laws", "analyse", "laboratory"),
+    *("figures", "sweep", "scene", "soil", "tables", "surrogate", "cli"),
+)
 
 
 @functools.cache

@@ -78,7 +78,7 @@ TEST(PointCommand, AllShippedPathsRun) {
   EXPECT_GE(runs, 9);
 }
 
-/// furrow-post makes the fit; tests/unit/postproc/analyse/law_fit_test.py checks its numbers.
+/// furrow-post makes the fit; tests/unit/postproc/laws/law_fit_test.py checks its numbers.
 TEST(PointCommand, FitLeavesAMaterialFileAndAFigure) {
   const Scratch scratch;
   const std::string folder = scratch.path("fit");

@@ -11,7 +11,7 @@ from scipy.integrate import simpson
 from scipy.optimize import brentq
 
 from furrow_post.analyse.compaction import read_compaction
-from furrow_post.analyse.half_space import ELASTIC, SOEHNE, below_ellipse, below_point_loads
+from furrow_post.laws.half_space import ELASTIC, SOEHNE, below_ellipse, below_point_loads
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
@@ -169,20 +169,20 @@ class Report(FolderTest):
     def test_elastic_ground_gives_boussinesq(self) -> None:
         write_pressed(self.folder / "a")
         found = read_compaction(self.folder / "a")
-        contact = found.contact
+        contact, layers = found.contact, {name: column.to_numpy() for name, column in found.layers.items()}
         self.assertAlmostEqual(contact.area / (np.pi * A * B), 1, delta=0.03)
         self.assertAlmostEqual(contact.semi_axes[0] / contact.semi_axes[1], A / B, delta=0.05 * A / B)
         self.assertAlmostEqual(contact.carried, 1, delta=0.03)
-        deep = found.depth > 0.05
-        exact = PRESSURE * below_ellipse(found.depth[deep], (A, B), ELASTIC)
-        np.testing.assert_allclose(found.stress[deep], exact, rtol=0.01)
-        below_particles = found.depth[deep] - SPACING / 2
+        deep = layers["depth"] > 0.05
+        exact = PRESSURE * below_ellipse(layers["depth"][deep], (A, B), ELASTIC)
+        np.testing.assert_allclose(layers["vertical_stress"][deep], exact, rtol=0.01)
+        below_particles = layers["depth"][deep] - SPACING / 2
         by_surface = PRESSURE * below_ellipse(below_particles, (A, B), ELASTIC)
-        np.testing.assert_allclose(found.of_surface[deep], by_surface, rtol=0.03)
-        np.testing.assert_allclose(contact.ellipse(found.distance, ELASTIC)[deep], exact, rtol=0.03)
-        self.assertTrue((np.abs(found.place[deep]) < SPACING).all())
-        denser = found.density / found.density_before - 1
-        np.testing.assert_allclose(denser, 0.1 * np.exp(-found.depth / 0.2))
+        np.testing.assert_allclose(layers["boussinesq_surface"][deep], by_surface, rtol=0.03)
+        np.testing.assert_allclose(contact.ellipse(layers["distance"], ELASTIC)[deep], exact, rtol=0.03)
+        self.assertTrue((np.abs(layers["place"][deep]) < SPACING).all())
+        denser = layers["density"] / layers["density_before"] - 1
+        np.testing.assert_allclose(denser, 0.1 * np.exp(-layers["depth"] / 0.2))
 
     def test_as_a_command(self) -> None:
         write_pressed(self.folder / "a")

@@ -7,15 +7,15 @@ from pathlib import Path
 
 import numpy as np
 
-from furrow_post.analyse import comparison, comparison_report, conditions
-from furrow_post.analyse.comparison import Comparison, best_estimates, overall, overall_of_best_estimates
-from furrow_post.analyse.budget import Budget
-from furrow_post.analyse.cost_table import families
+from furrow_post.analyse import comparison, conditions
+from furrow_post.analyse.comparison import Comparison, best_estimates
+from furrow_post.uncertainty.budget import Budget
+from furrow_post.uncertainty.cost_table import families
 from furrow_post.analyse.curves import Curve, CurveKind, compare_curves
 from furrow_post.analyse.density import height_left
-from furrow_post.analyse.judgement import judge, remedies
-from furrow_post.analyse.prediction import Prediction
-from furrow_post.analyse.verdict import BEST, COEFFICIENT, FORMULA, HUB_DROP, MEASURED, RUN, Agreement, Entry, Quantity
+from furrow_post.laws.prediction import Prediction
+from furrow_post.uncertainty.verdict import BEST, COEFFICIENT, FORMULA, HUB_DROP, MEASURED, RUN
+from furrow_post.uncertainty.verdict import Agreement, Entry, Quantity, judge, remedies
 from furrow_post.errors import ResultsError
 from furrow_post.read.results import Results, Surface
 from furrow_post.run.summary import SteadyValue
@@ -97,7 +97,7 @@ class OverallTest(unittest.TestCase):
     """The verdict comes from the enumeration, never from words."""
 
     def verdict(self, *pairs: tuple[Entry, Entry]) -> str:
-        return overall(Comparison([], verdicts=[judge(a, b) for a, b in pairs]))
+        return Comparison([], verdicts=[judge(a, b) for a, b in pairs]).overall()
 
     def test_every_kind_has_its_sentence(self) -> None:
         agree = entry("a", 0.1, 0.003), entry("b", 0.101, 0.003)
@@ -177,7 +177,7 @@ class CompareTest(FolderTest):
         runs = [self.read("a", "measured"), self.read("b", "b", sinkage=0.06)]
         result = comparison.compare(runs)
         self.assertEqual(
-            overall(result),
+            result.overall(),
             "Inconclusive in hub drop and resistance coefficient; unknown: size of b, size of measured.",
         )
 
@@ -190,7 +190,7 @@ class CompareTest(FolderTest):
         result = comparison.compare([run], measured=reference)
         self.assertTrue(all(verdict.with_measurement for verdict in result.verdicts))
         self.assertEqual(
-            overall(result),
+            result.overall(),
             "Inconclusive in hub drop and resistance coefficient; unknown: size of a.",
         )
         run.conditions["depth"] = Condition(0.5, "m")
@@ -218,13 +218,13 @@ class CompareTest(FolderTest):
         self.assertIn("hub drop, best estimate: a and b agree", verdict.sentence)
         result = Comparison([run, other], [limit, same], best_estimates=[verdict])
         self.assertEqual(
-            overall_of_best_estimates(result),
+            result.overall_of_best_estimates(),
             "Best estimate: The runs agree in hub drop.",
         )
-        self.assertIn(verdict.sentence, comparison_report.findings(result))
-        kinds = [line["kind"] for line in comparison_report.table_rows(result)]
+        self.assertIn(verdict.sentence, result.findings())
+        kinds = [line["kind"] for line in comparison.table_rows(result)]
         self.assertEqual(kinds, [BEST] * 2)
-        self.assertEqual(overall_of_best_estimates(Comparison([run])), "")
+        self.assertEqual(Comparison([run]).overall_of_best_estimates(), "")
 
     def test_formula_has_its_place_and_no_verdict(self) -> None:
         prediction = Prediction("made", "nowhere", 0.04, 100.0, 1000.0)
@@ -232,7 +232,7 @@ class CompareTest(FolderTest):
         (found,) = result.of(HUB_DROP, FORMULA)
         self.assertEqual((found.source, found.value), ("made", 0.04))
         self.assertEqual(result.verdicts, [])
-        said = comparison_report.comparison_report(result).split("Verdict\n")[1]
+        said = comparison.comparison_report(result).split("Verdict\n")[1]
         self.assertEqual(said, "  none: there is nothing to compare the run with")
 
 

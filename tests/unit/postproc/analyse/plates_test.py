@@ -8,8 +8,8 @@ import numpy as np
 
 from furrow_post.analyse import plates
 from furrow_post.analyse.curves import Curve, CurveKind
-from furrow_post.analyse.verdict import BEST, RUN
-from furrow_post.analyse.grid_convergence import grid_convergence
+from furrow_post.uncertainty.verdict import BEST, RUN
+from furrow_post.uncertainty.grid_convergence import grid_convergence
 
 
 def plate_curve(label: str, factor: float, box: float = 0.8, **facts: float) -> Curve:
@@ -31,7 +31,7 @@ class PlateErrorsTest(unittest.TestCase):
         run, best = plates.plate_entries(self.base, checks, 0.01)
         self.assertAlmostEqual(run.value, 1e4 * math.exp(5 * 0.02), places=6)
         e = math.log(1.1)
-        relative = [1e-4 * part / math.exp(5 * 0.02) for part in run.parts.numerical()]
+        relative = [1e-4 * part / math.exp(5 * 0.02) for part in [run.parts.part(name) for name in run.parts.NUMERICAL]]
         np.testing.assert_allclose(
             [relative[0], *relative[2:]], [0.0, 0.5 * e - math.log(0.9), e / math.sqrt(2)], rtol=1e-9
         )

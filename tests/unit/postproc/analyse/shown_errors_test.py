@@ -8,9 +8,8 @@ from pathlib import Path
 from unittest.mock import patch
 
 from furrow_post.analyse import comparison
-from furrow_post.analyse.comparison import compare
-from furrow_post.analyse.comparison_report import comparison_report, table_rows
-from furrow_post.analyse.whole_error import budgets, headline, read_series, report
+from furrow_post.analyse.comparison import compare, comparison_report, table_rows
+from furrow_post.uncertainty.whole_error import SIZES, RunErrors, headline, report
 from furrow_post.csv_table import read_rows
 from furrow_post.figures.page import results_tables, run_values
 from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
@@ -35,7 +34,7 @@ STATED = re.compile(r"(?i)errors? (is|are|have|has|contain|contains|cover|covers
 def size_errors() -> dict[str, float]:
     """Values of the size series as pages and tables show them -> numerical error in that unit."""
     known: dict[str, float] = {}
-    for series in read_series(INPUTS / "validation" / "sizes.csv"):
+    for series in SIZES.stored():
         for row in series.family.bases:
             for key, scale, digits in (("sinkage", 1e3, 1), ("coefficient", 1.0, 3)):
                 parts = series.family.components(key, row.size, row.value(key)[1])
@@ -139,7 +138,7 @@ class OutputTest(FolderTest):
     def assert_whole(self, text: str, run: WheelRun) -> int:
         """Every "value ± error" of a text is one of the run, with its whole error; their number."""
         known = {}
-        for name, budget in budgets(run).items():
+        for name, budget in RunErrors(run).all().items():
             mean = run.values[name].mean if name in run.values else math.nan
             known[name] = (mean, math.hypot(*(budget.part(part) for part in budget.known)))
         found = 0

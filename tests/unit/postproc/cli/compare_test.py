@@ -9,7 +9,7 @@ from typing import Any
 
 import h5py
 
-from furrow_post.analyse import cost_table
+from furrow_post.uncertainty import cost_table
 from furrow_post.csv_table import read_rows
 from support.command import run_post
 from support.folder import SharedFolderTest

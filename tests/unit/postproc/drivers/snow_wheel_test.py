@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from furrow_post.analyse.compressed_snow import cam_clay_confined
+from furrow_post.laws.compressed_snow import cam_clay_confined
 from furrow_post.run.case import Case
 from support.command import SOURCE
 from support.evaluation import VALIDATION, cases, evaluation

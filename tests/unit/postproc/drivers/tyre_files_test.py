@@ -11,9 +11,9 @@ from pathlib import Path
 
 import yaml
 
-from furrow_post.analyse.tyre_estimate import Catalogue
-from furrow_post.analyse.tyre_fit import PlateTest, fit_tyre, press, read_tests
-from furrow_post.analyse.tyre_size import INCH, read_size
+from furrow_post.laws.tyre_estimate import Catalogue
+from furrow_post.laws.tyre_fit import PlateTest, fit_tyre, press, read_tests
+from furrow_post.laws.tyre_size import INCH, read_size
 from furrow_post.csv_table import read_numbers
 from support.command import SOURCE, run_post
 

@@ -9,7 +9,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from furrow_post.analyse.cost_table import write_table
+from furrow_post.uncertainty.cost_table import write_table
 from furrow_post.cli.main import main
 from support.command import FURROW_POST, SOURCE
 from support.faults import FaultsTest, outcome

@@ -9,8 +9,7 @@ import h5py
 import matplotlib.image
 import numpy as np
 
-from furrow_post.analyse.displacement import displacements
-from furrow_post.analyse.rut import bow_wave, rut_densities, rut_depth, share_left
+from furrow_post.analyse.rut import bow_wave, displacements, rut_densities, rut_depth, share_left
 from furrow_post.analyse.stress import arc_ahead, in_plane
 from furrow_post.errors import ResultsError
 from furrow_post.figures.terrain_figure import draw_terrain

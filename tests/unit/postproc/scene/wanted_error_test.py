@@ -6,8 +6,8 @@ import unittest
 from dataclasses import replace
 from unittest import mock
 
-from furrow_post.analyse.budget import Budget
-from furrow_post.analyse.whole_error import budgets
+from furrow_post.uncertainty.budget import Budget
+from furrow_post.uncertainty.whole_error import RunErrors
 from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
 from furrow_post.scene import wanted_error
 from furrow_post.scene.wanted_error import Forecast, Plan, outcome
@@ -58,7 +58,7 @@ class PlanTest(FolderTest):
         with mock.patch.object(wanted_error, "script_variables", return_value=variables):
             made = wanted_error._forecast(pilot, self.folder, {"cell": 0.0375}, "distance", 1.0, 4.0)
         self.assertEqual(made.variables, [("distance", "6")])
-        fine = budgets(replace(pilot, size=0.0375))["hub_drop"]
+        fine = RunErrors(replace(pilot, size=0.0375)).all()["hub_drop"]
         self.assertAlmostEqual(made.budgets["hub_drop"].total, replace(fine, time=fine.time / 2).total, 9)
         self.assertAlmostEqual(made.budgets["hub_drop"].time, fine.time / 2)
         self.assertAlmostEqual(made.cpu_time, 8.0 * 4 * 1.6**3.5)

@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from furrow_post.analyse import empirical
-from furrow_post.analyse.terrain_values import terrain
+from furrow_post.laws import empirical
+from furrow_post.laws.terrain_values import terrain
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.read.soil_card import (

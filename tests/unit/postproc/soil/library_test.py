@@ -12,9 +12,9 @@ import numpy as np
 import yaml
 from scipy.optimize import brentq
 
-from furrow_post.analyse import empirical
-from furrow_post.analyse.grid_convergence import grid_convergence, noise_of, pooled_scatter
-from furrow_post.analyse.terrain_values import terrain
+from furrow_post.laws import empirical
+from furrow_post.uncertainty.grid_convergence import grid_convergence, noise_of, pooled_scatter
+from furrow_post.laws.terrain_values import terrain
 from furrow_post.csv_table import read_rows
 from furrow_post.json_text import parse_json
 from furrow_post.programs import find_program

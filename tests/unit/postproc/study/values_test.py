@@ -5,7 +5,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from furrow_post.analyse.measured import read_measured
+from furrow_post.analyse.comparison import measured_near
 from furrow_post.cli.study_command import write_pages
 from furrow_post.errors import ResultsError
 from furrow_post.study.pages import shown, stale_pages, with_values
@@ -204,18 +204,16 @@ class StoredTest(unittest.TestCase):
     def test_the_field_tests_are_those_of_their_table(self) -> None:
         """The twelve tests in 0.18 to 0.22 m of 220 kg/m3, on which values of c and z rest."""
         table = SOURCE / "inputs" / "validation" / "snow_wheel" / "reference.csv"
-        measured = read_measured(table, 0.2, 220.0, density_range=(1.0, 1.0))
-        self.assertEqual(measured.tests, 12)
+        measured = measured_near(table, 0.2, 220.0, {"depth": (0.9, 1.1), "density": (1.0, 1.0)})
+        self.assertEqual(len(measured), 12)
         registry = Registry.of(SOURCE)
-        for name, mean, scatter, scale in (
-            ("resistance", measured.coefficient, measured.coefficient_scatter, 1.0),
-            ("sinkage_m", measured.sinkage, measured.sinkage_scatter, 100.0),
-        ):
+        for name, scale in (("resistance", 1.0), ("sinkage_m", 100.0)):
+            mean, scatter = measured[name].mean(), measured[name].std()
             for run in ("snow_wheel.row_220_20cm", "report_wheel.slip_free"):
                 value = registry[f"{run}.{name}"]
                 self.assertAlmostEqual(value.expected() or 0.0, scale * mean, delta=5e-3 * scale * mean)
                 self.assertAlmostEqual(value.reference_scatter, scale * scatter, delta=0.01 * scale)
-                self.assertEqual(value.reference_tests, measured.tests)
+                self.assertEqual(value.reference_tests, len(measured))
 
     def test_nothing_of_the_studies_is_blind_and_calibrations_are_fitted(self) -> None:
         registry = Registry.of(SOURCE)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A table of runs whose values lie on exact lines."""
 
-from furrow_post.analyse.cost_table import FamilyKey, Row
+from furrow_post.uncertainty.cost_table import FamilyKey, Row
 
 CONTINUUM = FamilyKey("continuum", "half", "rigid wheel")
 GRAINS = FamilyKey("grains", "whole", "rigid wheel")

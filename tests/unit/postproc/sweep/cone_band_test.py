@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from furrow_post.analyse.cone_formulas import formulas_for
+from furrow_post.laws.cone_formulas import formulas_for
 from furrow_post.run.record import Record
 from furrow_post.sweep.cone_band import Soil, formula_tyre, soil_of
 from furrow_post.sweep.sweep_curves import HUB_DROP, PULL, RESISTANCE, TORQUE
@@ -68,7 +68,7 @@ class ConeBandTest(FolderTest):
         (band,) = result.bands
         tyre = formula_tyre(TYRE, PRESSURE, LOAD)
         for slip, mean, least, greatest in band.values(PULL):
-            self.assertEqual((mean, least, greatest), formulas_for("clay", 270e3, tyre, slip, True).band("net"))
+            self.assertEqual((mean, least, greatest), formulas_for("clay", 270e3, tyre, slip).band("net"))
             self.assertLess(least, greatest)
         self.assertEqual([x for x, *_ in band.values(TORQUE)], [0.1, 0.2])
         self.assertEqual(band.values(HUB_DROP), [])

@@ -12,8 +12,8 @@ from typing import Any
 
 import h5py
 
-from furrow_post.analyse.budget import Budget
-from furrow_post.analyse.cost_table import FamilyKey
+from furrow_post.uncertainty.budget import Budget
+from furrow_post.uncertainty.cost_table import FamilyKey
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.figures.resistance_parts import COLOURS
