@@ -54,19 +54,18 @@ def speed(frame: pandas.DataFrame, known: Any) -> pandas.DataFrame:
         whole = math.hypot(value - reference["hub_drop_m"], reference["whole"] * reference["hub_drop_m"]) / value
         rows.append(_point(one, other["model"], math.nan, float(other["cpu_time"]), value, math.nan, whole))
     for row in rows:
-        rivals = [other for other in rows if other["kind"] == row["kind"] and other["scheme"] == "present"]
+        rivals = [other for other in rows if other["kind"] == row["kind"]]
         cheaper = [other["whole"] for other in rivals if other["core_minutes"] < row["core_minutes"]]
-        row["best"] = _yes(row in rivals and SAME * row["whole"] < min(cheaper, default=math.inf))
+        row["best"] = _yes(SAME * row["whole"] < min(cheaper, default=math.inf))
         good = [other["core_minutes"] for other in rivals if other["whole"] <= known.constants["asked_error"]]
-        row["asked"] = _yes(row in rivals and row["core_minutes"] == min(good, default=math.nan))
+        row["asked"] = _yes(row["core_minutes"] == min(good, default=math.nan))
     return pandas.DataFrame(rows, dtype=object)
 
 
 def _point(one: SizeSeries, ground: str, size: float, seconds: float, value: float, numerical: float, whole: float) -> dict[str, Any]:
     kind = f"{one.words['wheel']} on {one.words['ground']}"
-    scheme = one.scheme if ground in ("continuum", "hybrid") else "present"
     numbers = zip(DIGITS.items(), (size, seconds / 60, value, numerical, whole))
-    return {"kind": kind, "series": one.name, "ground": ground, "scheme": scheme} | {name: float(f"{x:.{digits}g}") for (name, digits), x in numbers}
+    return {"kind": kind, "series": one.name, "ground": ground} | {name: float(f"{x:.{digits}g}") for (name, digits), x in numbers}
 
 
 def _yes(holds: bool) -> str:

@@ -73,7 +73,6 @@ class SizeSeries:
     width: float  # of the wheel [m]
     family: Family
     radius: float  # [m]
-    scheme: str  # of the continuum: present, older
 
     def distance(self, case: Case) -> float:
         return math.hypot(*(MISMATCH[name] for name, word in self.words.items() if word != getattr(case, name)))
@@ -92,8 +91,7 @@ def series_of(rows: Rows) -> tuple[SizeSeries, ...]:
     for group in grouped(rows, lambda row: (row["series"], row["ground"], row["wheel"])).values():
         first, family = group[0], Family([parsed_row({**row, "run": row["series"], "model": ""}) for row in group])
         words = {"ground": first["soil"], "wheel": first["wheel"], "motion": first["motion"]}
-        sizes = (float(first["width"]), family, float(first["radius"]))
-        found.append(SizeSeries(first["series"], words, *sizes, first["scheme"]))
+        found.append(SizeSeries(first["series"], words, float(first["width"]), family, float(first["radius"])))
     return tuple(found)
 
 
