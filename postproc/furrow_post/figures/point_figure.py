@@ -47,16 +47,16 @@ Channels = dict[str, Floats]  # of point.h5, SI
 YieldSurface = tuple[Floats, Floats]  # p, q [Pa]
 
 
-def draw_point(folder: Path) -> Path:
+def draw_point(folder: Path) -> list[Path]:
     """Draws the results folder of furrow-point run or fit, and returns the figure's path.
 
     @raises ResultsError where it is none
     """
     use_style()
     if (folder / "point.h5").exists():
-        return draw_path(folder)
+        return [draw_path(folder)]
     if (folder / "fit.h5").exists():
-        return draw_fit(folder)
+        return [draw_fit(folder)]
     raise ResultsError(
         f"{folder}: has neither point.h5 nor fit.h5; name the results folder of furrow-point"
     )

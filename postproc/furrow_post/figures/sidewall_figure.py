@@ -29,7 +29,7 @@ class Profile(NamedTuple):
     radius: Floats
 
 
-def draw_sidewall(folder: Path) -> Path:
+def draw_sidewall(folder: Path) -> list[Path]:
     """Draws sidewall.h5 of a results folder, and returns the figure's path."""
     use_style()
     with opened(folder / "sidewall.h5") as file:
@@ -63,7 +63,7 @@ def draw_sidewall(folder: Path) -> Path:
     )
     target = folder / "sidewall.png"
     save(figure, target)
-    return target
+    return [target]
 
 
 def _draw_section(axes: Axes, profiles: Sequence[Profile]) -> None:

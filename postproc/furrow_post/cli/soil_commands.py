@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""furrow-post card: material files from what is known of a soil, and soil cards of a ground."""
+"""Commands card, material files from what is known of a soil and soil cards of a ground, and laboratory."""
 
 import math
 import sys
@@ -8,6 +8,8 @@ from pathlib import Path
 
 from ..arguments import at_least, number, path, positive
 from ..errors import ResultsError
+from ..figures.laboratory_figure import draw_laboratory
+from ..laboratory.report import report_tests
 from ..read.soil_card import Fitted, PressureSinkage, Range, SoilCard, markdown, read_card
 from ..soil.exports import EXPORTS
 from ..soil import grains
@@ -18,7 +20,7 @@ from ..soil.oedometer import read_oedometer
 from ..soil.virtual_oedometer import oedometer_misfit
 from ..soil.testing import FULL, QUICK, cone_misfit, default_folder, make_card, make_grain_card, plate_misfit
 from ..soil.units import EARTH, require_plausible
-from .parameters import Given, argument, command, flag, option, repeated, target_option
+from .parameters import Given, argument, command, flag, option, output_options, repeated, target, target_option
 
 SIZES = (0.1, 0.15, 0.2)  # [m]
 ROUND_OFF = 1e-9
@@ -92,9 +94,9 @@ def card_export(given: Given) -> None:
         card = replace(card, shear=replace(shear, K=Fitted(given.K, math.nan)))
     for name in given.formats:
         file, write = EXPORTS[name]
-        target = given.card.with_name(file)
-        write(card, target)
-        print(f"  {name:13} {target}")
+        exported = given.card.with_name(file)
+        write(card, exported)
+        print(f"  {name:13} {exported}")
     for doubt in card.doubts():
         print(f"furrow-post card: warning: {doubt}", file=sys.stderr)
 
@@ -174,15 +176,7 @@ def _material(route: str, given: Given) -> NewMaterial:
         return from_strength(title, given.c, given.phi, given.density, oedometer, given.E)
     if route == "k_phi":
         return from_bekker(
-            title,
-            given.k_c,
-            given.k_phi,
-            given.n,
-            given.c,
-            given.phi,
-            given.K,
-            _radius(given),
-            given.density,
+            title, given.k_c, given.k_phi, given.n, given.c, given.phi, given.K, _radius(given), given.density
         )
     return from_cone(title, given.cone_index, given.soil_class, given.density)
 
@@ -211,3 +205,17 @@ def _check(route: str, given: Given) -> str:
     modulus, n = given.k_c / radius + given.k_phi, float(given.n)
     misfit = plate_misfit(bench, lambda z: float(modulus * z**n), radius)
     return f"virtual plate of {2e3 * radius:g} mm: pressure within a factor of {math.exp(misfit):.2f} (rms)"
+
+
+@command(
+    argument("folders", "results folders of one test of inputs/laboratory", nargs=-1, required=True, metavar="RESULTS..."),
+    option("--reference", parse=path, help="reference.csv of an oedometer, with columns rho_kgm3 and sigma1_Pa"),
+    repeated("--point", help="results folder of furrow-point with the same path, for comparison"),
+    *output_options("figure to write (default: in the first folder)"),
+)
+def laboratory(given: Given) -> None:
+    found = report_tests(given.folders, given.reference, given.point)
+    print(found.report)
+    file = target(given, found.tests[0].folder, "laboratory")
+    draw_laboratory(found, file)
+    print(file)

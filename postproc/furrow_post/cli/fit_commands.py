@@ -1,15 +1,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""furrow-post fit tyre: a tyre file from a catalogue and tests."""
+"""Commands fit law, a law from measured curves (furrow-point fit becomes this), and fit tyre, a tyre file from a
+catalogue and tests."""
 
+import importlib
 import shlex
+import sys
 from pathlib import Path
 
+from ..analyse.law_fit import fit_law
+from ..analyse.law_fit_report import report, write_fit
+from ..analyse.point_curves import PROGRAM, PointCurves
 from ..analyse.tyre_estimate import Catalogue, hub_mass
 from ..analyse.tyre_fit import MEASURED, PlateTest, TyreFit, fit_tyre, press, read_tests
 from ..analyse.tyre_size import INCH, read_size
-from ..arguments import WrongText, number, path, positive
+from ..arguments import inflation, path, positive
 from ..errors import ResultsError
-from .parameters import Given, argument, command, flag, option
+from .parameters import Given, argument, command, flag, option, target_option
 
 MILLIMETRES = {  # option -> meaning
     "diameter": "of the new tyre; by default that of the size",
@@ -24,18 +30,24 @@ CORRELATED = 0.8  # two parameters are reported together from this on
 USUAL_DEFLECTION = (0.12, 0.30)
 
 
-INFLATION = (10.0, 2000.0)  # [kPa] the lowest of tyres for soft ground is 20, 2000 is that of tyre files
-
-
-def inflation(text: str) -> float:
-    """A pressure of tyres [kPa]."""
-    pressure, (low, high) = number(text), INFLATION
-    if not low <= pressure <= high:
-        raise WrongText(
-            f"{text} kPa is no pressure of a tyre, which is {low:g} to {high:g} kPa; give kPa: bar times 100, "
-            "psi times 6.895, Pa over 1000"
-        )
-    return pressure
+@command(
+    argument("file", "a YAML file with a fit; furrow-point paths lists its keys", path),
+    target_option("the results folder; results/<name of the file> unless given"),
+    flag("--no-plot", help="no figure"),
+)
+def fit_law_(given: Given) -> int:
+    """1 where the fit did not converge; its results are written all the same."""
+    folder: Path = given.output or Path("results") / given.file.stem
+    with PointCurves(given.file) as point:
+        for warning in point.warnings:
+            print(f"{PROGRAM}: warning: {warning}", file=sys.stderr)
+        fit = fit_law(point.parameters, point.curves, point)
+        write_fit(point, fit, folder)
+        print(f"{report(point, fit)}  results       {folder}")
+    if not given.no_plot:  # without a figure nobody waits for matplotlib
+        (figure,) = importlib.import_module("..figures.point_figure", __package__).draw_point(folder)
+        print(f"  figure        {figure}")
+    return 0 if fit.fit.converged else 1
 
 
 @command(
