@@ -14,8 +14,7 @@ from ..figures.histories import draw_histories
 from ..figures.modes_figure import draw_modes
 from ..figures.point_figure import draw_point
 from ..figures.sidewall_figure import draw_sidewall
-from ..figures.terrain_figure import draw_terrain
-from ..figures.terrain_stress_figure import draw_stress
+from ..figures.terrain_figure import draw_stress, draw_terrain
 from ..figures.view import LARGEST, view_page
 from ..read.motion import read_motion
 from ..read.results import Results, require_different
@@ -36,6 +35,7 @@ from .parameters import (
 
 MEGABYTE = 1e6
 FILMS = ("mp4", "mkv", "webm")
+FILM = f"film to write, {', '.join(f'.{ending}' for ending in FILMS)} (default: film.mp4 in the results folder)"
 FIGURES = {"point": draw_point, "sidewall": draw_sidewall, "modes": draw_modes}
 
 
@@ -105,7 +105,7 @@ def view(given: Given) -> None:
 
 @command(
     argument("results", "results folder of a run that wrote frames", path),
-    argument("film", f"film to write, {', '.join(f'.{ending}' for ending in FILMS)} (default: film.mp4 in the results folder)", path, required=False),
+    argument("film", FILM, path, required=False),
     option("--colour", choices=[key for key, *_ in KNOWN], help="of the ground (default: the first)"),
     option("--seconds", parse=positive, default=8.0, show_default=True, help="how long it plays"),
     option("--cut", parse=number, default=float("-inf"), help="leave out ground of smaller y [m]"),
