@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from ..analyse.compaction import Compaction
 from ..analyse.half_space import ELASTIC, SOEHNE
-from .style import CENTIMETRE, KILOPASCAL, RUN_COLOURS, annotate_panel, save, use_style
+from .style import CENTIMETRE, KILOPASCAL, RUN_COLOURS, label_panels, save, use_style
 
 
 def draw_compaction(runs: Sequence[Compaction], target: Path) -> None:
@@ -27,14 +27,10 @@ def draw_compaction(runs: Sequence[Compaction], target: Path) -> None:
         )
         vertical.plot(elastic, depth, "--", color=colour, lw=1)
         vertical.fill_betweenx(depth, low, high, color=colour, alpha=0.15, lw=0)
-        mean.errorbar(
-            KILOPASCAL * run.mean_stress, depth, xerr=KILOPASCAL * run.mean_stress_error, **points
-        )
+        mean.errorbar(KILOPASCAL * run.mean_stress, depth, xerr=KILOPASCAL * run.mean_stress_error, **points)
         ratio = run.density / run.density_before
         density.errorbar(ratio, depth, xerr=run.density_error / run.density_before, **points)
-    annotate_panel(vertical, "a", "largest vertical stress")
-    annotate_panel(mean, "b", "largest mean stress")
-    annotate_panel(density, "c", "density")
+    label_panels((vertical, mean, density), "largest vertical stress", "largest mean stress", "density")
     deepest = max(float(np.max(run.depth)) for run in runs)
     vertical.set(xlabel="kPa", ylabel="depth [cm]", xlim=(0, None), ylim=(CENTIMETRE * deepest, 0))
     mean.set(xlabel="kPa", xlim=(0, None))
