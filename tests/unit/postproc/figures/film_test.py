@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 
-from furrow_post.figures.moving import MovingPictures
+from furrow_post.figures.film import MovingPictures
 from furrow_post.read.motion import read_motion
 from support.command import run_post
 from support.folder import FolderTest
