@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from markupsafe import Markup
 
 from ..analyse import cost_table
 from ..analyse.comparison import Comparison, compare, uniquely_labelled
@@ -28,9 +27,9 @@ from ..figures.cost_figure import draw_cost
 from ..figures.curves_figure import draw_curves
 from ..figures.flow_figure import draw_flow
 from ..figures.histories import draw_histories
-from ..figures.page import all_condition_rows, escaped, render, results_tables, run_values, verdict_values
+from ..figures.page import all_condition_rows, render, results_tables, run_values, verdict_values
 from ..figures.resistance_parts import CAPTION as PARTS_CAPTION, Panel, draw_parts
-from ..figures.view import view_section, view_style
+from ..figures.view import view_values
 from ..formatting import value_text
 from ..read.motion import read_motion
 from ..read.results import require_different
@@ -55,13 +54,15 @@ from .parameters import (
 NO_FRAMES = "No run wrote frames ('vtk N' in its lines of histories)."
 MOST_IN_3D = 2  # runs that stand side by side
 LINES = 8  # of the table of compaction on the screen
+ERRORS = "table of runs of the scene (inputs/costs): errors of size, domain, packing"
+FORMULA = "nrmm:PRESSURE, bekker:TERRAIN or wong_reece:TERRAIN; may be repeated"
 
 
 def _references() -> list[Decorator[Any]]:
-    """What runs are compared with: errors of other sizes, formulas."""
+    """Options for what runs are compared with: errors of other sizes, formulas."""
     return [
-        option("--errors", parse=path, help="table of runs of the scene (inputs/costs): errors of size, domain, packing"),
-        option("--formula", parse=str, multiple=True, help="nrmm:PRESSURE, bekker:TERRAIN or wong_reece:TERRAIN; may be repeated"),
+        option("--errors", parse=path, help=ERRORS),
+        option("--formula", parse=str, multiple=True, help=FORMULA),
         flag("--extrapolate", help="formulas outside of their range too"),
     ]
 
@@ -155,13 +156,14 @@ def _layers(run: Compaction) -> list[list[str]]:
     }
     for factor in (ELASTIC, *SOEHNE):
         name = "Boussinesq [kPa]" if factor == ELASTIC else f"Söhne {factor:.0f} [kPa]"
-        columns[name] = (run.contact.ellipse(run.distance, factor), run.contact.ellipse_error(run.distance, factor), 1e-3)
+        stress, error = run.contact.ellipse(run.distance, factor), run.contact.ellipse_error(run.distance, factor)
+        columns[name] = (stress, error, 1e-3)
     columns["density [kg/m3]"] = (run.density, run.density_error, 1.0)
-    count = len(run.depth)
-    return [["depth [cm]", *columns]] + [
-        [f"{100 * run.depth[k]:.1f}", *(value_text(scale * mean[k], scale * error[k]) for mean, error, scale in columns.values())]
-        for k in np.unique(np.linspace(0, count - 1, min(LINES, count)).round().astype(int))
-    ]
+    rows, count = [["depth [cm]", *columns]], len(run.depth)
+    for k in np.unique(np.linspace(0, count - 1, min(LINES, count)).round().astype(int)):
+        values = [value_text(scale * mean[k], scale * error[k]) for mean, error, scale in columns.values()]
+        rows.append([f"{100 * run.depth[k]:.1f}", *values])
+    return rows
 
 
 @command(
@@ -224,8 +226,7 @@ def _page_text(result: Comparison, errors: Path | None, scratch: Path, target: P
         "report.html",
         first.results.title if len(runs) == 1 else " and ".join(run.label for run in runs),
         f"{first.wheel} {size}, load {first.text('load')}, {first.text('speed')}",
-        style=view_style(),
-        view=Markup(_in_3d(result)),
+        view=_in_3d(result),
         quantities=results_tables(result),
         tracks=[[e.label, e.text(), parts_cell(e)] for e in result.tracks.values()],
         comparison=scratch / "compare.png",
@@ -255,14 +256,14 @@ def _draw_parts(runs: Sequence[WheelRun], picture: Path) -> Path | None:
     return picture
 
 
-def _in_3d(result: Comparison) -> str:
-    """HTML of the first runs that wrote frames, at most two, or why there are none."""
+def _in_3d(result: Comparison) -> dict[str, Any] | str:
+    """Values of section.html with the first runs that wrote frames, at most two, or why there are none."""
     try:
         motions = [(read_motion(run.folder), run.label) for run in result.runs]
         moving = [one for one in motions if one[0].has_frames][:MOST_IN_3D]
         if not moving:
-            return f"<p>{escaped(NO_FRAMES)}</p>"
+            return NO_FRAMES
         shown, labels = zip(*moving)
-        return view_section(shown, labels)
+        return view_values(shown, labels)
     except ResultsError as error:  # the numbers of a report stand without it
-        return f"<p>{escaped(error)}</p>"
+        return str(error)
