@@ -197,7 +197,8 @@ def assignments(name: str, help: str) -> Decorator[Any]:
 
 
 def pixels_option() -> Decorator[Any]:
-    return option("--pixels", parse=at_least(100), default=1000, show_default=True, help="width of the view from behind")
+    help = "width of the view from behind"
+    return option("--pixels", parse=at_least(100), default=1000, show_default=True, help=help)
 
 
 def target(given: Given, folder: Path, name: str) -> Path:
@@ -213,7 +214,7 @@ def target(given: Given, folder: Path, name: str) -> Path:
 
 
 def require_file(file: Path, *endings: str, make_folder: bool = False) -> None:
-    """endings: "html", ... @raises ResultsError for another name, a folder, or where its folder is missing and not made"""
+    """endings: "html", ... @raises ResultsError for another name, a folder, or where its folder is missing"""
     if file.is_dir():
         raise ResultsError(f"{file}: is a folder; name a file in it")
     if file.suffix[1:] not in endings:

@@ -72,7 +72,11 @@ def _variables(help: str) -> Any:
         parse=seconds,
         help="writes a checkpoint at this interval, e.g. 10min; a run that is stopped writes one too",
     ),
-    flag("--continue", "continues", help="continues a stopped run from its last checkpoint, with its variables and ranks"),
+    flag(
+        "--continue",
+        "continues",
+        help="continues a stopped run from its last checkpoint, with its variables and ranks",
+    ),
     flag("--no-pictures", help="draws no pictures of the results"),
     flag("--no-build", help="for inputs/run: runs the programs that were built last"),
     option(
@@ -80,8 +84,8 @@ def _variables(help: str) -> Any:
         parse=str,
         multiple=True,
         metavar="NAME=VALUES",
-        help="[sweep] a run for each value: FIRST:LAST:COUNT or VALUE,VALUE,...; several --sweep give each combination. "
-        "Finished points are kept, so the same command resumes a sweep (inputs/sweep/README.md)",
+        help="[sweep] a run for each value: FIRST:LAST:COUNT or VALUE,VALUE,...; several --sweep give each "
+        "combination. Finished points are kept, so the same command resumes a sweep (inputs/sweep/README.md)",
     ),
     _once(
         "--samples",

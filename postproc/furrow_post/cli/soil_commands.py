@@ -150,9 +150,7 @@ def card_material(given: Given) -> None:
         raise ResultsError(f"--{route} needs {', '.join(map(_option, missing))} as well")
     unread = sorted(present - {route, *needed, *further})
     if unread:
-        raise ResultsError(
-            f"--{route} does not use {', '.join(map(_option, unread))}; leave it out"
-        )
+        raise ResultsError(f"--{route} does not use {', '.join(map(_option, unread))}; leave it out")
     material = _material(route, given)
     given.file.parent.mkdir(parents=True, exist_ok=True)
     given.file.write_text(material.text(), encoding="utf-8")

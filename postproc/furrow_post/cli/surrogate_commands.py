@@ -39,9 +39,7 @@ def surrogate_(given: Given) -> None:
     sources: Sequence[Path] = given.sources
     if sources[0].suffix == ".json":
         if given.output or len(sources) > 1 or not given.at:
-            raise ResultsError(
-                f"{sources[0]}: is a surrogate; give it alone, with --at NAME=NUMBER ..."
-            )
+            raise ResultsError(f"{sources[0]}: is a surrogate; give it alone, with --at NAME=NUMBER ...")
         surrogate = read_surrogate(sources[0])
     else:
         surrogate = _fit(sources, given.output)
@@ -75,8 +73,8 @@ def _origin(sources: Sequence[Path]) -> dict[str, str]:
 def _report(surrogate: Surrogate, training: Training, held_out: Mapping[str, HeldOut]) -> list[str]:
     rows = [["quantity", "rms error", "of spread", "inside 95 % band"]]
     for name, held in held_out.items():
-        share, inside = held.rms_error / held.spread, held.coverage
-        rows.append([name + in_unit(QUANTITIES[name]), f"{held.rms_error:.2g}", f"{100 * share:.1f} %", f"{100 * inside:.1f} %"])
+        percents = [f"{100 * share:.1f} %" for share in (held.rms_error / held.spread, held.coverage)]
+        rows.append([name + in_unit(QUANTITIES[name]), f"{held.rms_error:.2g}", *percents])
     ranges = [[one.name, f"{one.low:g} to {one.high:g} {one.unit}".strip()] for one in surrogate.inputs]
     lines = [f"{len(training.inputs)} runs, held out in ten parts"]
     if training.left_out:
@@ -134,9 +132,7 @@ def map_(given: Given) -> None:
     of_classes = [name for name in needed if name not in rasters and name not in constants]
     for name in (*rasters, *constants):
         if name not in needed:
-            raise ResultsError(
-                f"the surrogate has no soil parameter '{name}'; it has {', '.join(needed) or 'none'}"
-            )
+            raise ResultsError(f"the surrogate has no soil parameter '{name}'; it has {', '.join(needed) or 'none'}")
     fixed: list[tuple[Booleans | None, Mapping[str, float]]] = [(None, constants)]
     soils: dict[str, Mapping[str, float]] = {"all": constants}
     if given.classes:
@@ -160,9 +156,7 @@ def map_(given: Given) -> None:
     for name, value in (("go", GO), ("uncertain", UNCERTAIN), ("no-go", NO_GO)):
         print(f"{name:10} {100 * np.mean(result.verdict == value):6.1f} % of the cells")
     print("\n".join(result.notes))
-    print(
-        f"\n{given.output}: {', '.join(files)}; {slope.values.size} cells in {time.perf_counter() - begin:.1f} s"
-    )
+    print(f"\n{given.output}: {', '.join(files)}; {slope.values.size} cells in {time.perf_counter() - begin:.1f} s")
 
 
 def _vehicle(surrogate: Surrogate, given: Given) -> Vehicle:
@@ -192,9 +186,7 @@ def fit_soil(given: Given) -> None:
     for name, samples, ratio in zip(posterior.names, posterior.samples.T, posterior.ratio):
         unit = surrogate.inputs[surrogate.names.index(name)].unit
         low, median, high = np.percentile(samples, QUANTILES)
-        rows.append(
-            [f"{name}{in_unit(unit)}", f"{median:.4g}", f"{low:.4g} to {high:.4g}", f"{ratio:.2f}"]
-        )
+        rows.append([f"{name}{in_unit(unit)}", f"{median:.4g}", f"{low:.4g} to {high:.4g}", f"{ratio:.2f}"])
     folder: Path = given.output
     folder.mkdir(parents=True, exist_ok=True)
     thinned = posterior.samples[:: max(1, len(posterior.samples) // 2000)]
