@@ -166,13 +166,17 @@ class Group(click.Group):
         super().__init__(**settings)
         self.words = tuple(words)
 
+    def _further(self, entry: Entry) -> list[str]:
+        """The words of a command behind those of this group; none where it is not in it."""
+        path, count = entry.path.split(), len(self.words)
+        return path[count:] if tuple(path[:count]) == self.words else []
+
     def _below(self) -> dict[str, list[Entry]]:
         """First further word -> commands."""
         found: dict[str, list[Entry]] = {}
         for entry in entries():
-            path = tuple(entry.path.split())
-            if path[: len(self.words)] == self.words and len(path) > len(self.words):
-                found.setdefault(path[len(self.words)], []).append(entry)
+            for word in self._further(entry)[:1]:
+                found.setdefault(word, []).append(entry)
         return found
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -203,16 +207,8 @@ class Group(click.Group):
         raise click.UsageError(f"there is no command '{word}'; {hint}", ctx)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        below = self._below()
         for heading, group in COMMANDS.items():
-            rows = []
-            for word, found in below.items():
-                of_group = [entry for entry in found if entry in group]
-                if of_group and len(of_group) == 1 and of_group[0].path == " ".join((*self.words, word)):
-                    rows.append((word, of_group[0].help))
-                elif of_group:
-                    rows += [(entry.path, entry.help) for entry in of_group]
-            if rows:
+            if rows := [(" ".join(words), entry.help) for entry in group if (words := self._further(entry))]:
                 with formatter.section(heading if not self.words else "Commands"):
                     formatter.write_dl(rows)
 
