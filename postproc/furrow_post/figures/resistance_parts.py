@@ -93,10 +93,10 @@ def _draw_panel(axes: Axes, panel: Panel, visible: float) -> None:
     place = np.arange(len(forces))
     above, below = np.zeros(len(forces)), np.zeros(len(forces))
     for name in _ordered(forces):
-        force = forces[name].fillna(0.0).to_numpy()
+        known, force = forces[name].notna(), forces[name].fillna(0.0).to_numpy()
         label = name if (np.abs(force) >= visible).any() else None
         start = np.where(force > 0, above, below)
-        axes.bar(place, force, WIDTH, start, color=COLOURS.get(name, OTHER), label=label)
+        axes.bar(place[known], force[known], WIDTH, start[known], color=COLOURS.get(name, OTHER), label=label)
         above, below = above + force.clip(min=0), below + force.clip(max=0)
     for k, (_, parts) in enumerate(panel.bars):
         axes.plot([k - 0.5 * WIDTH, k + 0.5 * WIDTH], [parts.whole] * 2, color="black", lw=1.4)
