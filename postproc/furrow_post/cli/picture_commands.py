@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Commands that draw one run: plot, picture, terrain, view, film, figure."""
+"""Commands that draw one run: plot, picture, terrain, view, film."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,9 +11,6 @@ from ..errors import ResultsError
 from ..figures.film import draw_film
 from ..figures.ground_quantities import KNOWN
 from ..figures.histories import draw_histories
-from ..figures.modes_figure import draw_modes
-from ..figures.point_figure import draw_point
-from ..figures.sidewall_figure import draw_sidewall
 from ..figures.terrain_figure import draw_stress, draw_terrain
 from ..figures.view import LARGEST, view_page
 from ..read.motion import read_motion
@@ -36,7 +33,6 @@ from .parameters import (
 MEGABYTE = 1e6
 FILMS = ("mp4", "mkv", "webm")
 FILM = f"film to write, {', '.join(f'.{ending}' for ending in FILMS)} (default: film.mp4 in the results folder)"
-FIGURES = {"point": draw_point, "sidewall": draw_sidewall, "modes": draw_modes}
 
 
 @command(
@@ -116,13 +112,3 @@ def film(given: Given) -> None:
     require_file(file, *FILMS)
     count = draw_film(motion, file, given.colour, given.seconds, given.cut)
     print(f"{file} ({count} frames)")
-
-
-@command(
-    argument("name", "point, sidewall or modes", choices=FIGURES),
-    argument("results", "results folder of the program", path),
-)
-def figure(given: Given) -> None:
-    """Figures of the programs furrow-point, furrow-sidewall and furrow-tyre --modes, which call this."""
-    for file in FIGURES[given.name](given.results):
-        print(f"  figure        {file}")

@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Commands on scripts: run, converge, variables."""
+"""Commands that make runs of a scene: run, converge."""
 
 import importlib
-import sys
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import click
 
 from ..arguments import at_least, between, fraction, path, seconds
-from ..errors import ResultsError
 from ..programs import results_folder
-from ..run.script import RESERVED, check_variables, script_variables
 from ..scene.catalogue import listing, scene_names
 from ..scene.command import run_scene
 from ..scene.converging import converge, convergence_table, material_table, vary_material
@@ -139,24 +135,6 @@ def converge_(given: Given) -> None:
     found = converge(given.scene, list(given.given), given.ratio, given.sizes, folder, given.jobs)
     print(convergence_table(found))
     print(f"\n{found.path}: later runs of this script take the error of their size from it")
-
-
-@command(
-    argument("script", "path of a LIGGGHTS script", Path),
-    argument("given", "refuses a name that no line reads", str, nargs=-1, metavar="[NAME VALUE]..."),
-)
-def variables(given: Given) -> None:
-    script: Path = given.script
-    words: Sequence[str] = given.given
-    if not words:
-        known = script_variables(script, {})
-        for name in known.settable:
-            print(f"{name:20} {known.defaults.get(name, '(no default)')}")
-        return
-    if len(words) % 2:
-        raise ResultsError(f"-v {words[-1]} has no value")
-    for warning in check_variables(script, list(zip(words[::2], words[1::2])), RESERVED):
-        print(f"WARNING: {warning}", file=sys.stderr)
 
 
 def post(*words: object) -> int:

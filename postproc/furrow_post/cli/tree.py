@@ -40,7 +40,7 @@ COMMANDS: dict[str, tuple[Entry, ...]] = {
         Entry("answer", "answer_command",
               "pull, resistance and rut of a tyre on sand or clay, from its size and a cone index, with the formulas",
               ("265/70R17 --load 6000 --pressure 200 --soil sand --cone-index 300 --slip 0.2 --error 10%",)),
-        Entry("variables", "run_commands",
+        Entry("variables", "shell_commands",
               "the variables of a script that 'run SCRIPT -v NAME VALUE' may set",
               ("inputs/scenes/wheel_on_snow.lig",)),
         Entry("fmu", "fmu_command",
@@ -144,11 +144,11 @@ COMMANDS: dict[str, tuple[Entry, ...]] = {
               ("wheel.json dem.tif --classes soil.tif soils.csv --load 600 -o results/map",)),
     ),
     "Other": (
-        Entry("figure", "picture_commands",
+        Entry("figure", "shell_commands",
               "the figure of furrow-point, furrow-sidewall or furrow-tyre --modes",
               ("point results/snow_oedometer", "modes results/at_rest"),
               ("point", "sidewall", "modes")),
-        Entry("completion", "completion_command", "the lines that complete words in a shell", ("bash",)),
+        Entry("completion", "shell_commands", "the lines that complete words in a shell", ("bash",)),
     ),
 }  # fmt: skip
 GROUPS = {"fit": "fits laws, tyres and soils to measurements", "card": "soil cards and material files"}
