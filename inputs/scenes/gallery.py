@@ -18,7 +18,7 @@ from PIL import Image
 from furrow_post.cli.main import start
 from furrow_post.cli.parameters import Given, command, flag, option
 from furrow_post.errors import ResultsError
-from furrow_post.figures.moving import MovingPictures
+from furrow_post.figures.film import MovingPictures
 from furrow_post.read.motion import read_motion
 from furrow_post.scene.catalogue import GROUPS, head_of
 

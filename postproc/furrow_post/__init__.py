@@ -51,7 +51,7 @@ def answer(size: str, **options: Any) -> "pandas.DataFrame":
     import pandas
 
     from .cli.answer_command import TABLE, default_folder
-    from .cli.run_command import post
+    from .cli.run_commands import post
     from .errors import ResultsError
 
     folder = Path(options.setdefault("output", default_folder()))

@@ -73,6 +73,20 @@ def assignment(text: str) -> tuple[str, float]:
     return name.strip(), number(value)
 
 
+INFLATION = (10.0, 2000.0)  # [kPa] the lowest of tyres for soft ground is 20, 2000 is that of tyre files
+
+
+def inflation(text: str) -> float:
+    """A pressure of tyres [kPa]."""
+    pressure, (low, high) = number(text), INFLATION
+    if not low <= pressure <= high:
+        raise WrongText(
+            f"{text} kPa is no pressure of a tyre, which is {low:g} to {high:g} kPa; give kPa: bar times 100, "
+            "psi times 6.895, Pa over 1000"
+        )
+    return pressure
+
+
 UNITS_OF_TIME = {"min": 60.0, "h": 3600.0, "s": 1.0}
 
 

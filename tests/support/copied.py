@@ -13,9 +13,9 @@ import traceback
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from furrow_post.cli import card_commands, report_command
+from furrow_post.cli import comparison_commands, soil_commands
 
-LOADED = (report_command, card_commands)  # with what they import: most of what other commands need
+LOADED = (comparison_commands, soil_commands)  # with what they import: most of what other commands need
 POST = re.compile(r"postproc/furrow-(post|soil) |(/usr/bin/python3 )?inputs/[\w/]+\.py( |$)")
 SHELL = re.compile(r"[][$*?|&;<>`(){}~!]")  # what only a shell understands
 

@@ -10,14 +10,13 @@ from ..laws.tyre_fit import PlateTest, fit_tyre, press
 from ..laws.tyre_size import read_size
 from ..uncertainty.whole_error import budgets_of
 from ..csv_table import write_rows
-from ..arguments import between, fraction, path, positive, seconds
+from ..arguments import between, fraction, inflation, path, positive, seconds
 from ..programs import results_folder
 from ..run.summary import Summary
 from ..soil.make import from_cone
 from ..soil.material import find_ground
-from .fit_tyre_command import inflation
 from .parameters import Given, argument, command, flag, option
-from .run_command import post
+from .run_commands import post
 
 SCENE = "tyre_on_soil"
 RESULTS = "answer"  # name of the default results folder

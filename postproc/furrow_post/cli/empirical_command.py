@@ -5,7 +5,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 from ..laws import cone_formulas, empirical
 from ..laws.prediction import Prediction
@@ -56,26 +56,12 @@ DEFLECTED = ("section_height", "deflection")
 VEHICLE = ("weight", "axles", "tyres", "diameter", "width", "clearance", "power")
 
 
-class Report(Protocol):
-    def report(self) -> str:
-        ...
-
-
-class Text(NamedTuple):
-    """A report that is written."""
-
-    text: str
-
-    def report(self) -> str:
-        return self.text
-
-
 class Method(NamedTuple):
-    """A formula: options that it cannot do without, those that it may have besides, its answer."""
+    """A formula: options that it cannot do without, those that it may have besides, its answer as a text."""
 
     needed: tuple[str, ...]
     further: tuple[str, ...]
-    answer: Callable[[Given], Report]
+    answer: Callable[[Given], str]
 
 
 def _tyre(g: Given) -> cone_formulas.Tyre:
@@ -83,14 +69,15 @@ def _tyre(g: Given) -> cone_formulas.Tyre:
     return cone_formulas.Tyre(*(math.nan if size is None else size for size in sizes), radial=g.radial)
 
 
-def _nrmm(g: Given) -> Report:
+def _nrmm(g: Given) -> str:
     wheel = (g.load, 0.5 * g.diameter, g.width)
-    return empirical.nrmm(*wheel, g.depth, g.density, g.pressure, g.sinkage, g.extrapolate)
+    return empirical.nrmm(*wheel, g.depth, g.density, g.pressure, g.sinkage, g.extrapolate).report()
 
 
 def _ground(g: Given) -> TerrainValues:
     """Ground of --terrain, of the options, or of both. @raises ResultsError"""
-    given = {name: getattr(g, name) for name in GROUND if getattr(g, name) is not None}
+    given = {name: value for name in GROUND if (value := getattr(g, name)) is not None}
+    soil_law = given.keys() & {"k_c", "k_phi", "n"}
     for name, value in given.items():
         if name not in ("c1", "c2"):
             require_plausible("Bekker's n" if name == "n" else name, value)
@@ -99,7 +86,7 @@ def _ground(g: Given) -> TerrainValues:
     else:
         ground = TerrainValues("the options", "given", "bekker", 0.0, *(math.nan,) * 7)
     modulus = {"k_1": given.pop("k_c", ground.k_1), "k_2": given.pop("k_phi", ground.k_2)}
-    if ground.pressure != "bekker" and not {"k_c", "k_phi", "n"}.isdisjoint(name for name in GROUND if getattr(g, name) is not None):
+    if ground.pressure != "bekker" and soil_law:
         raise ResultsError(f"'{ground.name}' has the law of Reece; give --k_phi and --n without --terrain")
     ground = replace(ground, **modulus, **given)
     needed = {"k_2": "k_phi", "n": "n"} | ({name: name for name in ("c", "phi", "K")} if g.method == "wong_reece" else {})
@@ -110,36 +97,36 @@ def _ground(g: Given) -> TerrainValues:
     return ground if known else with_stress_place(ground)
 
 
-def _report(prediction: Prediction, ground: TerrainValues) -> Report:
+def _report(prediction: Prediction, ground: TerrainValues) -> str:
     lines = [prediction.report(), f"  ground       {ground.report()}"]
-    return Text("\n".join([*lines, *(f"  assumed      {value}" for value in ground.assumed)]))
+    return "\n".join([*lines, *(f"  assumed      {value}" for value in ground.assumed)])
 
 
-def _bekker(g: Given) -> Report:
+def _bekker(g: Given) -> str:
     ground = _ground(g)
     return _report(empirical.bekker(g.load, g.diameter, g.width, ground, g.extrapolate), ground)
 
 
-def _wong_reece(g: Given) -> Report:
+def _wong_reece(g: Given) -> str:
     ground = _ground(g)
     return _report(empirical.wong_reece(g.load, g.diameter, g.width, g.slip, ground, g.extrapolate), ground)
 
 
-def _vehicle_cone_index(g: Given) -> Report:
+def _vehicle_cone_index(g: Given) -> str:
     vehicle = (g.weight, g.axles, g.tyres, _tyre(g), g.clearance, g.power, g.manual, g.chains)
-    return cone_formulas.vehicle_cone_index(cone_formulas.WheeledVehicle(*vehicle))
+    return cone_formulas.vehicle_cone_index(cone_formulas.WheeledVehicle(*vehicle)).report()
 
 
-def _by_cone_index(g: Given) -> Report:
-    return cone_formulas.formulas_for(g.soil, g.cone_index, _tyre(g), g.slip)
+def _by_cone_index(g: Given) -> str:
+    return cone_formulas.formulas_for(g.soil, g.cone_index, _tyre(g), g.slip).report()
 
 
-def _on_cone(formula: cone_formulas.ConeFormula) -> Any:
-    return lambda g: formula(g.cone_index, _tyre(g), g.slip, g.extrapolate)
+def _on_cone(formula: cone_formulas.ConeFormula) -> Callable[[Given], str]:
+    return lambda g: str(formula(g.cone_index, _tyre(g), g.slip, g.extrapolate).report())
 
 
-def _snow_traction(g: Given) -> Report:
-    return empirical.snow_traction(g.surface, g.load, g.contact_area)
+def _snow_traction(g: Given) -> str:
+    return empirical.snow_traction(g.surface, g.load, g.contact_area).report()
 
 
 WHEEL = ("load", "diameter", "width")
@@ -169,7 +156,7 @@ METHODS = {
     ),
     option(
         "--surface",
-        choices=list(empirical.TRACTION),
+        choices=empirical.TRACTION,
         help="of snow_traction; packed: a snow road, or more than four passes",
     ),
     option("--soil", choices=["sand", "clay"], help="of by_cone_index, which prints all formulas of this soil with their band"),
@@ -185,8 +172,7 @@ def empirical_(given: Given) -> None:
         raise ResultsError(f"empirical {given.method} needs {', '.join(missing)}")
     unread = sorted(f"--{name}" for name in names - {*method.needed, *method.further})
     if unread:
-        options = ", ".join(unread)
-        raise ResultsError(f"empirical {given.method} does not read {options}; leave it out")
-    print(method.answer(given).report())
+        raise ResultsError(f"empirical {given.method} does not read {', '.join(unread)}; leave it out")
+    print(method.answer(given))
     if given.terrain and given.terrain.endswith(CARD):
         print(f"  the card {read_card(given.terrain).condition()}")

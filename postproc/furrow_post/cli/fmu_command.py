@@ -17,7 +17,7 @@ from ..programs import find_program
 from ..run.case import with_named_files
 from ..run.script import script_variables
 from ..scene.restart import BEGIN, FROM
-from .parameters import Given, argument, command, option
+from .parameters import Given, argument, command, option, require_file
 
 LIBRARY = "furrow_wheel.so"
 PLATFORMS = {2: "linux64", 3: "x86_64-linux"}  # by version of FMI
@@ -34,8 +34,7 @@ def fmu(given: Given) -> None:
     files: Sequence[Path] = given.files
     version = int(given.fmi)
     target: Path = given.output or Path(script.stem + ".fmu")
-    if target.suffix != ".fmu" or not target.parent.is_dir():
-        raise ResultsError(f"-o {target}: name a file that ends in .fmu, in a folder that is there")
+    require_file(target, "fmu")
     known = script_variables(script, {})
     variables = [
         {"name": name, "value": (shlex.split(known.defaults.get(name, "")) or [""])[0]}

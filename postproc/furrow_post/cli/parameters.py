@@ -15,7 +15,7 @@ from ..errors import ResultsError
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 Decorator = Callable[[Decorated], Decorated]
 Parse = Callable[[str], Any]
-FORMATS = ("png", "svg", "pdf")
+FORMATS = ("png", "svg", "pdf")  # of figures
 
 
 # Names that help gives to the values of a type; others are numbers
@@ -197,9 +197,8 @@ def assignments(name: str, help: str) -> Decorator[Any]:
 
 
 def pixels_option() -> Decorator[Any]:
-    return option(
-        "--pixels", parse=at_least(100), default=1000, show_default=True, help="width of the view from behind"
-    )
+    help = "width of the view from behind"
+    return option("--pixels", parse=at_least(100), default=1000, show_default=True, help=help)
 
 
 def target(given: Given, folder: Path, name: str) -> Path:
@@ -208,29 +207,19 @@ def target(given: Given, folder: Path, name: str) -> Path:
     wanted: str | None = given.format
     if asked is None:
         return folder / f"{name}.{wanted or FORMATS[0]}"
-    require_picture(asked)
+    require_file(asked, *FORMATS)
     if wanted and asked.suffix != f".{wanted}":
         raise ResultsError(f"-o {asked}: is no {wanted}; leave out --format, or change the name")
     return asked
 
 
-def require_picture(file: Path) -> None:
-    """@raises ResultsError for a name that no figure can have"""
+def require_file(file: Path, *endings: str, make_folder: bool = False) -> None:
+    """endings: "html", ... @raises ResultsError for another name, a folder, or where its folder is missing"""
     if file.is_dir():
-        raise ResultsError(f"-o {file}: is a folder; name a file in it")
-    if file.suffix[1:] not in FORMATS:
-        raise ResultsError(f"-o {file}: its name ends in none of .{', .'.join(FORMATS)}")
-    if not file.parent.is_dir():
-        raise ResultsError(f"-o {file}: there is no folder {file.parent}; make it first")
-
-
-def prepare_page(file: Path, what: str) -> None:
-    """Makes the folder of an HTML page. what: whose name it is, e.g. "a report".
-
-    @raises ResultsError for a name that no page can have; OSError
-    """
-    if file.suffix != ".html":
-        raise ResultsError(f"{file}: {what}'s name ends in .html")
-    if file.is_dir():
-        raise ResultsError(f"-o {file}: is a folder; name a file in it")
-    file.parent.mkdir(parents=True, exist_ok=True)
+        raise ResultsError(f"{file}: is a folder; name a file in it")
+    if file.suffix[1:] not in endings:
+        raise ResultsError(f"{file}: its name must end in .{' or .'.join(endings)}")
+    if make_folder:
+        file.parent.mkdir(parents=True, exist_ok=True)
+    elif not file.parent.is_dir():
+        raise ResultsError(f"{file}: there is no folder {file.parent}; make it first")

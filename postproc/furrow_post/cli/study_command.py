@@ -77,9 +77,7 @@ def folder_of(root: Path, name: str) -> Path:
     for folder in known:
         if folder.name == name:
             return folder
-    raise ResultsError(
-        f"there is no study '{name}'; there are {', '.join(folder.name for folder in known)}"
-    )
+    raise ResultsError(f"there is no study '{name}'; there are {', '.join(folder.name for folder in known)}")
 
 
 def make(folder: Path, given: Given) -> int:

@@ -34,13 +34,13 @@ class Entry:
 
 COMMANDS: dict[str, tuple[Entry, ...]] = {
     "Runs": (
-        Entry("run", "run_command",
+        Entry("run", "run_commands",
               "runs a scene or a sweep of it, and shows its results",
               ("wheel_on_snow --quick", "tyre_on_plane --sweep slip=0:0.2:3 -o results/pull")),
         Entry("answer", "answer_command",
               "pull, resistance and rut of a tyre on sand or clay, from its size and a cone index, with the formulas",
               ("265/70R17 --load 6000 --pressure 200 --soil sand --cone-index 300 --slip 0.2 --error 10%",)),
-        Entry("variables", "variables_command",
+        Entry("variables", "shell_commands",
               "the variables of a script that 'run SCRIPT -v NAME VALUE' may set",
               ("inputs/scenes/wheel_on_snow.lig",)),
         Entry("fmu", "fmu_command",
@@ -51,83 +51,83 @@ COMMANDS: dict[str, tuple[Entry, ...]] = {
               ("", "snow_oedometer", "snow_plate fresh_fine --results results/plate", "--pages --check")),
     ),
     "One run": (
-        Entry("resistance", "resistance_command",
+        Entry("resistance", "value_commands",
               "steady hub drop, resistance and torque with standard errors (furrow-resistance)",
               ("results/a", "--csv results/a results/b", "--distance 0.5 1.2 results/a")),
-        Entry("budget", "budget_command",
+        Entry("budget", "value_commands",
               "the whole error of each value, with its parts and the nearest tests",
               ("results/a", "results/a --json")),
-        Entry("plot", "plot_command",
+        Entry("plot", "picture_commands",
               "forces, depths, torque and slip against time or place -> histories.png",
               ("results/a", "results/a --against x -o forces.svg")),
-        Entry("picture", "picture_command",
+        Entry("picture", "picture_commands",
               "the rut from four sides, grains coloured by displacement, continuum by density -> rut.png",
               ("results/a",)),
-        Entry("terrain", "terrain_command",
+        Entry("terrain", "picture_commands",
               "density, tracers, stress and densities of the rut of continuum terrain -> terrain.png, "
               "terrain_stress.png",
               ("results/a --format pdf",),
               ("ground",)),
-        Entry("view", "view_command",
+        Entry("view", "picture_commands",
               "one or two runs in 3D, in one self-contained page: time, colours, cut -> view.html",
               ("results/a", "results/a results/b -o both.html")),
-        Entry("film", "film_command",
+        Entry("film", "picture_commands",
               "the frames of a run as a film (ffmpeg) -> film.mp4",
               ("results/a film.mp4", "results/a --colour displacement --cut 0 --seconds 5")),
-        Entry("export", "export_command",
+        Entry("export", "value_commands",
               "histories as CSV with units in the head, all channels or some -> history.csv",
               ("results/a", "results/a results/b --channels hub_drop,force_x -o both.csv")),
-        Entry("report", "report_command",
+        Entry("report", "comparison_commands",
               "one self-contained page on runs and their comparison -> report.html, report.csv, report.h5",
               ("results/a", "continuum=results/a grains=results/b -o both.html")),
     ),
     "Several runs": (
-        Entry("compare", "compare_command",
+        Entry("compare", "comparison_commands",
               "the same scene on several grounds: table, verdict, figure -> compare.txt, .csv, .h5, .png",
               ("continuum=results/a grains=results/b -o results/both",)),
-        Entry("sweep", "sweep_command",
+        Entry("sweep", "comparison_commands",
               "curves over slip, load, pressure, depth or speed of folders of runs -> sweep.csv, .h5, .png, "
               "report.html",
               ("results/sweep", "continuum=results/a grains=results/b -o results/both")),
-        Entry("flow", "flow_command",
+        Entry("flow", "comparison_commands",
               "displacement and density of two grounds under one wheel, and their difference -> flow.csv, .h5, .png",
               ("results/a results/b",)),
-        Entry("compaction", "compaction_command",
+        Entry("compaction", "comparison_commands",
               "stress and density at depth below the track, with Boussinesq and Soehne -> compaction.csv, .png",
               ("results/a", "soft=results/a hard=results/b -o results/both")),
-        Entry("converge", "converge_command",
+        Entry("converge", "run_commands",
               "a scene in three sizes of its cells or grains; later runs take the error of their size from it",
               ("wheel_on_snow", "my_wheel.lig -v cell 0.04 --jobs 2")),
-        Entry("cost", "cost_command",
+        Entry("cost", "comparison_commands",
               "values, numerical errors and cost of the runs of a scene -> cost.png, cost.csv",
               ("coarse=results/a fine=results/b", "inputs/costs/wheel_on_snow.csv")),
     ),
     "Materials and tyres": (
-        Entry("fit law", "fit_law_command",
+        Entry("fit law", "fit_commands",
               "parameters of a law from measured curves (furrow-point fit) -> material.yaml, report.txt, fit.csv, "
               ".h5, .png",
               ("inputs/points/fit_abele_gow.yaml -o results/oedometer",),
               ("fit-law",)),
-        Entry("fit tyre", "fit_tyre_command",
+        Entry("fit tyre", "fit_commands",
               "a tyre file from size, catalogue and load-deflection points",
               ("235/75R15 --rim 6.5 --pressure 241 --point 241 6227 3.1 -o my_tyre.yaml",),
               ("fit-tyre",)),
-        Entry("fit soil", "fit_soil_command",
+        Entry("fit soil", "surrogate_commands",
               "soil parameters from wheel tests, by a surrogate -> posterior.csv, posterior.png",
               ("wheel.json tests.csv --set c=250 -o results/soil",),
               ("identify",)),
-        Entry("card make", "card_commands",
+        Entry("card make", "soil_commands",
               "a soil card of a ground: runs plates, shear ring and cone -> card.yaml, card.html",
               ("dry_sand_smooth -o results/card --export chrono altair table", "sand_cmu -o results/card_of_grains")),
-        Entry("card material", "card_commands",
+        Entry("card material", "soil_commands",
               "a material file from soil data, checked by a virtual test",
               ("my_sand.yaml --c 500 --phi 33 --density 1600 --oedometer oedometer.csv",
                "my_loam.yaml --k_c 5270 --k_phi 1515040 --n 0.7 --c 1720 --phi 29 --K 0.025",
                "my_clay.yaml --cone_index 4e5 --class CL --no-check")),
-        Entry("card export", "card_commands", "a card for vehicle codes", ("results/card/card.yaml chrono",)),
-        Entry("card table", "card_commands", "cards as a table in Markdown", ("results/card/card.yaml",)),
-        Entry("card rft", "card_commands", "strength of a card's sand for contact/rft", ("inputs/soils/grc1.yaml --sinkage 0.03",)),
-        Entry("laboratory", "laboratory_command",
+        Entry("card export", "soil_commands", "a card for vehicle codes", ("results/card/card.yaml chrono",)),
+        Entry("card table", "soil_commands", "cards as a table in Markdown", ("results/card/card.yaml",)),
+        Entry("card rft", "soil_commands", "strength of a card's sand for contact/rft", ("inputs/soils/grc1.yaml --sinkage 0.03",)),
+        Entry("laboratory", "soil_commands",
               "moduli, strengths, repose or run-out of laboratory tests with their errors -> laboratory.json, "
               "laboratory.png",
               ("results/laboratory/oedometer_sand_dry",)),
@@ -136,19 +136,19 @@ COMMANDS: dict[str, tuple[Entry, ...]] = {
         Entry("empirical", "empirical_command",
               "the answer of an empirical formula: NRMM for snow, Bekker and Wong-Reece for sand, ...",
               ("nrmm --load 6e3 --diameter 0.74 --width 0.27 --depth 0.2 --density 200 --pressure 179e3",)),
-        Entry("surrogate", "surrogate_command",
+        Entry("surrogate", "surrogate_commands",
               "a fast model of a wheel from sweeps, with checked intervals -> surrogate.json, .png",
               ("results/a -o wheel.json", "wheel.json --at slip=0.2 load=600")),
-        Entry("map", "map_command",
+        Entry("map", "surrogate_commands",
               "go, pull, speed and energy of a wheel on a terrain raster -> map.tif, map.png, mobility.csv",
               ("wheel.json dem.tif --classes soil.tif soils.csv --load 600 -o results/map",)),
     ),
     "Other": (
-        Entry("figure", "figure_command",
+        Entry("figure", "shell_commands",
               "the figure of furrow-point, furrow-sidewall or furrow-tyre --modes",
               ("point results/snow_oedometer", "modes results/at_rest"),
               ("point", "sidewall", "modes")),
-        Entry("completion", "completion_command", "the lines that complete words in a shell", ("bash",)),
+        Entry("completion", "shell_commands", "the lines that complete words in a shell", ("bash",)),
     ),
 }  # fmt: skip
 GROUPS = {"fit": "fits laws, tyres and soils to measurements", "card": "soil cards and material files"}
@@ -166,13 +166,17 @@ class Group(click.Group):
         super().__init__(**settings)
         self.words = tuple(words)
 
+    def _further(self, entry: Entry) -> list[str]:
+        """The words of a command behind those of this group; none where it is not in it."""
+        path, count = entry.path.split(), len(self.words)
+        return path[count:] if tuple(path[:count]) == self.words else []
+
     def _below(self) -> dict[str, list[Entry]]:
         """First further word -> commands."""
         found: dict[str, list[Entry]] = {}
         for entry in entries():
-            path = tuple(entry.path.split())
-            if path[: len(self.words)] == self.words and len(path) > len(self.words):
-                found.setdefault(path[len(self.words)], []).append(entry)
+            for word in self._further(entry)[:1]:
+                found.setdefault(word, []).append(entry)
         return found
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -203,16 +207,8 @@ class Group(click.Group):
         raise click.UsageError(f"there is no command '{word}'; {hint}", ctx)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        below = self._below()
         for heading, group in COMMANDS.items():
-            rows = []
-            for word, found in below.items():
-                of_group = [entry for entry in found if entry in group]
-                if of_group and len(of_group) == 1 and of_group[0].path == " ".join((*self.words, word)):
-                    rows.append((word, of_group[0].help))
-                elif of_group:
-                    rows += [(entry.path, entry.help) for entry in of_group]
-            if rows:
+            if rows := [(" ".join(words), entry.help) for entry in group if (words := self._further(entry))]:
                 with formatter.section(heading if not self.words else "Commands"):
                     formatter.write_dl(rows)
 

@@ -58,10 +58,8 @@ class BedScene:
     def cross_section(self) -> float:
         """x of the cross section: where the rut is deepest on average, clear of the wheel [m]."""
         rows = np.abs(self._cell_middles(1) - self.middle) < 0.25 * self._rut_width()
-        counted = rows[:, None] & np.isfinite(self.heights)
-        total = np.where(counted, self.heights, 0.0).sum(axis=0)
-        count = counted.sum(axis=0)
-        profile = np.where(count > 0, total / np.maximum(count, 1), np.nan)
+        with warnings.catch_warnings(action="ignore"):  # columns without a height
+            profile = np.nanmean(self.heights[rows], axis=0)
         x = self._cell_middles(0)
         if self.surface is not None:
             clear = (x < self.wheel_low[0]) | (x > self.wheel_high[0])
@@ -79,14 +77,16 @@ class BedScene:
         return float(0.2 * (self.high[1] - self.low[1]))
 
     def _cell_middles(self, axis: int) -> Floats:
-        middles: Floats = self.low[axis] + self.cell * (
-            np.arange(self.heights.shape[1 - axis]) + 0.5
-        )
+        middles: Floats = self.low[axis] + self.cell * (np.arange(self.heights.shape[1 - axis]) + 0.5)
         return middles
 
     def smooth_heights(self) -> Floats:
-        """Heights with the pits between single grains filled."""
-        return _median_around(self.heights)
+        """Heights with the pits between single grains filled: medians of 3 x 3 cells, of those that have a value."""
+        padded = np.pad(self.heights, 1, constant_values=np.nan)
+        around = sliding_window_view(padded, (3, 3)).reshape(*self.heights.shape, 9)
+        with warnings.catch_warnings(action="ignore"):  # where none has a value
+            median: Floats = np.nanmedian(around, axis=2)
+        return median
 
     def colours(self, values: Floats) -> Floats:
         """(n, 4) RGBA of displacements (n) [m]."""
@@ -108,15 +108,3 @@ class BedScene:
             near = x < low + depth if view.towards[axis] < 0 else x > high - depth
             shown |= near | outside
         return np.flatnonzero(shown)
-
-
-def _median_around(image: Floats) -> Floats:
-    """Median of the 3 x 3 cells about each cell that have a value; NaN where none has.
-
-    Fills the pits between single grains.
-    """
-    padded = np.pad(image, 1, constant_values=np.nan)
-    around = sliding_window_view(padded, (3, 3)).reshape(*image.shape, 9)
-    with warnings.catch_warnings(action="ignore"):  # where none has a value
-        median: Floats = np.nanmedian(around, axis=2)
-    return median

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from ..analyse.compaction import Compaction
 from ..laws.half_space import ELASTIC, SOEHNE
-from .style import CENTIMETRE, KILOPASCAL, RUN_COLOURS, annotate_panel, save, use_style
+from .style import CENTIMETRE, KILOPASCAL, RUN_COLOURS, label_panels, save, use_style
 
 
 def draw_compaction(runs: Sequence[Compaction], target: Path) -> None:
@@ -31,9 +31,7 @@ def draw_compaction(runs: Sequence[Compaction], target: Path) -> None:
         mean.errorbar(KILOPASCAL * layers.mean_stress, depth, xerr=KILOPASCAL * layers.mean_stress_error, **points)
         ratio = layers.density / layers.density_before
         density.errorbar(ratio, depth, xerr=layers.density_error / layers.density_before, **points)
-    annotate_panel(vertical, "a", "largest vertical stress")
-    annotate_panel(mean, "b", "largest mean stress")
-    annotate_panel(density, "c", "density")
+    label_panels((vertical, mean, density), "largest vertical stress", "largest mean stress", "density")
     deepest = max(float(run.layers.depth.max()) for run in runs)
     vertical.set(xlabel="kPa", ylabel="depth [cm]", xlim=(0, None), ylim=(CENTIMETRE * deepest, 0))
     mean.set(xlabel="kPa", xlim=(0, None))

@@ -18,16 +18,7 @@ from ..analyse.density import Section, sections
 from ..uncertainty.verdict import BARS, BEST, COEFFICIENT, COVERAGE, FORMULA, HUB_DROP, MEASURED, QUANTITIES, RUN, Quantity
 from ..analyse.wheel_histories import cruise_history, settling_curve
 from ..read.wheel_run import WheelRun
-from .style import (
-    CENTIMETRE,
-    KILOPASCAL,
-    RUN_COLOURS,
-    WHEEL_COLOUR,
-    annotate_panel,
-    panel_letters,
-    save,
-    use_style,
-)
+from .style import (CENTIMETRE, KILOPASCAL, RUN_COLOURS, WHEEL_COLOUR, label_panels, save, use_style)
 
 KIND_COLOURS = {FORMULA: "#777777", MEASURED: "black"}
 SECTION_HEIGHT = 1.75  # of a row of density sections [inch]
@@ -44,30 +35,22 @@ def draw_comparison(result: Comparison, target: Path) -> None:
     figure.get_layout_engine().set(hspace=0.04)
     heights = [2.4 + 0.4 * many, 2.4] + [SECTION_HEIGHT] * len(grounds)
     grid = figure.add_gridspec(2 + len(grounds), 6, height_ratios=heights)
-    letters = panel_letters()
     for k, quantity in enumerate(QUANTITIES):
-        axes = figure.add_subplot(grid[0, 3 * k : 3 * k + 3])
-        _draw_values(axes, result, quantity, colours)
-        annotate_panel(axes, next(letters), quantity.name)
-    sink, resist, settle = (figure.add_subplot(grid[1, 2 * k : 2 * k + 2]) for k in range(3))
-    _draw_histories(sink, resist, settle, result, colours)
-    titles = (
-        (sink, "hub drop"),
-        (resist, "resistance, smoothed"),
-        (settle, "pressure while it is lowered"),
-    )
-    for axes, title in titles:
-        annotate_panel(axes, next(letters), title)
+        _draw_values(figure.add_subplot(grid[0, 3 * k : 3 * k + 3]), result, quantity, colours)
+    _draw_histories([figure.add_subplot(grid[1, 2 * k : 2 * k + 2]) for k in range(3)], result, colours)
+    titles = [quantity.name for quantity in QUANTITIES]
+    titles += ["hub drop", "resistance, smoothed", "pressure while it is lowered"]
     if grounds:
-        _draw_sections(figure, grid, grounds, [next(letters) for _ in range(2 * len(grounds))])
+        _draw_sections(figure, grid, grounds)
+    for run in grounds:
+        titles += [f"{run.label}, along the middle plane", "across the track behind"]
+    label_panels(figure.axes, *titles)
     title = result.overall() or ", ".join(run.label for run in result.runs)
     figure.suptitle("\n".join(textwrap.wrap(title, 110)), fontsize=11, fontweight="bold")
     save(figure, target)
 
 
-def _draw_values(
-    axes: Axes, result: Comparison, quantity: Quantity, colours: Mapping[str, str]
-) -> None:
+def _draw_values(axes: Axes, result: Comparison, quantity: Quantity, colours: Mapping[str, str]) -> None:
     entries, scale = result.of(quantity), quantity.scale
     for row, e in enumerate(entries):
         colour = colours.get(e.source, KIND_COLOURS.get(e.kind, "0.4"))
@@ -83,15 +66,8 @@ def _draw_values(
             fmt="s" if e.kind == MEASURED else "o",
             mfc="white" if e.kind in (FORMULA, BEST) else colour,
         )
-        axes.annotate(
-            e.text(),
-            (scale * e.value, row),
-            (0, 8),
-            textcoords="offset points",
-            ha="center",
-            fontsize=8,
-            color="0.25",
-        )
+        look = {"textcoords": "offset points", "ha": "center", "fontsize": 8, "color": "0.25"}
+        axes.annotate(e.text(), (scale * e.value, row), (0, 8), **look)
     axes.set_yticks(range(len(entries)), [textwrap.fill(e.label, 16) for e in entries])
     axes.set_ylim(len(entries) - 0.5, -0.7)
     low, high = axes.get_xlim()
@@ -102,17 +78,14 @@ def _draw_values(
     axes.set_axisbelow(True)
 
 
-def _draw_histories(
-    sink: Axes, resist: Axes, settle: Axes, result: Comparison, colours: Mapping[str, str]
-) -> None:
+def _draw_histories(panels: Sequence[Axes], result: Comparison, colours: Mapping[str, str]) -> None:
+    sink, resist, settle = panels
     for run in result.runs:
-        colour = colours[run.label]
+        look = {"color": colours[run.label], "lw": 1.2}
         history, settling = cruise_history(run), settling_curve(run)
-        hub_drop = CENTIMETRE * history.hub_drop
-        sink.plot(history.distance, hub_drop, color=colour, lw=1.2, label=run.label)
-        resist.plot(history.distance, history.coefficient, color=colour, lw=1.2)
-        pressure = KILOPASCAL * settling.pressure
-        settle.plot(CENTIMETRE * settling.hub_drop, pressure, color=colour, lw=1.2)
+        sink.plot(history.distance, CENTIMETRE * history.hub_drop, label=run.label, **look)
+        resist.plot(history.distance, history.coefficient, **look)
+        settle.plot(CENTIMETRE * settling.hub_drop, KILOPASCAL * settling.pressure, **look)
     sink.set(xlabel="travel in cruise [m]", ylabel="hub drop [cm]")
     resist.set(xlabel="travel in cruise [m]", ylabel="resistance coefficient")
     steady = [e.value for e in result.of(COEFFICIENT, RUN)]
@@ -122,16 +95,7 @@ def _draw_histories(
     sink.legend(fontsize=8)
 
 
-def _draw_wheel_outline(axes: Axes, run: WheelRun) -> None:
-    """A circle in the lengthwise section."""
-    z = run.radius - run.results.columns["hub_drop"][-1]
-    radius = CENTIMETRE * run.radius
-    axes.add_patch(plt.Circle((0, CENTIMETRE * z), radius, fill=False, ec=WHEEL_COLOUR, lw=1.4))
-
-
-def _draw_sections(
-    figure: Figure, grid: GridSpec, grounds: Sequence[WheelRun], letters: Sequence[str]
-) -> None:
+def _draw_sections(figure: Figure, grid: GridSpec, grounds: Sequence[WheelRun]) -> None:
     """Density along and across the track, one row per run, one scale."""
     cuts = {run.label: sections(run) for run in grounds}
     low = min(run.number("density") if "density" in run.conditions else 0.0 for run in grounds)
@@ -143,13 +107,12 @@ def _draw_sections(
         across = figure.add_subplot(grid[2 + row, 4:6])
         for axes, cut in zip((lengthwise, across), cuts[run.label]):
             images.append(_draw_density(axes, cut, norm))
-        _draw_wheel_outline(lengthwise, run)
+        centre = (0, CENTIMETRE * (run.radius - run.results.columns["hub_drop"][-1]))
+        lengthwise.add_patch(plt.Circle(centre, CENTIMETRE * run.radius, fill=False, ec=WHEEL_COLOUR, lw=1.4))
         lengthwise.set_ylabel("z [cm]")
         if row == len(grounds) - 1:
             lengthwise.set_xlabel("x from the axle [cm]")
             across.set_xlabel("y [cm]")
-        annotate_panel(lengthwise, letters[2 * row], f"{run.label}, along the middle plane")
-        annotate_panel(across, letters[2 * row + 1], "across the track behind")
         panels += [lengthwise, across]
     bar = figure.colorbar(images[0], ax=panels, extend="max", fraction=0.025, pad=0.01, aspect=25)
     bar.set_label("density [kg/m³]")

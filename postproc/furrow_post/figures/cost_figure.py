@@ -12,7 +12,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from ..uncertainty import cost_table
 from ..uncertainty.cost_table import FamilyKey, Row
 from ..uncertainty.verdict import BARS, COVERAGE, QUANTITIES, Quantity
-from .style import MILLIMETRE, RUN_COLOURS, annotate_panel, save, use_style
+from .style import MILLIMETRE, RUN_COLOURS, label_panels, save, use_style
 
 
 def draw_cost(rows: Sequence[Row], target: Path) -> None:
@@ -22,10 +22,9 @@ def draw_cost(rows: Sequence[Row], target: Path) -> None:
     colours = {key: RUN_COLOURS[k % len(RUN_COLOURS)] for k, key in enumerate(families)}
     figure, panels = plt.subplots(1, 3, figsize=(12, 4), layout="constrained")
     _draw_errors(panels[0], rows, colours)
-    annotate_panel(panels[0], "a", "error against cost")
-    for axes, quantity, letter in zip(panels[1:], QUANTITIES, "bc"):
+    for axes, quantity in zip(panels[1:], QUANTITIES):
         _draw_convergence(axes, rows, quantity, colours)
-        annotate_panel(axes, letter, f"{quantity.name} over the size")
+    label_panels(panels, "error against cost", *(f"{quantity.name} over the size" for quantity in QUANTITIES))
     panels[1].legend(fontsize=8)
     save(figure, target)
 
@@ -52,9 +51,7 @@ def _draw_errors(axes: Axes, rows: Sequence[Row], colours: Mapping[FamilyKey, st
         axis.set_minor_formatter(NullFormatter())
 
 
-def _draw_convergence(
-    axes: Axes, rows: Sequence[Row], quantity: Quantity, colours: Mapping[FamilyKey, str]
-) -> None:
+def _draw_convergence(axes: Axes, rows: Sequence[Row], quantity: Quantity, colours: Mapping[FamilyKey, str]) -> None:
     """Values against size, with the curve to zero size where there is one, family by family."""
     scale = quantity.scale
     for key, family in cost_table.families(rows).items():
@@ -62,14 +59,7 @@ def _draw_convergence(
         pairs = [row.value(quantity.key) for row in family.bases]
         values, errors = (scale * np.array(column) for column in zip(*pairs))
         marks = {"color": colours[key], "capsize": 3}
-        axes.errorbar(
-            MILLIMETRE * sizes,
-            values,
-            yerr=COVERAGE * errors,
-            fmt="o",
-            label=", ".join(key),
-            **marks,
-        )
+        axes.errorbar(MILLIMETRE * sizes, values, yerr=COVERAGE * errors, fmt="o", label=", ".join(key), **marks)
         series = family.convergence(quantity.key)
         if series:
             shown = 0.0 if series.extrapolated else series.sizes[0]

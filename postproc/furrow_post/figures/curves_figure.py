@@ -22,13 +22,8 @@ class Line:
     y: Floats
 
 
-def draw_curves(
-    result: CurveComparison,
-    target: Path,
-    measured: Sequence[tuple[float, float]] = (),
-    formulas: Sequence[Line] = (),
-) -> None:
-    """measured: of an oedometer, (density over that at the start, axial stress [Pa])."""
+def draw_curves(result: CurveComparison, target: Path, formulas: Sequence[Line] = ()) -> None:
+    """Plates by sinkage, with bands, or oedometers by stress."""
     use_style()
     plate = result.kind is CurveKind.PLATE
     figure, axes = plt.subplots(figsize=(6.4, 4.4), layout="constrained")
@@ -36,13 +31,9 @@ def draw_curves(
     for curve, colour in zip(result.curves, RUN_COLOURS):
         look = {"color": colour, "lw": 1.4, "label": curve.label}
         if plate:
-            x, low, high = (
-                MILLIMETRE * curve.x,
-                KILOPASCAL * (curve.y - COVERAGE * curve.noise),
-                KILOPASCAL * (curve.y + COVERAGE * curve.noise),
-            )
-            axes.plot(x, KILOPASCAL * curve.y, **look)
-            axes.fill_between(x, low, high, color=colour, alpha=0.2, lw=0, label=band)
+            x, y, noise = MILLIMETRE * curve.x, KILOPASCAL * curve.y, KILOPASCAL * COVERAGE * curve.noise
+            axes.plot(x, y, **look)
+            axes.fill_between(x, y - noise, y + noise, color=colour, alpha=0.2, lw=0, label=band)
             band = "_"  # once in the legend
         else:
             axes.semilogx(KILOPASCAL * curve.x, curve.y, **look)
@@ -51,9 +42,6 @@ def draw_curves(
         axes.plot(x, y, color="0.45", lw=1.1, dashes=dashes, label=line.label)
     if formulas:  # a formula may lie far above: the runs keep their room
         axes.set_ylim(0, KILOPASCAL * 1.6 * max(curve.y.max() for curve in result.curves))
-    if measured:
-        stresses = [KILOPASCAL * stress for _, stress in measured]
-        axes.plot(stresses, [ratio for ratio, _ in measured], "ko", ms=5, label="measured")
     axes.set(
         xlabel="sinkage [mm]" if plate else "axial stress [kPa]",
         ylabel="mean pressure [kPa]" if plate else "density over that at the start",

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The figure of laboratory tests: all runs of one kind, measurements and continuum laws beside."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from ..errors import ResultsError
 from ..laboratory.evaluation import evaluate
 from ..laboratory.report import LaboratoryReport
-from ..read.laboratory import LaboratoryTest, cell_curve
-from .style import CENTIMETRE, KILOPASCAL, MILLIMETRE, annotate_panel, save, use_style
+from ..read.laboratory import cell_curve
+from .style import CENTIMETRE, KILOPASCAL, MILLIMETRE, label_panels, save, use_style
 
 VOLUME_STRAIN = "volume strain [%], compression positive"
 
@@ -22,10 +22,8 @@ def draw_laboratory(report: LaboratoryReport, target: Path) -> None:
     """@raises ResultsError for tests of several kinds"""
     kinds = {test.kind for test in report.tests}
     if len(kinds) != 1:
-        raise ResultsError(
-            f"a figure needs tests of one kind, not {', '.join(sorted(kinds))}; name folders of "
-            "one test"
-        )
+        several = ", ".join(sorted(kinds))
+        raise ResultsError(f"a figure needs tests of one kind, not {several}; name folders of one test")
     use_style()
     figure = FIGURES[kinds.pop()](report)
     for axes in figure.axes:
@@ -37,9 +35,9 @@ def draw_laboratory(report: LaboratoryReport, target: Path) -> None:
 def _pair(titles: tuple[str, str], x: str, y: tuple[str, str]) -> tuple[Figure, Axes, Axes]:
     """Two panels with these labels of their axes."""
     figure, panels = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
-    for axes, letter, title, y_label in zip(panels, "ab", titles, y):
+    for axes, y_label in zip(panels, y):
         axes.set(xlabel=x, ylabel=y_label)
-        annotate_panel(axes, letter, title)
+    label_panels(panels, *titles)
     return figure, panels[0], panels[1]
 
 
@@ -146,11 +144,9 @@ def _draw_plates(report: LaboratoryReport) -> Figure:
 
 
 def _draw_heaps(report: LaboratoryReport) -> Figure:
-    tests: Sequence[LaboratoryTest] = report.tests
-    figure, panels = plt.subplots(
-        len(tests), 1, figsize=(8, 3.2 * len(tests)), layout="constrained", squeeze=False
-    )
-    for axes, test in zip(panels[:, 0], tests):
+    rows = len(report.tests)
+    figure, panels = plt.subplots(rows, 1, figsize=(8, 3.2 * rows), layout="constrained", squeeze=False)
+    for axes, test in zip(panels[:, 0], report.tests):
         deposit = test.grains("deposit")
         found = {quantity.name: quantity for quantity in evaluate(test)}
         if test.kind == "repose":

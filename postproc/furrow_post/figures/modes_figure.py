@@ -14,7 +14,7 @@ from ..arrays import Floats, Integers
 from ..errors import ResultsError
 from ..read.hdf5 import opened
 from ..read.results import decoded
-from .style import save, use_style
+from .style import head_figure, save, use_style
 
 DRAWN = 12  # modes at most
 COLUMNS = 4
@@ -49,9 +49,7 @@ def read_modes(path: Path) -> TyreModes:
         for name in names:
             given = file[name].attrs
             direction = max(("radial", "circumferential", "axial"), key=lambda d: float(given[d]))
-            modes.append(
-                Mode(float(given["frequency"]), int(given["waves"]), file[name][...], direction)
-            )
+            modes.append(Mode(float(given["frequency"]), int(given["waves"]), file[name][...], direction))
         load = float(file.attrs["load"])
         heading = (
             f"{decoded(file.attrs['title'])} at {float(file.attrs['pressure']) / 1e3:.4g} kPa, "
@@ -68,9 +66,7 @@ def draw_modes(folder: Path) -> list[Path]:
     use_style()
     files = sorted(folder.glob("*_modes.h5"))
     if not files:
-        raise ResultsError(
-            f"{folder}: has no natural modes (*_modes.h5); make them by furrow-tyre --modes"
-        )
+        raise ResultsError(f"{folder}: has no natural modes (*_modes.h5); make them by furrow-tyre --modes")
     return [_draw_state(read_modes(path), path.with_suffix(".png")) for path in files]
 
 
@@ -90,7 +86,7 @@ def _draw_state(tyre: TyreModes, target: Path) -> Path:
         _draw_mode(panel, tyre, mode)
     for panel in axes.flat[len(drawn) :]:
         panel.remove()
-    figure.suptitle(tyre.heading, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    head_figure(figure, tyre.heading)
     save(figure, target)
     return target
 
@@ -114,6 +110,4 @@ def _draw_mode(axes: Axes3D, tyre: TyreModes, mode: Mode) -> None:
     axes.view_init(elev=18, azim=-62)
     axes.set_axis_off()
     wave = "wave" if mode.waves == 1 else "waves"
-    axes.set_title(
-        f"{mode.frequency:.1f} Hz\n{mode.waves} {wave}, mostly {mode.direction}", fontsize=9
-    )
+    axes.set_title(f"{mode.frequency:.1f} Hz\n{mode.waves} {wave}, mostly {mode.direction}", fontsize=9)

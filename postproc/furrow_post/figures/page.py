@@ -2,7 +2,6 @@
 """HTML pages that need no other file: their templates are in the folder templates."""
 
 import base64
-import html
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -39,15 +38,6 @@ def render(template: str, title: str, lead: str = "", **values: Any) -> str:
     return _environment.get_template(template).render(title=title, lead=lead, **values)
 
 
-def html_page(title: str, content: str, style: str = "") -> str:
-    """The frame of a page with content that is HTML. style: CSS next to that of all pages"""
-    return render("view.html", title, content=content, style=style)
-
-
-def escaped(text: object) -> str:
-    return html.escape(str(text), quote=True)
-
-
 def verdict_values(result: Comparison) -> dict[str, Any]:
     """Verdict, findings and differences of a comparison."""
     return {
@@ -61,10 +51,7 @@ def results_tables(result: Comparison) -> list[tuple[str, list[list[str]]]]:
     """Name and rows of every quantity of every run, formula and measurement with its uncertainty."""
     tables = []
     for quantity in QUANTITIES:
-        rows = [
-            [e.label, e.text(), parts_cell(e), duration(e.cpu_time), e.note]
-            for e in result.of(quantity)
-        ]
+        rows = [[e.label, e.text(), parts_cell(e), duration(e.cpu_time), e.note] for e in result.of(quantity)]
         name = quantity.name[0].upper() + quantity.name[1:] + in_unit(quantity.unit)
         tables.append((name, rows))
     return tables

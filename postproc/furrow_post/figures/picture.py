@@ -6,27 +6,14 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.colors import Normalize, TwoSlopeNorm
-from matplotlib.figure import Figure
 
 from ..errors import ResultsError
 from ..read.results import Results
 from .bed_scene import BedScene
-from .canvas import View
-from .cut import cut
-from .render import shaded_picture
-from .style import (
-    CENTIMETRE,
-    GROUND_COLOURS,
-    MILLIMETRE,
-    WHEEL_COLOUR,
-    annotate_panel,
-    round_up,
-    save,
-    use_style,
-)
+from .render import OBLIQUE, cut, shaded_picture
+from .style import (CENTIMETRE, MILLIMETRE, WHEEL_COLOUR, add_scale, label_panels, round_up, save, use_style)
 
 WIDTH = 11.0  # of the figure [inch]
 HEAD = 0.95  # of its title [inch]
@@ -44,41 +31,35 @@ def draw_picture(results: Results, numbers: str, target: Path, pixels: int = 100
     scene = BedScene(results)
     cross = scene.cross_section
     figure = plt.figure(layout="constrained")
-    grid = figure.add_gridspec(3, 2, height_ratios=[1, 1, 1], width_ratios=[1, 1.6])
-    oblique, lengthwise = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, :])
-    across, above = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
-
+    panels = figure.subplot_mosaic("aa;bb;cd", width_ratios=[1, 1.6])
+    oblique, lengthwise, across, above = panels.values()
     _draw_oblique(oblique, scene, pixels)
     if scene.followed:
-        scale = ScalarMappable(Normalize(0, MILLIMETRE * scene.range.vmax), GROUND_COLOURS)
-        bar = figure.colorbar(scale, ax=oblique, extend="max", fraction=0.03, pad=0.01, shrink=0.8)
-        bar.set_label("displacement of grains [mm]")
+        scale = Normalize(0, MILLIMETRE * scene.range.vmax)
+        add_scale(oblique, scale, "displacement of grains [mm]", extend="max", fraction=0.03, pad=0.01, shrink=0.8)
     _draw_section(lengthwise, scene, 1, scene.middle)
     _draw_section(across, scene, 0, cross)
-    _draw_height_map(figure, above, scene, cross)
+    _draw_height_map(above, scene, cross)
 
     # Heights of the panels [inch] from the shape of the bed, so that little paper stays empty
-    bottom_row = max(0.34 * WIDTH * _aspect(across), 0.48 * WIDTH * _aspect(above)) + 0.7
-    tall = [
-        min(height, 9.0)
-        for height in (
-            0.9 * WIDTH * _aspect(oblique) + 0.3,
-            0.95 * WIDTH * _aspect(lengthwise) + 0.7,
-            bottom_row,
-        )
-    ]
-    height = HEAD + sum(tall)
+    wanted = (
+        0.9 * WIDTH * _aspect(oblique) + 0.3,
+        0.95 * WIDTH * _aspect(lengthwise) + 0.7,
+        max(0.34 * WIDTH * _aspect(across), 0.48 * WIDTH * _aspect(above)) + 0.7,
+    )
+    tall = np.minimum(wanted, 9.0)
+    height = HEAD + tall.sum()
     figure.set_size_inches(WIDTH, height)
-    grid.set_height_ratios(tall)
-
-    along_title = f"lengthwise, y = {CENTIMETRE * scene.middle + 0.0:.1f} cm"
+    oblique.get_gridspec().set_height_ratios(tall)
     wheel = ", dashed: wheel" if scene.surface is not None else ""
     renewed = "" if scene.followed else "; the bed was renewed, displacements are not known"
-    annotate_panel(oblique, "a", f"from behind{renewed}")
-    annotate_panel(lengthwise, "b", f"{along_title}; dashed: bed level before")
-    annotate_panel(across, "c", f"across, x = {CENTIMETRE * cross:.1f} cm")
-    annotate_panel(above, "d", f"from above, pits between grains filled; dotted: sections{wheel}")
-
+    label_panels(
+        panels.values(),
+        f"from behind{renewed}",
+        f"lengthwise, y = {CENTIMETRE * scene.middle + 0.0:.1f} cm; dashed: bed level before",
+        f"across, x = {CENTIMETRE * cross:.1f} cm",
+        f"from above, pits between grains filled; dotted: sections{wheel}",
+    )
     length, breadth = CENTIMETRE * (scene.high - scene.low)[:2]
     count = f"{len(scene.x):,}".replace(",", "\u2009")
     size = f"mean diameter {MILLIMETRE * scene.diameter:.3g} mm"
@@ -101,25 +82,24 @@ def _aspect(axes: Axes) -> float:
 
 def _draw_oblique(axes: Axes, scene: BedScene, pixels: int) -> None:
     """The whole bed from behind and beside the wheel."""
-    view = View.of_angles(-112.0, 30.0)
-    shown = scene.visible_from(view)
-    width = np.abs(view.right) @ (scene.high - scene.low)
+    shown = scene.visible_from(OBLIQUE)
+    width = np.abs(OBLIQUE.right) @ (scene.high - scene.low)
     colours = scene.colours(scene.moved[shown])[:, :3]
     picture, extent = shaded_picture(
-        scene.x[shown], scene.radius[shown], colours, scene.surface, view, width / pixels
+        scene.x[shown], scene.radius[shown], colours, scene.surface, OBLIQUE, width / pixels
     )
     axes.imshow(picture, extent=[CENTIMETRE * e for e in extent], interpolation="antialiased")
     axes.set_axis_off()
     axes.set_aspect("equal")
-    _draw_scale_bar(axes, scene, view)
+    _draw_scale_bar(axes, scene)
 
 
-def _draw_scale_bar(axes: Axes, scene: BedScene, view: View) -> None:
+def _draw_scale_bar(axes: Axes, scene: BedScene) -> None:
     """A length along the travel direction on the ground beside the bed, with an arrow."""
     bed_length = scene.high[0] - scene.low[0]
     length = round_up(0.2 * bed_length)
     start = np.array([scene.low[0], scene.low[1] - 0.06 * bed_length, scene.low[2]])
-    ends = CENTIMETRE * view.project(np.array([start, start + [length, 0, 0]]))[:, :2]
+    ends = CENTIMETRE * OBLIQUE.project(np.array([start, start + [length, 0, 0]]))[:, :2]
     arrow = {"arrowstyle": "-|>", "color": "0.2", "lw": 1.4}
     axes.annotate("", ends[1], ends[0], arrowprops=arrow, annotation_clip=False)
     angle = np.degrees(np.arctan2(*(ends[1] - ends[0])[::-1]))
@@ -140,16 +120,11 @@ def _draw_scale_bar(axes: Axes, scene: BedScene, view: View) -> None:
     axes.update_datalim(ends)
 
 
-def _draw_section(
-    axes: Axes, scene: BedScene, axis: int, position: float, thickness: float = 2.0
-) -> None:
-    """Grains near the plane x[axis] = position, the wheel cut by the plane itself.
-
-    position [m]; thickness of the slab in diameters
-    """
+def _draw_section(axes: Axes, scene: BedScene, axis: int, position: float) -> None:
+    """Grains less than a diameter from the plane x[axis] = position [m], the wheel cut by the plane itself."""
     along = 1 - axis
     distance = np.abs(scene.x[:, axis] - position)
-    inside = np.flatnonzero(distance < 0.5 * thickness * scene.diameter)
+    inside = np.flatnonzero(distance < scene.diameter)
     inside = inside[np.argsort(-scene.x[inside, axis])]  # the nearest is drawn last
     size = 2 * CENTIMETRE * scene.radius[inside]
     colours = scene.colours(scene.moved[inside])
@@ -180,12 +155,10 @@ def _draw_section(
         part = scene.bed_level + 0.45 * (scene.wheel_high[2] - scene.wheel_low[2])
         top = float(max(top, min(scene.wheel_high[2], part)))
     axes.set_ylim(CENTIMETRE * scene.low[2], CENTIMETRE * top)
-    axes.set_aspect("equal")
-    axes.set_xlabel(f"{'xy'[along]} [cm]")
-    axes.set_ylabel("z [cm]")
+    axes.set(aspect="equal", xlabel=f"{'xy'[along]} [cm]", ylabel="z [cm]")
 
 
-def _draw_height_map(figure: Figure, axes: Axes, scene: BedScene, cross: float) -> None:
+def _draw_height_map(axes: Axes, scene: BedScene, cross: float) -> None:
     """Height of the ground over the bed level, from above. cross: x of the cross section [m]"""
     values = MILLIMETRE * scene.smooth_heights()
     low, high = np.nanpercentile(values, [0.5, 99.5])
@@ -193,9 +166,7 @@ def _draw_height_map(figure: Figure, axes: Axes, scene: BedScene, cross: float) 
     limit = max(-low, high, MILLIMETRE * scene.diameter)
     left, bottom = scene.low[:2]
     rows, columns = values.shape
-    extent = CENTIMETRE * np.array(
-        [left, left + scene.cell * columns, bottom, bottom + scene.cell * rows]
-    )
+    extent = CENTIMETRE * np.array([left, left + scene.cell * columns, bottom, bottom + scene.cell * rows])
     image = axes.imshow(
         values,
         origin="lower",
@@ -211,9 +182,6 @@ def _draw_height_map(figure: Figure, axes: Axes, scene: BedScene, cross: float) 
         size = CENTIMETRE * (scene.wheel_high - scene.wheel_low)[:2]
         outline = plt.Rectangle(corner, *size, fill=False, ec=WHEEL_COLOUR, lw=1.2, ls="--")
         axes.add_patch(outline)
-    axes.set_xlabel("x [cm]")
-    axes.set_ylabel("y [cm]")
-    axes.set_xlim(extent[:2])
-    axes.set_ylim(extent[2:])
-    bar = figure.colorbar(image, ax=axes, extend="both", fraction=0.05, pad=0.02, shrink=0.9)
+    axes.set(xlabel="x [cm]", ylabel="y [cm]", xlim=extent[:2], ylim=extent[2:])
+    bar = axes.figure.colorbar(image, ax=axes, extend="both", fraction=0.05, pad=0.02, shrink=0.9)
     bar.set_label("height over bed level [mm]")

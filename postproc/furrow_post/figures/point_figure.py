@@ -14,7 +14,7 @@ from ..arrays import Booleans, Floats, Integers
 from ..errors import ResultsError
 from ..read.hdf5 import opened
 from ..read.results import decoded
-from .style import annotate_panel, panel_letters, save, use_style
+from .style import head_figure, label_panels, save, use_style
 
 PATH, SURFACE, FIRST, MEASURED = "#c2410c", "#a9c3dd", "#7d97b3", "0.1"
 LINE_WIDTH = 1.6
@@ -25,12 +25,11 @@ LABELS = {
     "eps_vol": "volume strain $-\\ln J$",
     "shear_strain": "shear $\\gamma$",
     "density": "density $\\rho$ [kg/m³]",
-    "p": "pressure $p$",
-    "q": "Mises stress $q$",
-    "axial_stress": "axial stress $\\sigma_1$",
-    "shear_stress": "shear stress $\\tau_{xz}$",
+    "p": "pressure $p$ [Pa]",
+    "q": "Mises stress $q$ [Pa]",
+    "axial_stress": "axial stress $\\sigma_1$ [Pa]",
+    "shear_stress": "shear stress $\\tau_{xz}$ [Pa]",
 }
-STRESSES = ("p", "q", "axial_stress", "shear_stress")
 MAY_BE_LOGARITHMIC = ("p", "axial_stress")
 # Panels of a path: channels (x, y) of panel b and of panel c
 PANELS = {
@@ -47,27 +46,22 @@ Channels = dict[str, Floats]  # of point.h5, SI
 YieldSurface = tuple[Floats, Floats]  # p, q [Pa]
 
 
-def draw_point(folder: Path) -> Path:
+def draw_point(folder: Path) -> list[Path]:
     """Draws the results folder of furrow-point run or fit, and returns the figure's path.
 
     @raises ResultsError where it is none
     """
     use_style()
     if (folder / "point.h5").exists():
-        return draw_path(folder)
+        return [draw_path(folder)]
     if (folder / "fit.h5").exists():
-        return draw_fit(folder)
-    raise ResultsError(
-        f"{folder}: has neither point.h5 nor fit.h5; name the results folder of furrow-point"
-    )
+        return [draw_fit(folder)]
+    raise ResultsError(f"{folder}: has neither point.h5 nor fit.h5; name the results folder of furrow-point")
 
 
 def _attributes(item: Any) -> dict[str, Any]:
     """Attributes of an HDF5 object, texts decoded."""
-    return {
-        name: decoded(value) if isinstance(value, bytes) else value
-        for name, value in item.attrs.items()
-    }
+    return {name: decoded(value) if isinstance(value, bytes) else value for name, value in item.attrs.items()}
 
 
 def _numbered(group: Any) -> list[Any]:
@@ -82,6 +76,14 @@ def _stress_unit(*arrays: Floats) -> tuple[float, str]:
         if largest >= size:
             return size, name
     return 1.0, "Pa"
+
+
+def _in_suitable_unit(values: Sequence[Floats], label: str) -> tuple[list[Floats], str]:
+    """Values and label "... [Pa]" in the unit that suits their largest; others as they are."""
+    if not label.endswith("[Pa]"):
+        return list(values), label
+    size, unit = _stress_unit(*values)
+    return [v / size for v in values], label.replace("[Pa]", f"[{unit}]")
 
 
 def _segment_ends(segment: Floats) -> Integers:
@@ -108,9 +110,7 @@ def draw_path(folder: Path) -> Path:
     with opened(folder / "point.h5") as file:
         point = {name: dataset[...] for name, dataset in file["point"].items()}
         head = _attributes(file["point"])
-        surfaces = [
-            (group["p"][...], group["q"][...]) for group in _numbered(file["yield_surface"])
-        ]
+        surfaces = [(group["p"][...], group["q"][...]) for group in _numbered(file["yield_surface"])]
     stress_strain, volume = PANELS[head["path"]]
     sheared = np.ptp(point["shear_strain"]) > np.ptp(point["axial_strain"])
     if head["path"] == "table" and sheared:
@@ -119,9 +119,8 @@ def draw_path(folder: Path) -> Path:
     _draw_invariants(axes[0], point, surfaces)
     _draw_pair(axes[1], point, *stress_strain)
     _draw_pair(axes[2], point, *volume)
-    for panel, letter, text in zip(axes, "abc", ("stress path", "stress and strain", "volume")):
-        annotate_panel(panel, letter, text)
-    figure.suptitle(f"{head['title']}\n", x=0.01, ha="left", fontsize=11, fontweight="bold")
+    label_panels(axes, "stress path", "stress and strain", "volume")
+    head_figure(figure, f"{head['title']}\n")
     path = head["path"].replace("_", " ")
     subtitle = f"{head['material']}  ·  law {head['law']}  ·  path {path}"
     figure.text(0.01, 0.925, subtitle, fontsize=8.5, color="0.35", va="top")
@@ -162,17 +161,8 @@ def _draw_invariants(axes: Axes, point: Channels, surfaces: Sequence[YieldSurfac
     axes.legend(loc="upper left", fontsize=8, handlelength=1.6)
 
 
-def _scaled_channel(point: Channels, name: str) -> tuple[Floats, str]:
-    """Values and label of a channel, stresses in the unit that suits them."""
-    values, label = point[name], LABELS[name]
-    if name not in STRESSES:
-        return values, label
-    size, unit = _stress_unit(values)
-    return values / size, f"{label} [{unit}]"
-
-
 def _draw_pair(axes: Axes, point: Channels, x_name: str, y_name: str) -> None:
-    (x, x_label), (y, y_label) = (_scaled_channel(point, name) for name in (x_name, y_name))
+    ((x,), x_label), ((y,), y_label) = (_in_suitable_unit([point[name]], LABELS[name]) for name in (x_name, y_name))
     ends = _segment_ends(point["segment"])
     kept: Booleans = np.ones(len(x), dtype=bool)
     for name, set_scale in ((x_name, axes.set_xscale), (y_name, axes.set_yscale)):
@@ -208,26 +198,16 @@ def draw_fit(folder: Path) -> Path:
     rows = -(-panels // columns)
     size = (3.6 * columns + 0.6, 3.6 * rows)
     figure, grid = plt.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False)
-    axes, letters = list(grid.flat), panel_letters()
-    for panel, curve in zip(axes, curves):
+    for panel, curve in zip(grid.flat, curves):
         _draw_fitted_curve(panel, curve)
-        annotate_panel(panel, next(letters), curve["name"])
-    _draw_parameters(axes[panels - 1], parameters)
-    annotate_panel(axes[panels - 1], next(letters), "parameters")
-    for unused in axes[panels:]:
+    _draw_parameters(grid.flat[panels - 1], parameters)
+    label_panels(grid.flat, *(curve["name"] for curve in curves), "parameters")
+    for unused in grid.flat[panels:]:
         unused.set_axis_off()
-    figure.suptitle(heading, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    head_figure(figure, heading)
     target = folder / "fit.png"
     save(figure, target)
     return target
-
-
-def _in_suitable_unit(values: Sequence[Floats], label: str) -> tuple[list[Floats], str]:
-    """Values and label "... [Pa]" in the unit that suits their largest; others as they are."""
-    if not label.endswith("[Pa]"):
-        return list(values), label
-    size, unit = _stress_unit(*values)
-    return [v / size for v in values], label.replace("[Pa]", f"[{unit}]")
 
 
 def _draw_fitted_curve(axes: Axes, curve: dict[str, Any]) -> None:
@@ -262,7 +242,7 @@ def _parameter_text(parameter: dict[str, Any]) -> str:
 def _draw_parameters(axes: Axes, parameters: dict[str, dict[str, Any]]) -> None:
     """Standard deviations over the values, and the values."""
     names = list(parameters)[::-1]
-    transform = axes.get_yaxis_transform()
+    look = {"transform": axes.get_yaxis_transform(), "fontsize": 8, "va": "bottom"}
     for row, name in enumerate(names):
         parameter = parameters[name]
         value, deviation = parameter["value"], parameter["deviation"]
@@ -273,26 +253,9 @@ def _draw_parameters(axes: Axes, parameters: dict[str, dict[str, Any]]) -> None:
             axes.axhspan(row - 0.28, row + 0.28, color="0.92", zorder=0)
             if np.isfinite(share):
                 axes.plot(0, row, "o", mfc="white", mec="0.4", ms=5)
-            axes.text(
-                0.5,
-                row - 0.3,
-                "uncertainty unknown" if parameter["determined"] else "not determined",
-                transform=transform,
-                fontsize=8,
-                color="0.35",
-                ha="center",
-                va="bottom",
-            )
-        axes.text(
-            1.0,
-            row + 0.17,
-            _parameter_text(parameter),
-            transform=transform,
-            fontsize=8,
-            color="0.2",
-            ha="right",
-            va="bottom",
-        )
+            text = "uncertainty unknown" if parameter["determined"] else "not determined"
+            axes.text(0.5, row - 0.3, text, color="0.35", ha="center", **look)
+        axes.text(1.0, row + 0.17, _parameter_text(parameter), color="0.2", ha="right", **look)
     axes.axvline(0, color="0.7", lw=0.8, zorder=0)
     axes.set_yticks(range(len(names)), names)
     axes.tick_params(axis="y", length=0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A shaded picture of spheres and triangles: one sun with shadow, ambient occlusion."""
+"""A shaded picture of spheres and triangles: one sun with shadow, ambient occlusion; cuts of triangles by a plane."""
 
 import numpy as np
 from scipy.ndimage import uniform_filter
@@ -9,15 +9,15 @@ from ..read.results import Surface
 from .canvas import NOTHING, Canvas, View, counted
 
 SUPERSAMPLE = 2  # pixels of the canvas along each side of one of the picture
+CREASE = 40.0  # largest turn over a smooth edge [degrees]
 SURFACE_COLOUR = (0.36, 0.40, 0.45)
 SUN = View.of_angles(-75.0, 48.0)
+FOLLOWING = [1, 2, 0]  # corner at the other end of an edge of a triangle
+OBLIQUE = View.of_angles(-112.0, 30.0)  # from behind and beside the wheel
 
 
-def corner_normals(surface: Surface, crease: float = 40.0) -> Floats:
-    """(m, 3, 3) Unit normals at the corners of triangles: smooth, but sharp over edges.
-
-    crease: largest turn over a smooth edge [degrees]
-    """
+def corner_normals(surface: Surface) -> Floats:
+    """(m, 3, 3) Unit normals at the corners of triangles: smooth, but sharp over edges that turn by more than CREASE."""
     x, triangles = surface.x, surface.triangles
     corners = x[triangles]
     face = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -28,7 +28,7 @@ def corner_normals(surface: Surface, crease: float = 40.0) -> Floats:
     sorted_corners = np.argsort(node, kind="stable")
     corner, number = counted(at_node[node])
     near = sorted_corners[(np.cumsum(at_node) - at_node)[node[corner]] + number] // 3
-    limit = np.cos(np.radians(crease))
+    limit = np.cos(np.radians(CREASE))
     smooth = (unit[near] * unit[corner // 3]).sum(axis=1) > limit
     corner, near = corner[smooth], near[smooth]
     sums = [np.bincount(corner, face[near, k], len(node)) for k in range(3)]
@@ -50,7 +50,6 @@ def shaded_picture(
     surface: Surface | None,
     view: View,
     pixel: float,
-    sun: View = SUN,
     corners: tuple[Floats, Floats] | None = None,
 ) -> tuple[Floats, tuple[float, float, float, float]]:
     """An RGBA picture (rows from the top, 0 ... 1) of spheres and a surface.
@@ -65,7 +64,7 @@ def shaded_picture(
     canvas = Canvas(view, *seen_part, pixel / SUPERSAMPLE)
     canvas.add_spheres(x, radius)
     normal = canvas.sphere_normals(x, radius)
-    shadow_map = Canvas(sun, *_bounds(sun, everything, margin), max(pixel, 0.35 * radius.mean()))
+    shadow_map = Canvas(SUN, *_bounds(SUN, everything, margin), max(pixel, 0.35 * radius.mean()))
     shadow_map.add_spheres(x, radius)
     if surface is not None:
         at_corners = corner_normals(surface)
@@ -75,7 +74,7 @@ def shaded_picture(
         colours = np.concatenate([colours, of_surface])
 
     seen = np.flatnonzero(canvas.object != NOTHING)
-    facing = np.clip(normal[seen] @ canvas.view.project(sun.towards), 0, 1)
+    facing = np.clip(normal[seen] @ canvas.view.project(SUN.towards), 0, 1)
     light = facing * _lit(shadow_map, canvas.world_points(seen), 0.7 * radius.mean())
     upward = normal[seen] @ canvas.view.project(np.array([0, 0, 1.0])).clip(0)
     brightness = np.zeros(canvas.depth.size)
@@ -113,9 +112,7 @@ def _openness(canvas: Canvas, length: float) -> Floats:
     factor = np.ones_like(depth)
     for reach, strength in ((length, 0.10), (3 * length, 0.10)):
         cells = max(int(reach / (SUPERSAMPLE * canvas.pixel)), 1)
-        around, known = (
-            uniform_filter(image, 2 * cells + 1, mode="nearest") for image in (filled, weight)
-        )
+        around, known = (uniform_filter(image, 2 * cells + 1, mode="nearest") for image in (filled, weight))
         mean = around / np.maximum(known, 1e-9)
         buried = np.where(np.isfinite(depth), mean - filled, 0.0) / reach
         factor -= strength * np.clip(4.0 * buried, -0.6, 2.0)
@@ -126,10 +123,19 @@ def _openness(canvas: Canvas, length: float) -> Floats:
 
 def _shrunk(picture: Floats, factor: int) -> Floats:
     """Averages factor x factor pixels; colours, 0 where nothing is seen, weighted by opacity."""
-    rows, columns = (size // factor * factor for size in picture.shape[:2])
-    parts = [
-        picture[i:rows:factor, j:columns:factor] for i in range(factor) for j in range(factor)
-    ]
-    mean: Floats = sum(parts[1:], parts[0]) / factor**2
+    rows, columns = (size // factor for size in picture.shape[:2])
+    blocks = picture[: factor * rows, : factor * columns].reshape(rows, factor, columns, factor, 4)
+    mean: Floats = blocks.mean(axis=(1, 3))
     mean[..., :3] /= np.maximum(mean[..., 3:], 1e-9)
     return mean
+
+
+def cut(surface: Surface, axis: int, position: float) -> Floats:
+    """Segments (k, 2, 3) in which triangles cross the plane x[axis] = position [m]."""
+    corners = surface.x[surface.triangles]
+    side = corners[:, :, axis] - position
+    crossed = (side < 0) != (side[:, FOLLOWING] < 0)  # (m, 3) edges: two of a triangle, or none
+    a, b = corners[crossed], corners[:, FOLLOWING][crossed]
+    side_a, side_b = side[crossed], side[:, FOLLOWING][crossed]
+    segments: Floats = (a + (side_a / (side_a - side_b))[:, None] * (b - a)).reshape(-1, 2, 3)
+    return segments

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Parts of the resistance: stacked bars, one for each run, pass or point."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib.pyplot as plt
+import numpy as np
+import pandas
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
 from ..run.summary import ResistanceParts
-from .style import annotate_panel, panel_letters, save, use_style
+from .style import label_panels, save, use_style
 
 CAPTION = (
     "What the resistance is made of: energy over travel in the steady window, bar by bar; below "
@@ -37,6 +39,7 @@ COLOURS = {
     "contact springs and damping": "#6fa3cc",
     "not accounted for": "#d0021b",
 }
+RANKS = {name: k for k, name in enumerate(COLOURS)}
 OTHER = "0.6"
 VISIBLE = 5e-3  # of the largest bar: a part that is smaller everywhere has no entry in the legend
 COLUMNS = 2  # of panels
@@ -62,38 +65,42 @@ def draw_parts(panels: Sequence[Panel], target: Path) -> None:
     figure = plt.figure(figsize=(sum(widths), 3.4 * rows), layout="constrained")
     grid = figure.add_gridspec(rows, len(widths), width_ratios=widths)
     entries: dict[str, Artist] = {}
-    largest = max(abs(parts.whole) for panel in panels for _, parts in panel.bars)
+    visible = VISIBLE * max(abs(parts.whole) for panel in panels for _, parts in panel.bars)
     first: Axes | None = None
-    for k, (panel, letter) in enumerate(zip(panels, panel_letters())):
+    for k, panel in enumerate(panels):
         axes = figure.add_subplot(grid[k // columns, k % columns], sharey=first)
         first = first or axes
-        _draw_panel(axes, panel, VISIBLE * largest, entries)
-        annotate_panel(axes, letter, panel.title)
+        _draw_panel(axes, panel, visible)
         if k % columns == 0:
             axes.set_ylabel("energy over travel [N]")
-    ordered = [name for name in (*COLOURS, *entries) if name in entries]
-    names = list(dict.fromkeys(ordered))[::-1]  # as they are stacked
-    handles = [entries[name] for name in names]
+        entries |= {name: bars for bars, name in zip(*axes.get_legend_handles_labels())}
+    label_panels(figure.axes, *(panel.title for panel in panels))
+    names = _ordered(entries)[::-1]  # as they are stacked
     legend = figure.add_subplot(grid[:, columns])
     legend.set_axis_off()
-    legend.legend(handles, names, loc="center left", fontsize=8)
+    legend.legend([entries[name] for name in names], names, loc="center left", fontsize=8)
     save(figure, target)
 
 
-def _draw_panel(axes: Axes, panel: Panel, visible: float, entries: dict[str, Artist]) -> None:
-    """entries: name -> artist, of all parts that can be seen in a panel"""
+def _ordered(names: Iterable[str]) -> list[str]:
+    """Names of parts as bars are stacked; those that COLOURS does not list come last."""
+    return sorted(names, key=lambda name: RANKS.get(name, len(RANKS)))
+
+
+def _draw_panel(axes: Axes, panel: Panel, visible: float) -> None:
+    """Parts that reach visible [N] in a bar have a label."""
+    forces = pandas.DataFrame([{**parts.forces, "not accounted for": parts.unexplained} for _, parts in panel.bars])
+    place = np.arange(len(forces))
+    above, below = np.zeros(len(forces)), np.zeros(len(forces))
+    for name in _ordered(forces):
+        known, force = forces[name].notna(), forces[name].fillna(0.0).to_numpy()
+        label = name if (np.abs(force) >= visible).any() else None
+        start = np.where(force > 0, above, below)
+        axes.bar(place[known], force[known], WIDTH, start[known], color=COLOURS.get(name, OTHER), label=label)
+        above, below = above + force.clip(min=0), below + force.clip(max=0)
     for k, (_, parts) in enumerate(panel.bars):
-        above = below = 0.0
-        forces = {**parts.forces, "not accounted for": parts.unexplained}
-        for name in dict.fromkeys([*(n for n in COLOURS if n in forces), *forces]):
-            force = forces[name]
-            start = above if force > 0 else below
-            (bar,) = axes.bar(k, force, WIDTH, start, color=COLOURS.get(name, OTHER))
-            above, below = above + max(force, 0.0), below + min(force, 0.0)
-            if abs(force) >= visible:
-                entries.setdefault(name, bar)
         axes.plot([k - 0.5 * WIDTH, k + 0.5 * WIDTH], [parts.whole] * 2, color="black", lw=1.4)
     axes.axhline(0, color="0.5", lw=0.6)
-    axes.set_xticks(range(len(panel.bars)), [name for name, _ in panel.bars])
-    axes.set_xlim(-0.6, max(len(panel.bars), 2) - 0.4)
+    axes.set_xticks(place, [name for name, _ in panel.bars])
+    axes.set_xlim(-0.6, max(len(forces), 2) - 0.4)
     axes.set_xlabel(panel.x_label)

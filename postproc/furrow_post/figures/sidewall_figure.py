@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from ..arrays import Floats
 from ..read.hdf5 import opened
 from ..read.results import decoded
-from .style import MILLIMETRE, annotate_panel, save, use_style
+from .style import MILLIMETRE, head_figure, label_panels, save, use_style
 
 SOLVED, LOOKED_UP, AXIAL = "#c2410c", "0.15", "#3b6ea5"
 KILONEWTON = 1e-3  # per newton
@@ -29,7 +29,7 @@ class Profile(NamedTuple):
     radius: Floats
 
 
-def draw_sidewall(folder: Path) -> Path:
+def draw_sidewall(folder: Path) -> list[Path]:
     """Draws sidewall.h5 of a results folder, and returns the figure's path."""
     use_style()
     with opened(folder / "sidewall.h5") as file:
@@ -38,32 +38,24 @@ def draw_sidewall(folder: Path) -> Path:
             for name in ("deflection", "lateral")
         }
         groups = [file["profiles"][str(k)] for k in range(len(file["profiles"]))]
-        profiles = [
-            Profile(float(group.attrs["deflection"]), group["A"][...], group["R"][...])
-            for group in groups
-        ]
+        profiles = [Profile(float(group.attrs["deflection"]), group["A"][...], group["R"][...]) for group in groups]
         heading, pressure = decoded(file.attrs["title"]), float(file.attrs["pressure"])
     figure, axes = plt.subplots(2, 2, figsize=(9.6, 7.0), layout="constrained")
     _draw_section(axes[0][0], profiles)
-    _draw_forces(axes[0][1], curves["deflection"])
-    axes[0][1].set_xlabel("deflection [mm]")
-    _draw_forces(axes[1][0], curves["lateral"])
-    axes[1][0].set_xlabel("axial motion, outwards [mm]")
+    _draw_forces(axes[0][1], curves["deflection"], "deflection [mm]")
+    _draw_forces(axes[1][0], curves["lateral"], "axial motion, outwards [mm]")
     _draw_errors(axes[1][1], curves)
-    titles = (
+    label_panels(
+        axes.flat,
         "section at deflections of the tread edge",
         "tread edge pressed towards the rim",
         "tread edge moved sideways",
         "table against solution",
     )
-    for panel, letter, title in zip(axes.flat, "abcd", titles):
-        annotate_panel(panel, letter, title)
-    figure.suptitle(
-        f"{heading} at {pressure / 1e3:.4g} kPa", x=0.01, ha="left", fontsize=11, fontweight="bold"
-    )
+    head_figure(figure, f"{heading} at {pressure / 1e3:.4g} kPa")
     target = folder / "sidewall.png"
     save(figure, target)
-    return target
+    return [target]
 
 
 def _draw_section(axes: Axes, profiles: Sequence[Profile]) -> None:
@@ -87,24 +79,15 @@ def _draw_section(axes: Axes, profiles: Sequence[Profile]) -> None:
     axes.set(xlabel="axial $A$ [mm]", ylabel="radius $R$ [mm]")
 
 
-def _draw_forces(axes: Axes, curve: Curve) -> None:
+def _draw_forces(axes: Axes, curve: Curve, x_label: str) -> None:
     """Forces of the sidewall on the tread over the motion of the tread's edge."""
     moved = MILLIMETRE * curve["moved"]
     step = max(1, len(moved) // 20)
     for name, colour, kind in (("F_r", SOLVED, "radial"), ("F_a", AXIAL, "axial")):
         solved, table = KILONEWTON * curve[name], KILONEWTON * curve[f"{name}_table"]
         axes.plot(moved, solved, color=colour, lw=LINE_WIDTH, label=f"{kind}, solved")
-        axes.plot(
-            moved[::step],
-            table[::step],
-            "o",
-            mfc="none",
-            mec=LOOKED_UP,
-            mew=0.8,
-            ms=4,
-            label="looked up" if kind == "axial" else None,
-            zorder=4,
-        )
+        label = "looked up" if kind == "axial" else None
+        axes.plot(moved[::step], table[::step], "o", mfc="none", mec=LOOKED_UP, mew=0.8, ms=4, label=label, zorder=4)
     axes.axhline(0, color="0.7", lw=0.6, zorder=0)
     axes.axvline(0, color="0.7", lw=0.6, zorder=0)
     # The chain is nearly straight where its ends are farthest apart: forces there rule no limit
@@ -112,15 +95,12 @@ def _draw_forces(axes: Axes, curve: Curve) -> None:
     bent = squares < 0.97 * np.max(squares)
     inner = KILONEWTON * np.concatenate([curve["F_r"][bent], curve["F_a"][bent]])
     axes.set_ylim(inner.min() - 0.15 * np.ptp(inner), inner.max() + 0.35 * np.ptp(inner))
-    axes.set_ylabel("force on the tread [kN/m]")
+    axes.set(xlabel=x_label, ylabel="force on the tread [kN/m]")
     axes.legend(fontsize=8, loc="upper center", ncols=3, columnspacing=1, handlelength=1.4)
 
 
 def _draw_errors(axes: Axes, curves: dict[str, Curve]) -> None:
-    for name, label, colour in (
-        ("deflection", "deflection", SOLVED),
-        ("lateral", "axial motion", AXIAL),
-    ):
+    for name, label, colour in (("deflection", "deflection", SOLVED), ("lateral", "axial motion", AXIAL)):
         curve = curves[name]
         error = np.hypot(curve["F_a_table"] - curve["F_a"], curve["F_r_table"] - curve["F_r"])
         relative = np.maximum(error / np.hypot(curve["F_a"], curve["F_r"]), 1e-16)

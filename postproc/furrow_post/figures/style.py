@@ -2,13 +2,15 @@
 """One look for all figures."""
 
 import string
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
 
 CENTIMETRE = 100.0  # per metre
@@ -19,9 +21,7 @@ KILOPASCAL = 1e-3  # per pascal
 RUN_COLOURS = ("#1f5a8a", "#c8672b", "#4d8a4a", "#7a4b8c", "#8a6d1f", "#3f3f3f")
 WHEEL_COLOUR = "#39424e"
 # Colours of ground by displacement or density; at rest: sand
-GROUND_COLOURS = LinearSegmentedColormap.from_list(
-    "sand", ["#e6d8b4", "#f0b55e", "#dd6a3c", "#a3264f", "#46125c"]
-)
+GROUND_COLOURS = LinearSegmentedColormap.from_list("sand", ["#e6d8b4", "#f0b55e", "#dd6a3c", "#a3264f", "#46125c"])
 
 
 def use_style() -> None:
@@ -52,6 +52,22 @@ def panel_letters() -> Iterator[str]:
 
 def annotate_panel(axes: Axes, letter: str, text: str) -> None:
     axes.set_title(f"$\\mathbf{{{letter}}}$  {text}", color="0.15")
+
+
+def label_panels(panels: Iterable[Axes], *titles: str) -> None:
+    """Gives panels the letters a, b, c, ... and these titles."""
+    for axes, letter, title in zip(panels, panel_letters(), titles):
+        annotate_panel(axes, letter, title)
+
+
+def head_figure(figure: Figure, text: str) -> None:
+    """A bold title at the left."""
+    figure.suptitle(text, x=0.01, ha="left", fontsize=11, fontweight="bold")
+
+
+def add_scale(axes: Axes, norm: Normalize, label: str, **look: Any) -> None:
+    """The scale of GROUND_COLOURS beside axes; look: of matplotlib's colorbar"""
+    axes.figure.colorbar(ScalarMappable(norm, GROUND_COLOURS), ax=axes, **look).set_label(label)
 
 
 def save(figure: Figure, target: Path, dpi: float = 150) -> None:

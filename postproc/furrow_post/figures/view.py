@@ -14,13 +14,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from markupsafe import Markup
 
 from ..uncertainty.whole_error import headline
 from ..arrays import Floats
 from ..errors import ResultsError
 from ..read.motion import Body, Cloud, Motion, Points, evenly_chosen
-from .page import escaped, html_page
 from .ground_quantities import COLOURS, Quantity, quantities_of
+from .page import render
 from .style import GROUND_COLOURS, MILLIMETRE
 
 LARGEST = 12e6  # [byte] of a view; a report has its figures beside it
@@ -57,23 +58,18 @@ class _Selection:
         motion = self.motion
         if not motion.has_frames:
             return f"{self.label}: the run wrote no frames ('vtk N'); this is its end."
-        frames, all_frames = len(self.times), len(motion.times)
-        text = f"{self.label}: {'all ' if frames == all_frames else ''}{frames}"
-        text += "" if frames == all_frames else f" of {all_frames}"
-        text += " frames"
-        if self.stride > 1:
-            text += f", one of {self.stride} points, enlarged"
-        return text + "."
+        frames, every = len(self.times), len(motion.times)
+        text = f"{self.label}: " + (f"all {frames} frames" if frames == every else f"{frames} of {every} frames")
+        return f"{text}, one of {self.stride} points, enlarged." if self.stride > 1 else f"{text}."
 
 
 def view_page(motions: Sequence[Motion], labels: Sequence[str], largest: float = LARGEST) -> str:
     """The whole page. @raises ResultsError, OSError"""
-    title = " and ".join(labels)
-    return html_page(title, view_section(motions, labels, largest), view_style())
+    return render("view.html", " and ".join(labels), view=view_values(motions, labels, largest))
 
 
-def view_section(motions: Sequence[Motion], labels: Sequence[str], largest: float = LARGEST) -> str:
-    """The part of a page that shows these runs side by side, with all it needs but its style.
+def view_values(motions: Sequence[Motion], labels: Sequence[str], largest: float = LARGEST) -> dict[str, Any]:
+    """The values of the template section.html, which shows these runs side by side.
 
     largest: [byte] @raises ResultsError where frames are damaged, or three.js is not installed
     """
@@ -91,33 +87,14 @@ def view_section(motions: Sequence[Motion], labels: Sequence[str], largest: floa
         "colours": _text(_colour_table()),
         "cut": _sides(chosen),
     }
-    return "\n".join(
-        [
-            '<div class="furrow-view">',
-            _stage(labels, [result_line(motion) for motion in motions]),
-            _notes(chosen, runs),
-            # "<" is escaped: no text in the data can end the script
-            '<script type="application/json">',
-            json.dumps(data).replace("<", "\\u003c"),
-            "</script>",
-            "</div>",
-            *(f"<script>\n{_harmless(text)}\n</script>" for text in (*library, _file("view.js"))),
-        ]
-    )
-
-
-def result_line(motion: Motion) -> str:
-    """Its values with their errors; empty for a run without the history of a wheel."""
-    return headline(motion.folder)
-
-
-def view_style() -> str:
-    """CSS of view_section()."""
-    return _file("view.css")
-
-
-def _file(name: str) -> str:
-    return (Path(__file__).parent / name).read_text(encoding="utf-8")
+    scripts = [*library, Path(__file__).with_name("view.js").read_text(encoding="utf-8")]
+    return {
+        "labels": [(label, headline(motion.folder)) for label, motion in zip(labels, motions)],
+        "notes": _notes(chosen, runs),
+        # "<" is escaped: no text in the data can end the script
+        "data": Markup(json.dumps(data).replace("<", "\\u003c")),
+        "scripts": [Markup(script.replace("</script", "<\\/script")) for script in scripts],
+    }
 
 
 def _library() -> list[str]:
@@ -125,15 +102,8 @@ def _library() -> list[str]:
     files = [THREE / name for name in LIBRARY]
     for file in files:
         if not file.is_file():
-            raise ResultsError(
-                f"{file}: is missing; install Debian's package libjs-three (apt-get install "
-                "libjs-three)"
-            )
+            raise ResultsError(f"{file}: is missing; install Debian's package (apt-get install libjs-three)")
     return [file.read_text(encoding="utf-8") for file in files]
-
-
-def _harmless(script: str) -> str:
-    return script.replace("</script", "<\\/script")
 
 
 def _readable(motion: Motion) -> int:
@@ -142,9 +112,7 @@ def _readable(motion: Motion) -> int:
     return max(MOST_VALUES // max(count, 1), 2)
 
 
-def _fitted(
-    selection: _Selection, quantities: Sequence[Quantity], largest: float
-) -> dict[str, Any]:
+def _fitted(selection: _Selection, quantities: Sequence[Quantity], largest: float) -> dict[str, Any]:
     """The data of a run in no more bytes than this; leaves out frames, then points."""
     while True:
         data = _run_data(selection, quantities)
@@ -174,9 +142,7 @@ def _run_data(selection: _Selection, quantities: Sequence[Quantity]) -> dict[str
     }
 
 
-def _cloud_data(
-    cloud: Cloud, frames: Sequence[Points], quantities: Sequence[Quantity]
-) -> dict[str, Any]:
+def _cloud_data(cloud: Cloud, frames: Sequence[Points], quantities: Sequence[Quantity]) -> dict[str, Any]:
     every = np.unique(np.concatenate([frame.id for frame in frames]))
     low, span = _range(np.concatenate([frame.x for frame in frames]))
     places = np.full((len(frames), 3, len(every)), LEVELS, np.uint16)
@@ -266,54 +232,10 @@ def _sides(chosen: Sequence[_Selection]) -> list[float]:
     return [min(sides) - reach, max(sides) + reach]
 
 
-def _stage(labels: Sequence[str], results: Sequence[str]) -> str:
-    """Canvas, labels with results, scales, legend and controls."""
-    names = "".join(
-        f'<div class="furrow-label"><div class="furrow-name">{escaped(label)}</div>{escaped(result)}</div>'
-        for label, result in zip(labels, results)
-    )
-    scales = '<div class="furrow-scale"></div>' * len(labels)
-    looks = "".join(
-        f'<button type="button" data-look="{look}">{look}</button>'
-        for look in ("oblique", "side", "front", "above")
-    )
-    speeds = "".join(
-        f'<option value="{speed}"{" selected" if speed == 1 else ""}>{speed} x</option>'
-        for speed in (0.25, 0.5, 1, 2)
-    )
-    return f"""<div class="furrow-labels">{names}</div>
-<div class="furrow-stage">
-<canvas class="furrow-canvas" aria-label="runs in 3D"></canvas>
-{scales}
-<div class="furrow-message">loading</div>
-</div>
-<div class="furrow-legend"><div class="furrow-unit"></div><div class="furrow-bar"></div>
-<div class="furrow-ticks"></div></div>
-<div class="furrow-input">
-<button type="button" class="furrow-play">play</button>
-<input class="furrow-time" type="range" min="0" max="0" value="0" aria-label="time"/>
-<span class="furrow-clock"></span>
-<label>speed <select class="furrow-speed">{speeds}</select></label>
-</div>
-<div class="furrow-input">
-<label>colour <select class="furrow-quantity"></select></label>
-<label>cut along the track <input class="furrow-cut" type="range" aria-label="cut plane"/></label>
-<span class="furrow-cut-text">none</span>
-<label><input class="furrow-body" type="checkbox" checked/> wheels</label>
-<label><input class="furrow-follow" type="checkbox" checked/> follow the wheel</label>
-<span>{looks}</span>
-</div>"""
-
-
-def _notes(chosen: Sequence[_Selection], runs: Sequence[dict[str, Any]]) -> str:
-    finest = max(
-        (max(cloud["span"]) / LEVELS for run in runs for cloud in run["clouds"]), default=0.0
-    )
+def _notes(chosen: Sequence[_Selection], runs: Sequence[dict[str, Any]]) -> list[str]:
+    finest = max((max(cloud["span"]) / LEVELS for run in runs for cloud in run["clouds"]), default=0.0)
     parts = [selection.note() for selection in chosen]
     if finest:
-        parts.append(
-            f"Positions to {MILLIMETRE * finest:.1g} mm; each grain, or particle of a continuum, is "
-            "a sphere of its volume."
-        )
-    parts.append("Drag: turn; wheel: zoom; right button: move; arrows and blank: frames, play.")
-    return "".join(f'<p class="furrow-notes">{escaped(part)}</p>' for part in parts)
+        size = f"{MILLIMETRE * finest:.1g} mm"
+        parts.append(f"Positions to {size}; each grain, or particle of a continuum, is a sphere of its volume.")
+    return [*parts, "Drag: turn; wheel: zoom; right button: move; arrows and blank: frames, play."]

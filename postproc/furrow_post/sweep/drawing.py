@@ -108,9 +108,9 @@ def _draw_curve(
             look = {"color": colours.get(one.line, "0.45"), "lw": 1.1, "dashes": dashes}
             axes.plot(x_scale * x, y_scale * y, label=one.label, **look)
     for band in bands:
-        values = band.values(curve.y)
-        if values:
-            x, mean, least, greatest = (np.array(column) for column in zip(*values))
+        bounds = band.values(curve.y)
+        if bounds:
+            x, mean, least, greatest = (np.array(column) for column in zip(*bounds))
             colour = colours[band.line.label]
             axes.fill_between(x_scale * x, y_scale * least, y_scale * greatest, color=colour, alpha=0.12, lw=0)
             axes.plot(x_scale * x, y_scale * mean, color=colour, lw=1.1, ls=":", marker="_", label=band.label)

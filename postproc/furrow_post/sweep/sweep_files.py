@@ -90,7 +90,7 @@ class Result:
         )
         if imposed:
             found.append(f"imposed by the script, without an error: {', '.join(imposed)}")
-        found += [one.note for one in (*self.formulas, *self.bands) if one.note]
+        found += [note for note in (*(one.note for one in self.formulas), *(one.note for one in self.bands)) if note]
         return found + [text for band in self.bands for curve in self.figure.curves for text in band.departures(curve.y)]
 
 

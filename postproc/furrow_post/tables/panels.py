@@ -30,8 +30,7 @@ from matplotlib.axes import Axes
 
 from ..errors import ResultsError
 from ..figures.style import annotate_panel, panel_letters, save, use_style
-from ..figures.terrain_figure import draw_density_section, draw_terrain
-from ..figures.terrain_stress_figure import draw_stress
+from ..figures.terrain_figure import draw_density_section, draw_stress, draw_terrain
 from ..read.terrain import Terrain
 from ..study.study_files import Output
 from ..study.runs import Run, Runs
@@ -152,7 +151,7 @@ def density_sections(runs: Runs, tables: Mapping[str, pandas.DataFrame], target:
     figure, panels = plt.subplots(1, len(shown), figsize=(4.6 * len(shown), 4.4), layout="constrained", squeeze=False)
     for axes, run in zip(panels[0], shown):
         ground = Terrain.read(run.folder)
-        draw_density_section(figure, axes, ground, 0, 0.5 * ground.spacing)
+        draw_density_section(axes, ground, 0, 0.5 * ground.spacing)
         axes.set_title(run.what, fontsize=9)
     save(figure, target, dpi=90)
 

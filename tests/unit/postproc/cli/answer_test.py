@@ -9,7 +9,7 @@ from unittest.mock import patch
 import yaml
 
 import furrow_post
-from furrow_post.cli import answer_command, run_command
+from furrow_post.cli import answer_command, run_commands
 from furrow_post.cli.parameters import Given
 
 
@@ -18,7 +18,7 @@ class AnswerTest(unittest.TestCase):
         with (
             tempfile.TemporaryDirectory() as text,
             patch.object(answer_command, "default_folder", return_value=Path(text)),
-            patch.object(run_command, "post", return_value=0) as post,
+            patch.object(run_commands, "post", return_value=0) as post,
         ):
             (Path(text) / answer_command.TABLE).write_text("quantity,value\nrut_depth,0.04\n", encoding="utf-8")
             table = furrow_post.answer("265/70R17", load=6000)

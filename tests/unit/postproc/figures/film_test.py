@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 
-from furrow_post.figures.moving import MovingPictures
+from furrow_post.figures.film import MovingPictures
 from furrow_post.read.motion import read_motion
 from support.command import run_post
 from support.folder import FolderTest
@@ -58,7 +58,7 @@ class FilmTest(FolderTest):
 
     def test_refuses_in_one_line(self) -> None:
         cases = (
-            (["film", self.run_folder, "x.gif"], "x.gif: its name ends in none of .mp4"),
+            (["film", self.run_folder, "x.gif"], "x.gif: its name must end in .mp4"),
             (["film", self.run_folder, "none/x.mp4"], "there is no folder none; make it first"),
             (["film", self.folder], "has no results; name the results folder of a run"),
         )

@@ -12,8 +12,7 @@ import numpy as np
 from furrow_post.analyse.rut import bow_wave, displacements, rut_densities, rut_depth, share_left
 from furrow_post.analyse.stress import arc_ahead, in_plane
 from furrow_post.errors import ResultsError
-from furrow_post.figures.terrain_figure import draw_terrain
-from furrow_post.figures.terrain_stress_figure import draw_stress
+from furrow_post.figures.terrain_figure import draw_stress, draw_terrain
 from furrow_post.read.terrain import Outline, Terrain, TerrainStress
 from support.command import run_post
 from support.folder import FolderTest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""furrow-post card: material files from what is known of a soil, and soil cards of a ground."""
+"""Commands card, material files from what is known of a soil and soil cards of a ground, and laboratory."""
 
 import math
 import sys
@@ -8,6 +8,8 @@ from pathlib import Path
 
 from ..arguments import at_least, number, path, positive
 from ..errors import ResultsError
+from ..figures.laboratory_figure import draw_laboratory
+from ..laboratory.report import report_tests
 from ..read.soil_card import EARTH, Fitted, PressureSinkage, Range, SoilCard, markdown, read_card
 from ..soil.exports import EXPORTS
 from ..soil import grains
@@ -16,7 +18,7 @@ from ..soil.make import CLASSES, compression, from_bekker, from_cone, from_stren
 from ..soil.material import OF_GRAINS, NewMaterial, find_ground, require_plausible
 from ..soil.oedometer import oedometer_misfit, read_oedometer
 from ..soil.testing import FULL, QUICK, cone_misfit, default_folder, make_card, make_grain_card, plate_misfit
-from .parameters import Given, argument, command, flag, option, repeated, target_option
+from .parameters import Given, argument, command, flag, option, output_options, repeated, target, target_option
 
 SIZES = (0.1, 0.15, 0.2)  # [m]
 ROUND_OFF = 1e-9
@@ -90,9 +92,9 @@ def card_export(given: Given) -> None:
         card = replace(card, shear=replace(shear, K=Fitted(given.K, math.nan)))
     for name in given.formats:
         file, write = EXPORTS[name]
-        target = given.card.with_name(file)
-        write(card, target)
-        print(f"  {name:13} {target}")
+        exported = given.card.with_name(file)
+        write(card, exported)
+        print(f"  {name:13} {exported}")
     for doubt in card.doubts():
         print(f"furrow-post card: warning: {doubt}", file=sys.stderr)
 
@@ -146,9 +148,7 @@ def card_material(given: Given) -> None:
         raise ResultsError(f"--{route} needs {', '.join(map(_option, missing))} as well")
     unread = sorted(present - {route, *needed, *further})
     if unread:
-        raise ResultsError(
-            f"--{route} does not use {', '.join(map(_option, unread))}; leave it out"
-        )
+        raise ResultsError(f"--{route} does not use {', '.join(map(_option, unread))}; leave it out")
     material = _material(route, given)
     given.file.parent.mkdir(parents=True, exist_ok=True)
     given.file.write_text(material.text(), encoding="utf-8")
@@ -172,15 +172,7 @@ def _material(route: str, given: Given) -> NewMaterial:
         return from_strength(title, given.c, given.phi, given.density, oedometer, given.E)
     if route == "k_phi":
         return from_bekker(
-            title,
-            given.k_c,
-            given.k_phi,
-            given.n,
-            given.c,
-            given.phi,
-            given.K,
-            _radius(given),
-            given.density,
+            title, given.k_c, given.k_phi, given.n, given.c, given.phi, given.K, _radius(given), given.density
         )
     return from_cone(title, given.cone_index, given.soil_class, given.density)
 
@@ -209,3 +201,17 @@ def _check(route: str, given: Given) -> str:
     modulus, n = given.k_c / radius + given.k_phi, float(given.n)
     misfit = plate_misfit(bench, lambda z: float(modulus * z**n), radius)
     return f"virtual plate of {2e3 * radius:g} mm: pressure within a factor of {math.exp(misfit):.2f} (rms)"
+
+
+@command(
+    argument("folders", "results folders of one test of inputs/laboratory", nargs=-1, required=True, metavar="RESULTS..."),
+    option("--reference", parse=path, help="reference.csv of an oedometer, with columns rho_kgm3 and sigma1_Pa"),
+    repeated("--point", help="results folder of furrow-point with the same path, for comparison"),
+    *output_options("figure to write (default: in the first folder)"),
+)
+def laboratory(given: Given) -> None:
+    found = report_tests(given.folders, given.reference, given.point)
+    print(found.report)
+    file = target(given, found.tests[0].folder, "laboratory")
+    draw_laboratory(found, file)
+    print(file)

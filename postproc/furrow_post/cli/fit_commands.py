@@ -1,17 +1,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""furrow-post fit tyre: a tyre file from a catalogue and tests."""
+"""Commands fit law, a law from measured curves (furrow-point fit becomes this), and fit tyre, a tyre file from a
+catalogue and tests."""
 
+import importlib
 import shlex
+import sys
 from pathlib import Path
 
+import numpy as np
+
+from ..laws.law_fit import fit_law, report, write_fit
+from ..laws.point_curves import PROGRAM, PointCurves
 from ..laws.tyre_estimate import Catalogue, hub_mass
 from ..laws.tyre_fit import MEASURED, PlateTest, TyreFit, fit_tyre, press, read_tests
 from ..laws.tyre_size import INCH, read_size
-from ..arguments import WrongText, number, path, positive
+from ..arguments import inflation, path, positive
 from ..errors import ResultsError
-from .parameters import Given, argument, command, flag, option
+from .parameters import Given, argument, command, flag, option, target_option
 
-MILLIMETRES = {  # option -> meaning
+MILLIMETRES = {  # option -> meaning, in the order of Catalogue
     "diameter": "of the new tyre; by default that of the size",
     "section-width": "by default that of the size",
     "tread-width": "by default 0.72 of the section width",
@@ -24,18 +31,24 @@ CORRELATED = 0.8  # two parameters are reported together from this on
 USUAL_DEFLECTION = (0.12, 0.30)
 
 
-INFLATION = (10.0, 2000.0)  # [kPa] the lowest of tyres for soft ground is 20, 2000 is that of tyre files
-
-
-def inflation(text: str) -> float:
-    """A pressure of tyres [kPa]."""
-    pressure, (low, high) = number(text), INFLATION
-    if not low <= pressure <= high:
-        raise WrongText(
-            f"{text} kPa is no pressure of a tyre, which is {low:g} to {high:g} kPa; give kPa: bar times 100, "
-            "psi times 6.895, Pa over 1000"
-        )
-    return pressure
+@command(
+    argument("file", "a YAML file with a fit; furrow-point paths lists its keys", path),
+    target_option("the results folder; results/<name of the file> unless given"),
+    flag("--no-plot", help="no figure"),
+)
+def fit_law_(given: Given) -> int:
+    """1 where the fit did not converge; its results are written all the same."""
+    folder: Path = given.output or Path("results") / given.file.stem
+    with PointCurves(given.file) as point:
+        for warning in point.warnings:
+            print(f"{PROGRAM}: warning: {warning}", file=sys.stderr)
+        fit = fit_law(point.parameters, point.curves, point)
+        write_fit(point, fit, folder)
+        print(f"{report(point, fit)}  results       {folder}")
+    if not given.no_plot:  # without a figure nobody waits for matplotlib
+        (figure,) = importlib.import_module("..figures.point_figure", __package__).draw_point(folder)
+        print(f"  figure        {figure}")
+    return 0 if fit.converged else 1
 
 
 @command(
@@ -59,10 +72,7 @@ def fit_tyre_(given: Given) -> None:
     if not output.parent.is_dir():
         raise ResultsError(f"{output.parent} is no folder; make it, or give another name with -o")
     known = _catalogue(given)
-    tests = [
-        PlateTest(pressure, load, {"deflection_cm": deflection})
-        for pressure, load, deflection in given.point
-    ]
+    tests = [PlateTest(pressure, load, {"deflection_cm": deflection}) for pressure, load, deflection in given.point]
     if given.tests is not None:
         tests += read_tests(given.tests)
     _require_possible(known, tests)
@@ -85,15 +95,9 @@ def fit_tyre_(given: Given) -> None:
 def _command(given: Given) -> str:
     """The arguments that made the file, without texts and files."""
     words = [given.size]
-    for name in (
-        "pressure",
-        "rim",
-        "mass",
-        *(option.replace("-", "_") for option in MILLIMETRES),
-        "load",
-    ):
-        if (value := getattr(given, name)) is not None:
-            words += [f"--{name.replace('_', '-')}", f"{value:g}"]
+    for name in ("pressure", "rim", "mass", *MILLIMETRES, "load"):
+        if (value := getattr(given, name.replace("-", "_"))) is not None:
+            words += [f"--{name}", f"{value:g}"]
     for point in given.point:
         words += ["--point", *(f"{value:g}" for value in point)]
     if given.tests is not None:
@@ -117,21 +121,12 @@ def _rated(fit: TyreFit, title: str, load: float) -> str:
 
 
 def _catalogue(given: Given) -> Catalogue:
-    def metres(name: str) -> float | None:
-        value: float | None = getattr(given, name)
-        return None if value is None else 1e-3 * value
+    def metres(name: str, unit: float = 1e-3) -> float | None:
+        value: float | None = getattr(given, name.replace("-", "_"))
+        return None if value is None else unit * value
 
-    return Catalogue(
-        read_size(given.size),
-        1e3 * given.pressure,
-        None if given.rim is None else INCH * given.rim,
-        metres("diameter"),
-        metres("section_width"),
-        metres("tread_width"),
-        metres("tread"),
-        metres("flange"),
-        given.mass,
-    )
+    measures: list[float | None] = [metres("rim", INCH), *map(metres, MILLIMETRES), given.mass]
+    return Catalogue(read_size(given.size), 1e3 * given.pressure, *measures)
 
 
 def _require_possible(known: Catalogue, tests: list[PlateTest]) -> None:
@@ -167,9 +162,7 @@ def _report(fit: TyreFit) -> str:
     if fit.tests:
         lines += _tests(fit)
     if (mass := hub_mass(fit.known)) is not None:
-        lines.append(
-            f"  mass          add {mass:.3g} kg of the tyre to the rim's mass in the script"
-        )
+        lines.append(f"  mass          add {mass:.3g} kg of the tyre to the rim's mass in the script")
     return "\n".join(lines)
 
 
@@ -181,15 +174,11 @@ def _tests(fit: TyreFit) -> list[str]:
         f"singular value above 1: {values}"
     ]
     names = [parameter.name for parameter in fit.parameters]
-    for i, name in enumerate(names):
-        for j in range(i):
-            if abs(fit.correlation[i, j]) > CORRELATED:
-                lines.append(f"  correlated    {names[j]} and {name}: {fit.correlation[i, j]:.2f}")
+    for i, j in np.argwhere(np.tril(np.abs(fit.correlation), -1) > CORRELATED):
+        lines.append(f"  correlated    {names[j]} and {names[i]}: {fit.correlation[i, j]:.2f}")
     lines.append(f"  {'pressure kPa':>14} {'load N':>8}  measured and fitted")
     for test, state in zip(fit.tests, fit.states):
-        pairs = ", ".join(
-            f"{name} {value:g} {state[name]:.4g}" for name, value in test.measured.items()
-        )
+        pairs = ", ".join(f"{name} {value:g} {state[name]:.4g}" for name, value in test.measured.items())
         lines.append(f"  {test.pressure:14g} {test.load:8g}  {pairs}")
     lines.append(f"  misfit (rms)  {_misfits(fit)}")
     if fit.stretch > 1.0:

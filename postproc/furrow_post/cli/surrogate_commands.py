@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Commands surrogate, a fast model from sweeps; map, go and no-go on a terrain raster; fit soil, from wheel tests."""
+
+import math
+import time
+from collections.abc import Mapping, Sequence
+from datetime import datetime, timezone
+from pathlib import Path
+
+import numpy as np
+
+from ..arguments import WrongText, between, path, positive
+from ..arrays import Booleans, Floats
+from ..csv_table import in_columns, write_rows
+from ..errors import ResultsError
+from ..formatting import in_unit, with_error
+from ..run.record import FINISHED, read_record
+from ..surrogate.gaussian_process import Z_95, HeldOut
+from ..surrogate.mobility import Vehicle
+from ..surrogate.model import Surrogate, fit, read_surrogate
+from ..surrogate.posterior import identify, read_tests
+from ..surrogate.raster import read_raster, read_slope
+from ..surrogate.surrogate_figures import draw_held_out, draw_posterior
+from ..surrogate.terrain_map import GO, NO_GO, UNCERTAIN, make_map, read_classes, write_map, write_mobility_table
+from ..surrogate.training import PULL, QUANTITIES, RADIUS, TORQUE, Training, read_training
+from .parameters import Given, argument, assignments, command, option, repeated, require_file, target_option
+
+CHOSEN = ("slip", "load", "slope")  # inputs that a map finds for itself
+QUANTILES = (2.5, 50.0, 97.5)
+
+
+@command(
+    argument("sources", "folders of sweeps or their sweep.csv; or a surrogate, with --at", path, nargs=-1, required=True),
+    target_option("file to write, .json (default: surrogate.json in the first folder)"),
+    assignments("--at", "predicts here: all inputs of the surrogate"),
+)
+def surrogate_(given: Given) -> None:
+    sources: Sequence[Path] = given.sources
+    if sources[0].suffix == ".json":
+        if given.output or len(sources) > 1 or not given.at:
+            raise ResultsError(f"{sources[0]}: is a surrogate; give it alone, with --at NAME=NUMBER ...")
+        surrogate = read_surrogate(sources[0])
+    else:
+        surrogate = _fit(sources, given.output)
+    if given.at:
+        print("\n".join(_prediction(surrogate, dict(given.at))))
+
+
+def _fit(sources: Sequence[Path], output: Path | None) -> Surrogate:
+    folder = sources[0] if sources[0].is_dir() else sources[0].parent
+    target = output or folder / "surrogate.json"
+    require_file(target, "json", make_folder=True)
+    training = read_training(sources)
+    surrogate, held_out = fit(training, _origin(sources))
+    surrogate.write(target)
+    draw_held_out(training.quantities, held_out, target.with_suffix(".png"))
+    print("\n".join(_report(surrogate, training, held_out)))
+    print(f"\n{target}, {target.with_suffix('.png').name}")
+    return surrogate
+
+
+def _origin(sources: Sequence[Path]) -> dict[str, str]:
+    files = (file for source in sources for file in source.glob(f"*/{FINISHED}"))
+    commits = {record.commit for record in map(read_record, files) if record}
+    return {
+        "source": ", ".join(source.name for source in sources),
+        "commit": " ".join(sorted(commits)),
+        "fitted": datetime.now(timezone.utc).strftime("%Y-%m-%d"),
+    }
+
+
+def _report(surrogate: Surrogate, training: Training, held_out: Mapping[str, HeldOut]) -> list[str]:
+    rows = [["quantity", "rms error", "of spread", "inside 95 % band"]]
+    for name, held in held_out.items():
+        percents = [f"{100 * share:.1f} %" for share in (held.rms_error / held.spread, held.coverage)]
+        rows.append([name + in_unit(QUANTITIES[name]), f"{held.rms_error:.2g}", *percents])
+    ranges = [[one.name, f"{one.low:g} to {one.high:g} {one.unit}".strip()] for one in surrogate.inputs]
+    lines = [f"{len(training.inputs)} runs, held out in ten parts"]
+    if training.left_out:
+        lines.append(f"{training.left_out} runs have no steady values and are left out")
+    return [*lines, "", *in_columns(rows), "", *in_columns([["input", "range"], *ranges])]
+
+
+def _prediction(surrogate: Surrogate, at: Mapping[str, float]) -> list[str]:
+    """With 95 % bands, also of pull and torque of this load."""
+    surrogate.require(at)
+    x = surrogate.scaled(at).reshape(1, -1)
+    rows = [["quantity", "value ± 95 % band"]]
+    load = at.get("load", surrogate.constants.get("load"))
+    forces = {PULL: ("drawbar_pull [N]", 1.0), TORQUE: ("drive_torque [N m]", surrogate.constants[RADIUS])}
+    for name, process in surrogate.processes.items():
+        mean, deviation = (float(part[0]) for part in process.predict(x))
+        rows.append([f"{name}{in_unit(QUANTITIES[name])}", with_error(mean, Z_95 * deviation)])
+        if name in forces and load:
+            label, lever = forces[name]
+            rows.append([label, with_error(lever * load * mean, lever * load * Z_95 * deviation)])
+    return in_columns(rows)
+
+
+def _raster(text: str) -> tuple[str, Path]:
+    name, equals, file = text.partition("=")
+    if not name or not equals:
+        raise WrongText(f"'{text}' is not NAME=FILE, e.g. phi=phi.tif")
+    return name, path(file)
+
+
+@command(
+    argument("surrogate", "file of furrow-post surrogate", path),
+    argument("elevation", "elevation model, any raster that GDAL reads; in metres, or with its unit in the file", path),
+    target_option("folder to write: map.tif, map.png, mobility.csv", required=True),
+    repeated("--raster", parse=_raster, metavar="NAME=FILE", help="raster of a soil parameter; may be repeated"),
+    option("--classes", nargs=2, parse=path, metavar="RASTER TABLE", help="raster of soil classes, and a CSV with their parameters"),
+    assignments("--set", "soil parameters of all cells"),
+    option("--load", parse=positive, help="N, weight on the wheel (default: that of the training runs)"),
+    option("--speed", parse=positive, help="m/s, wanted (default: that of the training runs)"),
+    option("--power", parse=positive, default=math.inf, help="W per wheel, limits speed and pull"),
+    option("--confidence", parse=between(0.5, 1.0), default=0.95, help="probability that a go needs (default 0.95)"),
+)
+def map_(given: Given) -> None:
+    begin = time.perf_counter()
+    surrogate = read_surrogate(given.surrogate)
+    vehicle = _vehicle(surrogate, given)
+    slope = read_slope(given.elevation)
+    rasters: dict[str, Floats] = {}
+    for name, file in given.raster:
+        raster = read_raster(file)
+        slope.require_same(raster, str(file))
+        rasters[name] = raster.values
+    constants = dict(given.set)
+    needed = [name for name in surrogate.names if name not in CHOSEN]
+    of_classes = [name for name in needed if name not in rasters and name not in constants]
+    for name in (*rasters, *constants):
+        if name not in needed:
+            raise ResultsError(f"the surrogate has no soil parameter '{name}'; it has {', '.join(needed) or 'none'}")
+    fixed: list[tuple[Booleans | None, Mapping[str, float]]] = [(None, constants)]
+    soils: dict[str, Mapping[str, float]] = {"all": constants}
+    if given.classes:
+        classes = read_raster(given.classes[0])
+        slope.require_same(classes, str(given.classes[0]))
+        found = read_classes(given.classes[1], of_classes)
+        soils = {str(key): {**constants, **parameters} for key, parameters in found.items()}
+        fixed = [(classes.values == int(key), parameters) for key, parameters in soils.items()]
+    elif of_classes:
+        raise ResultsError(
+            f"no soil parameter {', '.join(of_classes)}; give it by --set NAME=NUMBER, --raster or --classes"
+        )
+    for parameters in soils.values():
+        for name, value in parameters.items():
+            surrogate.require_range(name, value)
+    result = make_map(surrogate, vehicle, slope, rasters, fixed, given.confidence)
+    files = write_map(result, slope, given.output)
+    if not rasters:
+        write_mobility_table(given.output / "mobility.csv", surrogate, vehicle, soils)
+        files.append("mobility.csv")
+    for name, value in (("go", GO), ("uncertain", UNCERTAIN), ("no-go", NO_GO)):
+        print(f"{name:10} {100 * np.mean(result.verdict == value):6.1f} % of the cells")
+    print("\n".join(result.notes))
+    print(f"\n{given.output}: {', '.join(files)}; {slope.values.size} cells in {time.perf_counter() - begin:.1f} s")
+
+
+def _vehicle(surrogate: Surrogate, given: Given) -> Vehicle:
+    """@raises ResultsError where the surrogate does not fit"""
+    if "slip" not in surrogate.names:
+        raise ResultsError("a map needs a surrogate over slip; sweep slip too")
+    constants = surrogate.constants
+    load, speed = given.load or constants.get("load"), given.speed or constants.get("speed")
+    if load is None or speed is None:
+        raise ResultsError("the surrogate has no single load and speed; give --load and --speed")
+    if "load" not in surrogate.names and load != constants.get("load"):
+        known = f"a load of {constants['load']:g} N only" if "load" in constants else "loads that follow another input"
+        raise ResultsError(f"--load {load:g}: the surrogate knows {known}; sweep load too")
+    return Vehicle(load, speed, given.power)
+
+
+@command(
+    argument("surrogate", "file of furrow-post surrogate", path),
+    argument("tests", "CSV: inputs, quantities and their errors of wheel tests on one soil", path),
+    assignments("--set", "inputs that are known in all tests"),
+    target_option("folder to write: posterior.csv, posterior.png", required=True),
+)
+def fit_soil(given: Given) -> None:
+    surrogate = read_surrogate(given.surrogate)
+    posterior = identify(surrogate, read_tests(given.tests, surrogate, dict(given.set)))
+    rows = [["parameter", "median", "95 % interval", "width over prior"]]
+    for name, samples, ratio in zip(posterior.names, posterior.samples.T, posterior.ratio):
+        unit = surrogate.inputs[surrogate.names.index(name)].unit
+        low, median, high = np.percentile(samples, QUANTILES)
+        rows.append([f"{name}{in_unit(unit)}", f"{median:.4g}", f"{low:.4g} to {high:.4g}", f"{ratio:.2f}"])
+    folder: Path = given.output
+    folder.mkdir(parents=True, exist_ok=True)
+    thinned = posterior.samples[:: max(1, len(posterior.samples) // 2000)]
+    write_rows(
+        folder / "posterior.csv",
+        [dict(zip(posterior.names, map("{:.6g}".format, sample))) for sample in thinned],
+        ("# Samples of the posterior of furrow-post fit soil, in the units of the surrogate.",),
+    )
+    draw_posterior(posterior, surrogate, folder / "posterior.png")
+    print("\n".join([*in_columns(rows), "", *posterior.remarks(), f"R-hat {posterior.rhat:.3f}"]))
+    print(f"\n{folder}: posterior.csv, posterior.png")
