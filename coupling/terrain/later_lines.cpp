@@ -32,7 +32,7 @@ void check_fix(const LAMMPS_NS::LAMMPS& lammps, const std::vector<std::string>& 
                      "a style of LIGGGHTS or "
                      "of Furrow",
                      "check its spelling");
-  // LIGGGHTS reads the words of its own walls and averages, which Furrow extends.
+  // LIGGGHTS parses the arguments of walls and averages, which Furrow extends.
   static const std::set<std::string> of_liggghts = {"wall", "internal"};
   if (style && !of_liggghts.count(style->kind))
     style->schema().check({words.begin() + 4, words.end()});
