@@ -10,14 +10,13 @@ import re
 import shutil
 import subprocess
 import sys
-import time
-from pathlib import Path
 
 from faults import CONTINUED, GRAINS, WHEEL, Table, run_script
+from furrow_run import INPUTS, going, wait_until
 
 WRITE = GRAINS + "run 10\nwrite_restart ck.10\n"
 # Snow that settles under its weight: 1024 particles, whose place at the end is printed.
-MATERIAL = Path(__file__).resolve().parents[3] / "inputs/materials/fresh_snow.yaml"
+MATERIAL = INPUTS / "materials/fresh_snow.yaml"
 SNOW_BOX = """units si
 atom_style granular
 atom_modify sort 0 0
@@ -221,21 +220,14 @@ def one_run_for_a_name(furrow, table):
     """A second run that would replace the checkpoints of one that goes on."""
     script = GRAINS + WHEEL + "restart 50 {0}.1 {0}.2\nrun {1}\n"
     (table.folder / "first.lig").write_text(script.format("same", 100000000))
-    first = subprocess.Popen([furrow, "-in", "first.lig", "-log", "none"], cwd=table.folder, stdin=subprocess.DEVNULL,
-                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        began = time.monotonic()
-        while not (table.folder / "same.2").exists() and first.poll() is None and time.monotonic() < began + 60:
-            time.sleep(0.02)
+    with going([furrow, "-in", "first.lig", "-log", "none"], table.folder) as first:
+        wait_until((table.folder / "same.2").exists, first)
         second = run_script(furrow, table.folder, script.format("same", 200))
         table.check("a name of another run", second, 1, "restart names 'same.",
                     "', to which another run writes its checkpoints", "name other files, or wait until that run has ended")
         table.check("another name beside it", run_script(furrow, table.folder, script.format("other", 200)), 0)
         check = continued(furrow, table, "same.1", mode="unchecked")
         table.check("checkpoint of a run that goes on is read", check, 0)
-    finally:
-        first.kill()
-        first.wait()
     table.check("the name of a run that was killed", run_script(furrow, table.folder, script.format("same", 200)), 0)
 
 
