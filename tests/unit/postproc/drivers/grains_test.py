@@ -67,10 +67,8 @@ class TrackTest(unittest.TestCase):
         self.assertRegex(ahead, "ahead +[+-]0 mm risen")
 
     def test_refuses_what_has_no_density_of_clusters(self) -> None:
-        with self.assertRaisesRegex(ResultsError, "its ground is no grains"):
-            self.report("continuum")
-        with self.assertRaisesRegex(ResultsError, "did not measure its density"):
-            self.report(bulk=math.nan)
+        self.assertRaisesRegex(ResultsError, "its ground is no grains", self.report, "continuum")
+        self.assertRaisesRegex(ResultsError, "did not measure its density", self.report, bulk=math.nan)
 
 
 if __name__ == "__main__":
