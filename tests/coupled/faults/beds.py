@@ -20,17 +20,9 @@ SNOW = {"length": "0.3", "closed": "0", "width": "0.3", "depth": "0.1", "clearan
 AFTER = ("fix m4 all property/global coefficientFriction peratomtypepair 2 0.6 0.5 0.5 0.5\nrun 0\n"
          'print "LEVEL ${bed_level}"\n')
 
-# values that a parameter may not have, and the error
+# values that a parameter may not have, and the error; wording.py has those of another type and out of range
 SAND_VALUES = [
-    *((name, value, f"keyword '{name}' is {value}; allowed: a number > 0")
-      for name in ("length", "width", "depth", "diameter", "density", "young", "step") for value in ("-1", "0", "nan", "inf")),
-    *((name, "-1", f"keyword '{name}' is -1; allowed: a number >= 0")
-      for name in ("clearance_above", "friction", "rolling", "pour_friction")),
-    ("friction", "much", "'much', which is not a number"),
-    ("poisson", "0.6", "in [0, 0.5]"),
-    ("restitution", "1.1", "in [0.05, 1]"),
-    ("seed", "12", "an integer >= 10001"),
-    ("seed", "86028121.5", "an integer >= 10001"),
+    ("density", "inf", "keyword 'density' is inf; allowed: a number > 0"),
     ("seed", "20000", "prime number"),  # LIGGGHTS's own word
     ("diameter", "1", "keyword 'length' is 0.16 m; allowed: at least 2 grains of diameter 1 m"),
     ("depth", "0.004", "'depth' is 0.004 m; allowed: at least 2 grains"),
@@ -40,8 +32,6 @@ SAND_VALUES = [
     ("step", "1", "of the Rayleigh time of the smallest grain"),
     ("from", "nofile", "checkpoint 'nofile' cannot be read"),
 ]
-SNOW_VALUES = [("step", "1e-3", "of half a period of a contact"), ("unloading", "0.5", "a number >= 1"),
-               ("bulk", "0", "a number > 0"), ("young", "1e7", "has no keyword 'young'")]
 
 
 def line(script, parameters):
@@ -55,16 +45,11 @@ def refused(furrow, table, beds):
     sand, snow = beds + "/sand.lig", beds + "/snow.lig"
     for name, value, text in SAND_VALUES:
         table.check(f"{name} {value}", bed(line(sand, {**SAND, name: value})), 1, text, ", line 1: ")
-    for name, value, text in SNOW_VALUES:
-        table.check(f"snow, {name} {value}", bed(line(snow, {**SNOW, name: value})), 1, text)
+    table.check("snow, step 1e-3", bed(line(snow, {**SNOW, "step": "1e-3"})), 1, "of half a period of a contact")
     for name in ("friction", "seed", "clearance_above"):
         rest = {key: value for key, value in SAND.items() if key != name}
         table.check(f"without {name}", bed(line(sand, rest)), 1, f"keyword '{name}' is missing", "it is: ")
     whole = line(sand, SAND)
-    table.check("unknown", bed(whole + " colour red"), 1, "has no keyword 'colour'")
-    table.check("misspelled", bed(whole + " frction 0.3"), 1, "did you mean 'friction'?")
-    table.check("twice", bed(whole + " young 6e6"), 1, "keyword 'young' is given twice")
-    table.check("without value", bed(whole + " young"), 1, "every parameter of the bed needs a value")
     table.check("folder", bed("bed . depth 0.1"), 1, "cannot read")
     clay = os.path.join(beds, "..", "materials", "contact", "clay_soft.yaml")
     table.check("adhesion to grains", bed(f"{whole} contact {clay}"), 0, "WARNING: command bed, keyword 'contact': the shear_limit that",
@@ -178,8 +163,6 @@ def gravity(furrow, table, beds):
     table.check("Moon, with a rig", start(" gravity 1.62", towed), 0)
     table.check("weight of the Moon on a bed of the Earth", start("", WHEEL + moon), 1, both.format("fix gravity 'weight'"))
     table.check("rig of the Moon on a bed of the Earth", start("", towed), 1, both.format("fix wheel/rig, keyword 'gravity'"))
-    for value in ("0", "-9.8", "nan", "9806"):
-        table.check(f"gravity {value}", start(f" gravity {value}"), 1, f"keyword 'gravity' is {value}; allowed: a number in (0, 2000]")
 
 
 def foreign(furrow, table, beds):

@@ -101,8 +101,7 @@ def particles(furrow, table, launcher=()):
 
 
 def continued(furrow, table, file, launcher=(), mode=""):
-    return run_script(furrow, table.folder, CONTINUED.format(file=f"{file} {mode}") + "run 5\n",
-                      launcher=launcher)
+    return run_script(furrow, table.folder, CONTINUED.format(file=f"{file} {mode}") + "run 5\n", launcher=launcher)
 
 
 def damaged(furrow, table):
@@ -141,20 +140,17 @@ def belongs_together(furrow, table):
             ("another wheel", WHEEL.replace("0.04", "0.05") + "run 5\n", 1, ["keyword 'diameter' is '0.05', and was '0.04'"])):
         script = CONTINUED.format(file="ck") + lines
         table.check(f"with a wheel: {name}", run_script(furrow, folder, script), status, *texts)
-    table.check("with a mesh",
-                run_script(furrow, folder, GRAINS + WHEEL + mesh + "run 10\nwrite_restart ck.mesh\n"), 0)
+    table.check("with a mesh", run_script(furrow, folder, GRAINS + WHEEL + mesh + "run 10\nwrite_restart ck.mesh\n"), 0)
     whole = CONTINUED.format(file="ck.mesh") + WHEEL + mesh + "run 5\n"
     changed = "and was 0.5 when the checkpoint was written"
     for name, script, status, texts, absent in (
             ("continued", whole, 0, [], ["other grains"]),
-            ("the mesh renamed", whole.replace("skin", "tyre"), 1,
-             ["has the state of fix mesh/body 'skin'"], []),
+            ("the mesh renamed", whole.replace("skin", "tyre"), 1, ["has the state of fix mesh/body 'skin'"], []),
             ("another friction", whole.replace(friction, friction[:-3] + "0.9"), 0,
              [f"WARNING: fix property/global 'm4' is 0.9, {changed}"], ["'m3'"]),
             ("another restitution", whole.replace(restitution, restitution[:-3] + "0.4"), 0,
              ["WARNING: fix property/global 'm3' is 0.4, and was 0.3"], ["'m4'"])):
-        table.check(f"with a mesh: {name}", run_script(furrow, folder, script), status, *texts,
-                    absent=absent)
+        table.check(f"with a mesh: {name}", run_script(furrow, folder, script), status, *texts, absent=absent)
     rig = "fix rig all wheel/rig wheel wheel load_force 5 speed 0.1 mode towed ground_level 0.12 settle_time 1 accelerate_time 1\n"
     table.check("with a rig", run_script(furrow, folder, GRAINS + WHEEL + rig + "run 10\nwrite_restart ck.rig\n"), 0)
     whole = CONTINUED.format(file="ck.rig") + WHEEL + rig + "run 5\n"

@@ -31,8 +31,7 @@ def main(furrow, script, inputs, *mpirun):
         scene = Path(inputs) / "scenes" / "wheel_on_snow.lig"
         words = ["bash", Path(inputs) / "run", "--no-build", scene, "-o", results]
         build = str(Path(furrow).parents[1])
-        table.check("inputs/run", run(words, table.folder, FURROW_BUILD=build), 2,
-                    "which another run is writing to")
+        table.check("inputs/run", run(words, table.folder, FURROW_BUILD=build), 2, "which another run is writing to")
         table.expect("nothing of theirs is in the folder",
                      {file.name for file in results.iterdir()} <= {
                          "history.h5", "terrain.h5", "history.part.h5", "terrain.part.h5"},
