@@ -19,9 +19,7 @@ from same_results import compare_arrays, largest, numbers
 TOLERANCE = 1e-10
 STEPS = 330
 # each rank bounds the step of its block; one rank sends nothing
-OF_RANKS = tuple(
-    f"terrain.h5/history/{name}" for name in ("stable_step", "halo_messages", "halo_bytes")
-)
+OF_RANKS = tuple(f"terrain.h5/history/{name}" for name in ("stable_step", "halo_messages", "halo_bytes"))
 CHANGES = {
     "../": f"{INPUTS}/",
     "+0.372+0.002": "+0.3725",
@@ -55,5 +53,4 @@ with tempfile.TemporaryDirectory() as name:
     lift = found["history.h5/history/force_z"]
     if not largest(lift) > 2000.0 or not largest(found["history.h5/history/force_x"]) > 30.0:
         sys.exit(f"the tyre does not roll in the snow: {largest(lift):.0f} N")
-    print(compare_arrays(one, two, TOLERANCE, ("history", "surface", "rut"), OF_RANKS),
-          "arrays are the same")
+    print(compare_arrays(one, two, TOLERANCE, ("history", "surface", "rut"), OF_RANKS), "arrays are the same")

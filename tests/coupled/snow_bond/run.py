@@ -90,8 +90,7 @@ def same(furrow, mpirun, folder):
     plane, mesh = (run(furrow, mpirun, folder / load, 1, load) for load in ("plane", "mesh"))
     check_that_it_happens(*plane)
     compare("mesh and plane", plane, mesh, ROUNDING)
-    compare("LIGGGHTS's loop", *(run(furrow, mpirun, folder / load, 1, load)
-                                 for load in ("frozen", "counted")), 0.0)
+    compare("LIGGGHTS's loop", *(run(furrow, mpirun, folder / load, 1, load) for load in ("frozen", "counted")), 0.0)
     os.environ["FURROW_ISA"] = "baseline"
     compare("without AVX2", plane, run(furrow, mpirun, folder / "baseline", 1, "plane"), 0.0)
 
