@@ -39,9 +39,7 @@ class TrackTest(unittest.TestCase):
         before = SimpleNamespace(x=x, radius=np.full(len(x), SIZE / 2))
         x = rolled_over(x) - [0, 0, DEPTH]
         clusters = np.ones(len(x))
-        points = GroundPoints(
-            x, BULK * SIZE**3 * clusters, np.pi / 6 * SIZE**3 * clusters, SIZE * clusters, True
-        )
+        points = GroundPoints(x, BULK * SIZE**3 * clusters, np.pi / 6 * SIZE**3 * clusters, SIZE * clusters, True)
         numbers = {"density": bulk, "depth": DEPTH, "wheel_width": 2 * SIDE}
         run = SimpleNamespace(
             ground=ground,

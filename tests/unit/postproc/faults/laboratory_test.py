@@ -96,8 +96,8 @@ GOOD: dict[str, Any] = {
 QUANTITIES: dict[str, Any] = {"reference": None, "lowest": None, "highest": None}
 SEVERAL: dict[str, Any] = {"test": None, **QUANTITIES}
 PULL = {"strength": [1e3, 100]}
-INNER = {"series": [1e4], "quantities": PULL}  # what has forms within forms
-EXAMPLE = {**GOOD, **INNER, "tests": [{"test": "tension", **INNER}]}
+INNER: dict[str, Any] = {"series": [1e4], "quantities": PULL}  # what has forms within forms
+EXAMPLE: dict[str, Any] = {**GOOD, **INNER, "tests": [{"test": "tension", **INNER}]}
 
 # Faults that span several keys, or the scripts of a test: (changed keys, None: left out; error)
 CALIBRATIONS: tuple[tuple[dict[str, Any], str], ...] = (
@@ -136,7 +136,7 @@ CALIBRATIONS: tuple[tuple[dict[str, Any], str], ...] = (
 Place = tuple[str | int, ...]  # keys and indices of a value within values
 
 
-CANDIDATES = (None, "nonsense", [1], {}, [], 0, -1, 1.5, [7, 7])  # of values that a form may refuse
+CANDIDATES: tuple[Any, ...] = (None, "nonsense", [1], {}, [], 0, -1, 1.5, [7, 7])  # of values that a form may refuse
 
 
 def faults_of(form: Mapping[str, Any], place: Place = (), needed: str = "") -> Iterator[tuple[Place, str, str]]:
@@ -146,7 +146,8 @@ def faults_of(form: Mapping[str, Any], place: Place = (), needed: str = "") -> I
         errors = jsonschema.Draft202012Validator(form).iter_errors(value)
         if any(not error.path and error.validator not in ("required", "oneOf") for error in errors):
             yield place, json.dumps(value), needed
-    inner = {0: form.get("items"), "strength": form.get("additionalProperties"), **form.get("properties", {})}
+    inner: dict[str | int, Any] = {0: form.get("items"), "strength": form.get("additionalProperties")}
+    inner |= form.get("properties", {})
     for key, one in inner.items():
         if one:
             yield from faults_of(one, (*place, key), needed)
@@ -286,8 +287,7 @@ class LaboratoryFaultsTest(FaultsTest):
 
     def test_laws_from_tests(self) -> None:
         triaxial, oedometer = (
-            str(write_test(Path(kind), f"test {kind} {FACTS}", CURVES[kind]))
-            for kind in ("triaxial", "oedometer")
+            str(write_test(Path(kind), f"test {kind} {FACTS}", CURVES[kind])) for kind in ("triaxial", "oedometer")
         )
         for tests, confined, message in (
             ("none", oedometer, "none: has no facts.txt"),
