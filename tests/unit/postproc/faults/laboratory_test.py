@@ -101,7 +101,7 @@ EXAMPLE: dict[str, Any] = {**GOOD, **INNER, "tests": [{"test": "tension", **INNE
 
 # Faults that span several keys, or the scripts of a test: (changed keys, None: left out; error)
 CALIBRATIONS: tuple[tuple[dict[str, Any], str], ...] = (
-    ({"test": None}, "'test' is missing"),
+    *(({key: None}, f"'{key}' is missing") for key in ("test", "ground", "parameters", "seeds")),
     ({"ground": "snoww"}, "there is no ground 'snoww'"),
     ({"grund": "snow"}, "there is no key 'grund'; did you mean 'ground'?"),
     ({"variables": {"grians": 1}}, "no line reads 'grians'"),
@@ -236,8 +236,7 @@ class LaboratoryFaultsTest(FaultsTest):
 
     def test_calibrations(self) -> None:
         self.calibrate(json.dumps(GOOD), "there is no program")  # nothing else is wrong
-        missing = [({key: None}, f"'{key}' is missing; give an object") for key in SCHEMA["required"]]
-        for changes, message in (*CALIBRATIONS, *missing):
+        for changes, message in CALIBRATIONS:
             kept = {key: value for key, value in {**GOOD, **changes}.items() if value is not None}
             self.calibrate(json.dumps(kept), message)
         for text, message in NO_CALIBRATIONS:
