@@ -7,9 +7,12 @@
 import os
 import re
 import shutil
+import signal
 import sys
+import time
 
-from faults import WHEEL, Table, run_script
+from faults import WHEEL, Said, Table, run_script
+from furrow_run import going, wait_until
 
 SAND = {"length": "0.16", "width": "0.08", "depth": "0.03", "clearance_above": "0.05", "diameter": "0.014", "density": "2600",
         "young": "5e6", "poisson": "0.25", "restitution": "0.3", "friction": "0.6", "rolling": "0.15", "pour_friction": "0.3",
@@ -203,8 +206,25 @@ def foreign(furrow, table, beds):
     table.expect("nothing is written through it", not list(elsewhere.iterdir()), list(elsewhere.iterdir()))
 
 
+def interrupted(furrow, table, beds):
+    """LIGGGHTS takes a signal as a request for a checkpoint and continues with the script, so that without precautions
+    the grains would be kept as they fell."""
+    large = {**SAND, "length": "0.4", "width": "0.2", "depth": "0.1", "diameter": "0.008", "step": "5e-5"}
+    (table.folder / "script.lig").write_text(f"processors 1 * 1\n{line(beds + '/sand.lig', large)}\nrun 0\n")
+    cache = table.folder / "interrupted"
+    with going([furrow, "-in", "script.lig", "-log", "none"], table.folder, FURROW_CACHE=str(cache)) as run:
+        wait_until(cache.exists, run)
+        time.sleep(1.0)  # into the pouring, which takes several seconds
+        table.expect("the bed is not made before the signal", run.poll() is None, run.poll())
+        run.send_signal(signal.SIGTERM)
+        said = Said(run.wait(120), (table.folder / "said").read_text())
+    table.check("a signal while a bed is made", said, 143, "command bed was interrupted while it made the bed, which is not kept")
+    table.expect("nothing is kept of it", not list(cache.iterdir()), list(cache.iterdir()))
+
+
 def main(furrow, beds, *mpirun):
     table = Table()
+    interrupted(furrow, table, beds)
     gravity(furrow, table, beds)
     foreign(furrow, table, beds)
     refused(furrow, table, beds)
