@@ -17,6 +17,8 @@ import sys
 import tempfile
 import time
 
+import numpy as np
+
 N = 24                # elements along an edge
 EDGE = 0.48           # m
 YOUNG, NU, RHO = 13.79e6, 0.3, 200.0
@@ -25,25 +27,15 @@ INCREMENT = 2.517198e-5  # s, the step that CalculiX finds stable and takes, ask
 
 
 def deck(increments):
+    number = 1 + np.arange((N + 1) ** 3).reshape(N + 1, N + 1, N + 1)  # of the node at z, y, x
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]  # x, y, z
+    nodes = [number[c : N + c, b : N + b, a : N + a].ravel() for a, b, c in corners]
     lines = ["*NODE, NSET=ALL"]
-    h = EDGE / N
-    number = lambda i, j, k: 1 + i + (N + 1) * (j + (N + 1) * k)
-    for k in range(N + 1):
-        for j in range(N + 1):
-            for i in range(N + 1):
-                lines.append(f"{number(i, j, k)}, {i * h:.6g}, {j * h:.6g}, {k * h:.6g}")
+    lines += [f"{number[k, j, i]}, {i * EDGE / N:.6g}, {j * EDGE / N:.6g}, {k * EDGE / N:.6g}" for k, j, i in np.ndindex(number.shape)]
     lines.append("*ELEMENT, TYPE=C3D8R, ELSET=BLOCK")
-    element = 0
-    for k in range(N):
-        for j in range(N):
-            for i in range(N):
-                element += 1
-                corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
-                lines.append(", ".join(map(str, [element] + [number(i + a, j + b, k + c) for a, b, c in corners])))
-    lines.append("*NSET, NSET=BASE")
-    lines += [f"{number(i, j, 0)}," for j in range(N + 1) for i in range(N + 1)]
-    lines.append("*NSET, NSET=LID")
-    lines += [f"{number(i, j, N)}," for j in range(N + 1) for i in range(N + 1)]
+    lines += [", ".join(map(str, row)) for row in np.column_stack([1 + np.arange(N**3), *nodes])]
+    for name, layer in ("BASE", number[0]), ("LID", number[-1]):
+        lines += [f"*NSET, NSET={name}", *(f"{node}," for node in layer.ravel())]
     end = increments * INCREMENT
     lines += ["*MATERIAL, NAME=SNOW", "*ELASTIC", f"{YOUNG}, {NU}", "*PLASTIC", f"{YIELD}, 0.", f"{2 * YIELD}, 1.", "*DENSITY", f"{RHO}",
               "*SOLID SECTION, ELSET=BLOCK, MATERIAL=SNOW", "*BOUNDARY", "BASE, 1, 3", "*AMPLITUDE, NAME=RAMP", f"0., 0., {end}, 1.",

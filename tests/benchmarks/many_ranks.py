@@ -114,9 +114,7 @@ class Track:
     def layout(self, ranks: int) -> tuple[Axis, Axis]:
         """As choose_layout() of src/mpm/block_layout.cpp."""
         layouts = [
-            (Axis(self.x_cells, x), Axis(self.y_cells, ranks // x))
-            for x in range(ranks, 0, -1)
-            if ranks % x == 0
+            (Axis(self.x_cells, x), Axis(self.y_cells, ranks // x)) for x in range(ranks, 0, -1) if ranks % x == 0
         ]
         return min(layouts, key=lambda axes: axes[0].local * axes[1].local)
 
@@ -170,9 +168,7 @@ def main() -> None:
                 f"{1e-6 * sent:.3g} | {times} | {track.efficiency(ranks, axes):.2f} |"
             )
     for name, blocks in (("slabs", False), ("blocks", True)):
-        cells = ", ".join(
-            f"{ranks} ranks up to {1e3 * coarsest(ranks, blocks):.0f} mm" for ranks in (64, 1024)
-        )
+        cells = ", ".join(f"{ranks} ranks up to {1e3 * coarsest(ranks, blocks):.0f} mm" for ranks in (64, 1024))
         print(f"{name}: half used with up to {half_at(track, blocks)} ranks; cells of which {cells}")
 
 

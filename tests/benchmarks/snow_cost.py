@@ -133,9 +133,7 @@ def main() -> None:
             counted = cost(furrow, folder, "snow_bonded", state, ENERGY)
             print(state.name)
             for label, found in (
-                ("snow", plain),
-                ("snow_bonded", bonded),
-                ("snow_bonded, with fix snow/energy", counted),
+                ("snow", plain), ("snow_bonded", bonded), ("snow_bonded, with fix snow/energy", counted),
             ):
                 print(f"  {label:33} {row(found, plain)}")
 

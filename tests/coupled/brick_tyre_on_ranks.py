@@ -8,23 +8,18 @@ reached are 2e-13 for forces.
 The shipped scene, set down and accelerated faster: in 330 steps the tyre sinks in and rolls off.
 """
 
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "support"))
-
+from furrow_run import INPUTS, script_output
 from same_results import compare_arrays, largest, numbers
 
-INPUTS = Path(__file__).resolve().parents[2] / "inputs"
 TOLERANCE = 1e-10
 STEPS = 330
 # each rank bounds the step of its block; one rank sends nothing
-OF_RANKS = tuple(
-    f"terrain.h5/history/{name}" for name in ("stable_step", "halo_messages", "halo_bytes")
-)
+OF_RANKS = tuple(f"terrain.h5/history/{name}" for name in ("stable_step", "halo_messages", "halo_bytes"))
 CHANGES = {
     "../": f"{INPUTS}/",
     "+0.372+0.002": "+0.3725",
@@ -47,13 +42,7 @@ def script() -> str:
 def run(folder: Path, launch: list[str], furrow: str) -> Path:
     (folder / "results").mkdir(parents=True)
     (folder / "scene.lig").write_text(script())
-    words = [*launch, furrow, "-in", "scene.lig", "-log", "none", "-var", "results", "results",
-             "-var", "cell", "0.1", "-var", "sections", "24"]
-    done = subprocess.run(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, timeout=500,
-                          env={**os.environ, "FURROW_CACHE": str(folder / "cache")})
-    if done.returncode != 0:
-        sys.exit(f"{folder.name} stopped:\n{done.stdout[-3000:]}")
+    script_output(furrow, "scene.lig", folder, launch, results="results", cell=0.1, sections=24)
     return folder / "results"
 
 
@@ -64,5 +53,4 @@ with tempfile.TemporaryDirectory() as name:
     lift = found["history.h5/history/force_z"]
     if not largest(lift) > 2000.0 or not largest(found["history.h5/history/force_x"]) > 30.0:
         sys.exit(f"the tyre does not roll in the snow: {largest(lift):.0f} N")
-    print(compare_arrays(one, two, TOLERANCE, ("history", "surface", "rut"), OF_RANKS),
-          "arrays are the same")
+    print(compare_arrays(one, two, TOLERANCE, ("history", "surface", "rut"), OF_RANKS), "arrays are the same")

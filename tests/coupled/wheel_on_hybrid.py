@@ -12,46 +12,35 @@ grains and continuum go with the wheel, over more than the length of both: then 
 gains no more than the wheel pushes aside, and the wheel does not sink away or come up.
 """
 
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import h5py
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parent / "support"))
+from furrow_run import INPUTS, columns, script_output
+
 GRAVITY, GRAIN_DENSITY = 9.80665, 2650.0
-FOLDER = Path(__file__).resolve().parents[2] / "inputs" / "crosscheck"
+FOLDER = INPUTS / "crosscheck"
 
 
 def run(results: Path, script: str, **variables: object) -> float:
     """@return sinkage at rest [m]"""
     given = {"diameter": 0.05, "distance": 0.05, "settle": 0.6, "here": FOLDER, "results": results, **variables}
-    words = [str(word) for pair in given.items() for word in ("-var", *pair)]
-    done = subprocess.run([sys.argv[1], "-in", FOLDER / f"{script}.lig", "-log", "none", *words],
-                          capture_output=True, text=True, timeout=500)
-    if done.returncode != 0:
-        sys.exit(f"{script} stopped:\n{(done.stdout + done.stderr)[-3000:]}")
-    with h5py.File(results / "history.h5") as content:
-        history = content["history"]
-        time, sinkage = history["time"][:], history["hub_drop"][:]
-    return float(sinkage[(time > 0.5) & (time < 0.6)].mean())
+    script_output(sys.argv[1], FOLDER / f"{script}.lig", results, cache=results.parent / "cache", **given)
+    history = columns(results / "history.h5")
+    return float(history["hub_drop"][(history["time"] > 0.5) & (history["time"] < 0.6)].mean())
 
 
 def check_momentum(results: Path) -> None:
-    with h5py.File(results / "history.h5") as content:
-        history = content["history"]
-        time, force = history["time"][:], history["force_z"][:]
-        radius = content["grains/reference/radius"][:]
-    with h5py.File(results / "terrain.h5") as content:
-        base = content["history/base_impulse"][:]
-        base_time = content["history/time"][:]
-        ground = float(np.sum(content["terrain/density"][:] * content["terrain/volume"][:]))
-    grains = float(np.sum(4 / 3 * np.pi * radius**3) * GRAIN_DENSITY)
-    end = base_time[-1]
-    force, time = force[time <= end], time[time <= end]
-    wheel = float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(time)))
-    expected = (grains + ground) * GRAVITY * end + wheel
+    history, ground = columns(results / "history.h5"), columns(results / "terrain.h5")
+    particles, radius = columns(results / "terrain.h5", "terrain"), columns(results / "history.h5", "grains/reference")["radius"]
+    mass = np.sum(particles["density"] * particles["volume"]) + np.sum(4 / 3 * np.pi * radius**3) * GRAIN_DENSITY
+    base, end = ground["base_impulse"], ground["time"][-1]
+    within = history["time"] <= end
+    wheel = float(np.trapz(history["force_z"][within], history["time"][within]))
+    expected = mass * GRAVITY * end + wheel
     print(f"base {base[-1]:.2f} N s, weights and wheel {expected:.2f} N s")
     by_walls = 1.0 - base[-1] / expected
     if not -0.003 <= by_walls <= 0.03:
@@ -60,14 +49,11 @@ def check_momentum(results: Path) -> None:
 
 def check_steady(results: Path) -> None:
     """Means over the first and the second half of the way in cruise."""
-    with h5py.File(results / "history.h5") as content:
-        history = content["history"]
-        x, sinkage = history["x"][:] - history["x"][0], history["hub_drop"][:]
+    history, ground = columns(results / "history.h5"), columns(results / "terrain.h5")
+    x, sinkage = history["x"] - history["x"][0], history["hub_drop"]
     half = 0.5 * x[-1]
     first, second = sinkage[(x > 0.2) & (x < half)].mean(), sinkage[x >= half].mean()
-    with h5py.File(results / "terrain.h5") as content:
-        history = content["history"]
-        particles, travelled = history["particles"][:], history["travelled"][-1]
+    particles, travelled = ground["particles"], ground["travelled"][-1]
     print(f"sinkage {1e3 * first:.2f} and {1e3 * second:.2f} mm, ground went on {travelled:.3f} m, "
           f"{particles.min():.0f} to {particles.max():.0f} particles")
     if not 1.2 <= travelled <= x[-1] + 0.1:

@@ -20,8 +20,7 @@ from copied import run_command
 
 PAGES_OF = ("src", "coupling", "inputs", "tests", "postproc")
 PROGRAM = re.compile(
-    r"([A-Z_]+=\S+ )*"
-    r"(bash |cd |mpirun |furrow(-\w+)? |build/|postproc/|inputs/|tests/|paraview |pvpython )"
+    r"([A-Z_]+=\S+ )*(bash |cd |mpirun |furrow(-\w+)? |build/|postproc/|inputs/|tests/|paraview |pvpython )"
 )
 PLACEHOLDER = re.compile(r"\[|\.\.\.|<|FILE|FOLDER|LABEL")  # of a line that shows the syntax
 OWN_SCRIPT = "inputs/guide/tutorials/wheel_in_my_script"
@@ -57,8 +56,7 @@ class Tree:
         """Output of a command; the test ends where its status is not 0."""
         print(f"+ {command}", flush=True)
         status, said = run_command(command, self.root, self.root / "build", SECONDS)
-        if status:
-            sys.exit(f"{said}\n'{command}' ended with status {status}")
+        assert not status, f"{said}\n'{command}' ended with status {status}"
         return said
 
 
@@ -93,8 +91,7 @@ def options(tree: Tree, command: str) -> None:
     program = words[: 2 if words[0].endswith(WITH_COMMANDS) else 1]
     said = tree.run(f"{shlex.join(program)} --help")
     for word in words:
-        if re.match(r"--?[a-z]", word) and word not in said:
-            sys.exit(f"'{command}': the help of {words[0]} has no {word}")
+        assert not re.match(r"--?[a-z]", word) or word in said, f"'{command}': the help of {words[0]} has no {word}"
 
 
 def benchmark(tree: Tree, command: str) -> None:
@@ -139,8 +136,7 @@ def check_help(tree: Tree, found: list[str]) -> None:
         said = tree.run(f"furrow-{program} --help")
         examples = said.partition("Examples:\n")[2].strip().splitlines()
         missing = [example for example in map(str.strip, examples) if example not in found]
-        if not examples or missing:
-            sys.exit(f"furrow-{program} --help: {missing or 'no examples'}; its page has {found}")
+        assert examples and not missing, f"furrow-{program} --help: {missing or 'no examples'}; its page has {found}"
 
 
 def main(source: Path, build: Path, scratch: Path, own_run: Path) -> None:
@@ -153,11 +149,9 @@ def main(source: Path, build: Path, scratch: Path, own_run: Path) -> None:
     check_help(tree, found)
     for command in found:
         rule = next((rule for start, rule in RULES if re.match(start, command)), None)
-        if rule is None:
-            sys.exit(f"'{command}': no rule of {Path(__file__).name} says how it is checked")
+        assert rule is not None, f"'{command}': no rule of {Path(__file__).name} says how it is checked"
         rule(tree, command)
-    if len(found) < 40:
-        sys.exit(f"only {len(found)} commands were found in {len(pages)} pages")
+    assert len(found) >= 40, f"only {len(found)} commands were found in {len(pages)} pages"
     print(f"{len(found)} commands")
 
 

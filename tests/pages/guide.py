@@ -70,8 +70,7 @@ class Session:
         direct = re.sub("^bash inputs/run (.*--no-build)", r"postproc/furrow-post run \1", command)
         chosen = direct if is_python(direct) else command
         status, said = run_command(chosen, self.root / folder, self.root / "build", SECONDS)
-        if bool(status) != fails:
-            sys.exit(f"{said}\n'{command}' ended with status {status}")
+        assert bool(status) == fails, f"{said}\n'{command}' ended with status {status}"
         return said
 
     def command(self, command: str, later: str) -> None:
@@ -146,15 +145,13 @@ class Session:
         for line in () if whole else joined(text):
             start = " ".join(line.split()[:2])
             places = [k for k, other in enumerate(lines) if " ".join(other.split()[:2]) == start]
-            if not places:
-                sys.exit(f"{page}: '{line}' replaces no line of the script of {BASE}")
+            assert places, f"{page}: '{line}' replaces no line of the script of {BASE}"
             lines[places[0]] = line
         lines = [line if not line.startswith("run") else "run 20" for line in lines]
         script = self.root / "inputs" / "scenes" / "fragment.lig"
         script.write_text("variable bed_level equal 0.12\n" + "\n".join(lines) + "\n", encoding="utf-8")
         said = self.run("furrow -in fragment.lig -log none", "inputs/scenes")
-        if "ERROR" in said:
-            sys.exit(f"{said}\n{page}: the lines\n{text}do not run")
+        assert "ERROR" not in said, f"{said}\n{page}: the lines\n{text}do not run"
 
 
 def joined(text: str) -> list[str]:
@@ -228,19 +225,13 @@ def declared(listing: str) -> list[tuple[str, str]]:
 def check_keys(session: Session) -> None:
     """The tables of keys have the keys and units of the programs, and no others."""
     brick = (session.source / "src/io/brick_tyre_file.cpp").read_text(encoding="utf-8")
-    of_brick = re.findall(
-        r"(?:number|numbers|flag|integer)\(\s*\"(\w+)\",(?: 0,)?(?: \"([^\"]*)\",)?", brick
-    )
+    of_brick = re.findall(r"(?:number|numbers|flag|integer)\(\s*\"(\w+)\",(?: 0,)?(?: \"([^\"]*)\",)?", brick)
     for page, found in (
         ("soil_files", declared(session.run("furrow-point laws"))),
         ("tyre_files", declared(session.run("furrow-sidewall keys")) + of_brick),
     ):
         text = (session.source / f"inputs/guide/{page}.md").read_text(encoding="utf-8")
-        shown = {
-            (key, row["unit"])
-            for row in table_rows(text, "key")
-            for key in re.findall(r"`(\w+)`", row["key"])
-        }
+        shown = {(key, row["unit"]) for row in table_rows(text, "key") for key in re.findall(r"`(\w+)`", row["key"])}
         if set(found) != shown:
             sys.exit(
                 f"{page}: the programs have {sorted(set(found) - shown)}, which the page lacks; "
@@ -272,8 +263,7 @@ def main(source: Path, build: Path, scratch: Path, pages: list[Path]) -> None:
         print(f"== {page.relative_to(source)}", flush=True)
         count = check(session, page)
         print(f"{count} commands, files and fragments", flush=True)
-        if not count and "tutorials" in page.parts:
-            sys.exit(f"{page}: shows nothing that runs")
+        assert count or "tutorials" not in page.parts, f"{page}: shows nothing that runs"
         if page.stem == "soil_files":
             check_keys(session)
         if page.stem == "troubleshooting":

@@ -19,8 +19,6 @@ with tempfile.TemporaryDirectory() as home:
 outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
 pictures = [output for output in outputs if "image/png" in output.get("data", {})]
 values = [output["data"]["text/plain"] for output in outputs if output["output_type"] == "execute_result"]
-if not pictures:
-    sys.exit("no picture")
-if len(values) != 1 or "hub_drop" not in values[0]:
-    sys.exit(f"not the averages: {values}")
+assert pictures, "no picture"
+assert len(values) == 1 and "hub_drop" in values[0], f"not the averages: {values}"
 print(values[0])

@@ -26,8 +26,7 @@ def snippet(page: Path) -> str:
     text = page.read_text(encoding="utf-8")
     _, found, examples = text.partition("\n## Examples\n")
     block = re.search(r"^```\n(.*?)^```", examples, re.M | re.S)
-    if not found or block is None:
-        sys.exit(f"{page}: has no script in its section Examples")
+    assert found and block is not None, f"{page}: has no script in its section Examples"
     return block[1]
 
 
@@ -38,8 +37,7 @@ def main(source: Path, build: Path, scratch: Path) -> None:
     for name in ("beds", "materials", "meshes", "tyres"):
         (scratch / "inputs" / name).symlink_to(source / "inputs" / name)
     pages = sorted(p for p in (source / "coupling").glob("*/*.md") if p.name != "README.md")
-    if len(pages) < 20:
-        sys.exit(f"only {len(pages)} pages were found")
+    assert len(pages) >= 20, f"only {len(pages)} pages were found"
     for page in pages:
         style = re.sub(r"^(fix|command|model)_", "", page.stem).replace("_", "[/_]")
         script = snippet(page)

@@ -27,9 +27,7 @@ TAG = re.compile(r"\\tag\{(\d+)\}")
 def chapters(source: Path) -> dict[str, str]:
     folder = source / "src" / "theory"
     return {
-        page.stem: page.read_text(encoding="utf-8")
-        for page in sorted(folder.glob("*.md"))
-        if page.stem != "README"
+        page.stem: page.read_text(encoding="utf-8") for page in sorted(folder.glob("*.md")) if page.stem != "README"
     }
 
 

@@ -33,25 +33,20 @@ class Head:
     def _expectation(self, text):
         """(name, lowest, highest, unit) of "hub drop 0.15 to 0.17 m"."""
         parts = re.fullmatch(r"(.+?) (\S+) to (\S+)(?: (\S+))?", text)
-        if not parts:
-            sys.exit(f"{self.script}: '{text}' is not 'name lowest to highest unit'")
+        assert parts, f"{self.script}: '{text}' is not 'name lowest to highest unit'"
         lowest, highest = float(parts[2]), float(parts[3])
-        if not lowest < highest:
-            sys.exit(f"{self.script}: '{text}' is an empty range")
+        assert lowest < highest, f"{self.script}: '{text}' is an empty range"
         return parts[1], lowest, highest, parts[4] or ""
 
     def check(self, found):
         """Every quantity of the line Gives lies in its range. found: (value, unit) by name."""
         missed = []
         for name, lowest, highest, unit in self.gives:
-            if name not in found:
-                sys.exit(f"{self.script}: '{name}' is not among {', '.join(sorted(found))}")
+            assert name in found, f"{self.script}: '{name}' is not among {', '.join(sorted(found))}"
             value, its_unit = found[name]
-            if unit != its_unit:
-                sys.exit(f"{self.script}: the unit of '{name}' is '{its_unit}', not '{unit}'")
+            assert unit == its_unit, f"{self.script}: the unit of '{name}' is '{its_unit}', not '{unit}'"
             value = math.nan if value is None else float(value)
             print(f"  {name}: {value:.6g} {unit}, expected {lowest:g} to {highest:g}")
             if not lowest <= value <= highest:
                 missed.append(f"{name} is {value:.6g} {unit}, not {lowest:g} to {highest:g}")
-        if missed:
-            sys.exit(f"{self.script}: {'; '.join(missed)}")
+        assert not missed, f"{self.script}: {'; '.join(missed)}"

@@ -2,7 +2,6 @@
 """Results of a finished run, by name and unit; its energies and momenta must balance."""
 
 import json
-import sys
 
 import h5py
 import numpy as np
@@ -15,15 +14,12 @@ MOMENTUM_LIMIT = 1e-10  # of the largest force or moment: round-off
 def check_share(name, part, whole, limit):
     """|part| <= limit whole, and neither is NaN."""
     print(f"  {name}: {part:.3g} of {whole:.3g}")
-    if not abs(part) <= limit * whole:
-        sys.exit(f"{name}: {part:.3g} of {whole:.3g} is more than {limit:g} of it")
+    assert abs(part) <= limit * whole, f"{name}: {part:.3g} of {whole:.3g} is more than {limit:g} of it"
 
 
 def check_audit(audit, name, energy_limit):
-    if not audit["energy_scale"] > 0:
-        sys.exit(f"{name}: there was no energy at all")
-    check_share(f"{name}, energy not accounted for", audit["energy_residual"],
-                audit["energy_scale"], energy_limit)
+    assert audit["energy_scale"] > 0, f"{name}: there was no energy at all"
+    check_share(f"{name}, energy not accounted for", audit["energy_residual"], audit["energy_scale"], energy_limit)
     for what in ("force", "moment"):
         check_share(f"{name}, {what}s on nodes and grains", audit[f"{what}_imbalance"],
                     audit[f"{what}_scale"], MOMENTUM_LIMIT)
@@ -35,15 +31,13 @@ def check_pictures(folder, drawn):
     grains = summary["cost"]["grains"] > 0 or (folder / "terrain.h5").exists()
     wanted = {"histories.png", *(["rut.png"] if grains else [])} if drawn else set()
     there = {file.name for file in folder.glob("*.png") if file.read_bytes().startswith(b"\x89PNG")}
-    if not wanted <= there or (there and not drawn):
-        sys.exit(f"{folder} has the pictures {there}, not {wanted}")
+    assert wanted <= there and (not there or drawn), f"{folder} has the pictures {there}, not {wanted}"
 
 
 def wheel_quantities(folder):
     """Quantities of summary.json, which the run itself writes, and of history.h5."""
     summary = json.loads((folder / "summary.json").read_text())
-    if not summary["complete"]:
-        sys.exit(f"{folder} did not come to its end")
+    assert summary["complete"], f"{folder} did not come to its end"
     check_audit(summary["audit"], "wheel", ENERGY_LIMIT)
     with h5py.File(folder / "history.h5") as content:
         found = {}
@@ -55,15 +49,13 @@ def wheel_quantities(folder):
     for further in folder.glob("*/summary.json"):
         its = json.loads(further.read_text())
         check_audit(its["audit"], f"wheel of {further.parent.name}", ENERGY_LIMIT)
-        found.update((f"{further.parent.name}_{name}", value)
-                     for name, value in steady_values(its).items())
+        found.update((f"{further.parent.name}_{name}", value) for name, value in steady_values(its).items())
     return {name.replace("_", " "): value for name, value in found.items()}
 
 
 def steady_values(summary):
     """(value, unit) by name."""
-    return {name: (value["mean"], value["unit"])
-            for name, value in summary.get("quantities", {}).items()}
+    return {name: (value["mean"], value["unit"]) for name, value in summary.get("quantities", {}).items()}
 
 
 def plate_quantities(folder):

@@ -18,6 +18,9 @@ from pathlib import Path
 
 from run import PROJECT, empty, inputs_run, records, run
 
+sys.path.insert(0, str(PROJECT / "tests" / "coupled" / "support"))
+from furrow_run import going, wait_until
+
 PROGRAMS = ("slurmctld", "slurmd", "sbatch", "squeue", "scancel", "sinfo")
 CONFIGURATION = """ClusterName=furrow
 SlurmctldHost={host}(127.0.0.1)
@@ -70,8 +73,7 @@ class Slurm:
             log = open(self.folder / f"{words[0]}.log", "wb")
             self.daemons.append(subprocess.Popen(words, stdout=log, stderr=log))
         until = time.monotonic() + 60
-        while "idle" not in subprocess.run(["sinfo", "-h", "-o", "%T"], capture_output=True,
-                                           text=True).stdout:
+        while "idle" not in subprocess.run(["sinfo", "-h", "-o", "%T"], capture_output=True, text=True).stdout:
             if time.monotonic() > until:
                 logs = "".join(p.read_text() for p in self.folder.glob("*.log"))
                 self.__exit__()
@@ -95,22 +97,17 @@ def main(results):
     words = ["tyre_on_plane", "--quick", "--sweep", "slip=0,0.02,0.05", "-o", out]
     (folder / "node").mkdir()
     with Slurm(folder / "node"):
-        begun = subprocess.Popen(
-            ["bash", PROJECT / "inputs" / "run", "--no-build", *words, "--submit", "slurm",
-             "--jobs", "1"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, text=True)
-        until = time.monotonic() + 300
-        while len(records(out)) < 1 and time.monotonic() < until:
-            time.sleep(0.1)
-        job = json.loads((out / "slurm" / "job.json").read_text())["number"]
-        run(["scancel", f"{job}_2"])
-        said, _ = begun.communicate(timeout=300)
-        print(said)
+        submit = ["bash", PROJECT / "inputs" / "run", "--no-build", *words, "--submit", "slurm", "--jobs", "1"]
+        with going(submit, folder) as begun:
+            wait_until(lambda: records(out), begun, 300)
+            job = json.loads((out / "slurm" / "job.json").read_text())["number"]
+            run(["scancel", f"{job}_2"])
+            begun.wait(300)
+        print(said := (folder / "said").read_text())
         if begun.returncode != 1 or "slip_0.05: its task ended without a result" not in said:
             sys.exit(f"the task that was cancelled is not told, status {begun.returncode}")
         made = records(out)
-        if sorted(made) != ["slip_0", "slip_0.02"]:
-            sys.exit(f"Slurm made {sorted(made)}")
+        assert sorted(made) == ["slip_0", "slip_0.02"], f"Slurm made {sorted(made)}"
         print(said := inputs_run(*words, "--submit", "slurm"))  # the one that is missing
     after = records(out)
     if len(after) != 3 or any(after[name] != made[name] for name in made):
@@ -118,8 +115,7 @@ def main(results):
     # On from here without Slurm, in the same folders
     words[3] = "slip=0,0.02,0.05,0.08"
     print(said := inputs_run(*words))
-    if "3 of them are there" not in said or len(records(out)) != 4:
-        sys.exit("the sweep did not go on without Slurm")
+    assert "3 of them are there" in said and len(records(out)) == 4, "the sweep did not go on without Slurm"
 
 
 if __name__ == "__main__":

@@ -7,9 +7,7 @@ The signal goes to inputs/run after its first checkpoint. Every array of the con
 that of a run without a break.
 """
 
-import os
 import signal
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -17,17 +15,10 @@ from pathlib import Path
 from run import PROJECT, empty, inputs_run
 
 sys.path.insert(0, str(PROJECT / "tests" / "coupled" / "support"))
+from furrow_run import going, wait_until
 from same_results import compare_arrays
 
 PATIENCE = 200  # [s]
-
-
-def wait_for(what, condition):
-    until = time.monotonic() + PATIENCE
-    while not condition():
-        if time.monotonic() > until:
-            sys.exit(f"{what} did not happen within {PATIENCE} s")
-        time.sleep(0.05)
 
 
 def programs_of(folder):
@@ -49,25 +40,23 @@ def main(scene, signal_name, results, *words):
     cache = {"FURROW_CACHE": str(folder / "cache")}
     inputs_run(scene, *words, "--no-pictures", "-o", whole, **cache)
     command = ["bash", PROJECT / "inputs" / "run", "--no-build", scene, *words, "-o", stopped]
-    begun = subprocess.Popen([*command, "--checkpoint", "0.5s"], env={**os.environ, **cache},
-                             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                             stderr=subprocess.STDOUT, text=True)
-    wait_for("a checkpoint", lambda: (stopped / "checkpoint.data").exists() or begun.poll() is not None)
-    if not programs_of(stopped):
-        sys.exit(f"the run ended before it was stopped:\n{begun.communicate()[0]}")
-    begun.send_signal(number)
-    said, _ = begun.communicate(timeout=PATIENCE)
+    with going([*command, "--checkpoint", "0.5s"], folder, **cache) as begun:
+        wait_until((stopped / "checkpoint.data").exists, begun, PATIENCE)
+        assert programs_of(stopped), f"the run ended before it was stopped:\n{(folder / 'said').read_text()}"
+        begun.send_signal(number)
+        begun.wait(PATIENCE)
+    said = (folder / "said").read_text()
     if number == signal.SIGTERM and (begun.returncode != 143 or "give --continue" not in said):
         sys.exit(f"status {begun.returncode} after SIGTERM, or no way to continue:\n{said}")
-    if number == signal.SIGTERM and programs_of(stopped):
-        sys.exit("furrow goes on after inputs/run has ended")
-    wait_for("the end of furrow", lambda: not programs_of(stopped))
+    assert number != signal.SIGTERM or not programs_of(stopped), "furrow goes on after inputs/run has ended"
+    until = time.monotonic() + PATIENCE
+    while programs_of(stopped):
+        assert time.monotonic() <= until, f"furrow did not end within {PATIENCE} s"
+        time.sleep(0.05)
     print(said, inputs_run(scene, "--no-pictures", "-o", stopped, "--continue", **cache))
-    if not (stopped / "run.json").is_file():
-        sys.exit("the continued run did not come to its end")
+    assert (stopped / "run.json").is_file(), "the continued run did not come to its end"
     same = compare_arrays(whole, stopped, tolerance=0.0)
-    if same < 20:
-        sys.exit(f"only {same} arrays were compared")
+    assert same >= 20, f"only {same} arrays were compared"
     print(f"{signal_name}: {same} arrays are the same")
 
 

@@ -14,13 +14,15 @@ equilibrium).
 
 import os
 import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import h5py
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import run, words_of
 
 HERE = Path(__file__).resolve().parent
 DIAMETER, DEPTH, LENGTH, WIDTH = 0.01, 0.035, 0.2, 0.04  # of bed.lig [m]
@@ -38,14 +40,11 @@ class Bed:
         self.furrow, self.beds, self.folder = furrow, beds, folder
 
     def run(self, relief, launcher=(), cache="cache", start="none", script="bed.lig"):
-        more = ("-var", "from", start)
-        if script != "bed.lig":
-            more = ("-var", "material", Path(self.beds).parent / "materials" / "compacted_sand_elastic.yaml")
-        done = subprocess.run([*launcher, self.furrow, "-in", HERE / script, "-log", "none", "-var", "beds", self.beds,
-                               "-var", "relief", relief, *more], cwd=self.folder, text=True, timeout=120,
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              env={**os.environ, "FURROW_CACHE": str(self.folder / cache)})
-        return done.returncode, done.stdout
+        elastic = Path(self.beds).parent / "materials" / "compacted_sand_elastic.yaml"
+        more = {"from": start} if script == "bed.lig" else {"material": elastic}
+        words = words_of({"beds": self.beds, "relief": relief, **more})
+        return run([*launcher, self.furrow, "-in", HERE / script, "-log", "none", *words], self.folder, 120,
+                   FURROW_CACHE=str(self.folder / cache))
 
     def grains(self, relief, made, **how):
         """Positions and radii by tag."""

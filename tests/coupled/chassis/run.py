@@ -11,15 +11,15 @@ a window include the change of momentum in it, so the balance is exact but for t
 """
 
 import math
-import os
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import h5py
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import columns, script_output
 
 HERE = Path(__file__).resolve().parent
 GRAVITY, STEP = 9.80665, 1e-3  # [m/s2], [s]
@@ -63,20 +63,11 @@ class Vehicle:
 
 
 def run(furrow: str, folder: Path, **variables: object) -> Vehicle:
-    words = [word for key, value in variables.items() for word in ("-var", key, str(value))]
-    done = subprocess.run([furrow, "-in", HERE / "vehicle.lig", "-log", "none", *words], cwd=folder, text=True,
-                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          timeout=300, env={**os.environ, "FURROW_CACHE": str(folder / "cache")})
-    if done.returncode != 0:
-        sys.exit(f"status {done.returncode}:\n{done.stdout[-4000:]}")
-    wheels = []
-    for path in sorted((folder / "results").rglob("history.h5")):
-        with h5py.File(path) as file:
-            wheels.append({name: column[()] for name, column in file["history"].items()})
-    columns = {name: np.column_stack([wheel[name] for wheel in wheels]) for name in wheels[0]}
+    script_output(furrow, HERE / "vehicle.lig", folder, seconds=300, **variables)
+    wheels = [columns(path) for path in sorted((folder / "results").rglob("history.h5"))]
     motion = np.loadtxt(folder / "body.txt")[:, 1:]
     motion[:, 1:] = np.radians(motion[:, 1:])
-    return Vehicle(columns, motion)
+    return Vehicle({name: np.column_stack([wheel[name] for wheel in wheels]) for name in wheels[0]}, motion)
 
 
 def check(what: str, found: float, expected: float, allowed: float) -> None:

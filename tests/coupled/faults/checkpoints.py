@@ -10,14 +10,13 @@ import re
 import shutil
 import subprocess
 import sys
-import time
-from pathlib import Path
 
 from faults import CONTINUED, GRAINS, WHEEL, Table, run_script
+from furrow_run import INPUTS, going, wait_until
 
 WRITE = GRAINS + "run 10\nwrite_restart ck.10\n"
 # Snow that settles under its weight: 1024 particles, whose place at the end is printed.
-MATERIAL = Path(__file__).resolve().parents[3] / "inputs/materials/fresh_snow.yaml"
+MATERIAL = INPUTS / "materials/fresh_snow.yaml"
 SNOW_BOX = """units si
 atom_style granular
 atom_modify sort 0 0
@@ -102,8 +101,7 @@ def particles(furrow, table, launcher=()):
 
 
 def continued(furrow, table, file, launcher=(), mode=""):
-    return run_script(furrow, table.folder, CONTINUED.format(file=f"{file} {mode}") + "run 5\n",
-                      launcher=launcher)
+    return run_script(furrow, table.folder, CONTINUED.format(file=f"{file} {mode}") + "run 5\n", launcher=launcher)
 
 
 def damaged(furrow, table):
@@ -142,20 +140,17 @@ def belongs_together(furrow, table):
             ("another wheel", WHEEL.replace("0.04", "0.05") + "run 5\n", 1, ["keyword 'diameter' is '0.05', and was '0.04'"])):
         script = CONTINUED.format(file="ck") + lines
         table.check(f"with a wheel: {name}", run_script(furrow, folder, script), status, *texts)
-    table.check("with a mesh",
-                run_script(furrow, folder, GRAINS + WHEEL + mesh + "run 10\nwrite_restart ck.mesh\n"), 0)
+    table.check("with a mesh", run_script(furrow, folder, GRAINS + WHEEL + mesh + "run 10\nwrite_restart ck.mesh\n"), 0)
     whole = CONTINUED.format(file="ck.mesh") + WHEEL + mesh + "run 5\n"
     changed = "and was 0.5 when the checkpoint was written"
     for name, script, status, texts, absent in (
             ("continued", whole, 0, [], ["other grains"]),
-            ("the mesh renamed", whole.replace("skin", "tyre"), 1,
-             ["has the state of fix mesh/body 'skin'"], []),
+            ("the mesh renamed", whole.replace("skin", "tyre"), 1, ["has the state of fix mesh/body 'skin'"], []),
             ("another friction", whole.replace(friction, friction[:-3] + "0.9"), 0,
              [f"WARNING: fix property/global 'm4' is 0.9, {changed}"], ["'m3'"]),
             ("another restitution", whole.replace(restitution, restitution[:-3] + "0.4"), 0,
              ["WARNING: fix property/global 'm3' is 0.4, and was 0.3"], ["'m4'"])):
-        table.check(f"with a mesh: {name}", run_script(furrow, folder, script), status, *texts,
-                    absent=absent)
+        table.check(f"with a mesh: {name}", run_script(furrow, folder, script), status, *texts, absent=absent)
     rig = "fix rig all wheel/rig wheel wheel load_force 5 speed 0.1 mode towed ground_level 0.12 settle_time 1 accelerate_time 1\n"
     table.check("with a rig", run_script(furrow, folder, GRAINS + WHEEL + rig + "run 10\nwrite_restart ck.rig\n"), 0)
     whole = CONTINUED.format(file="ck.rig") + WHEEL + rig + "run 5\n"
@@ -221,21 +216,14 @@ def one_run_for_a_name(furrow, table):
     """A second run that would replace the checkpoints of one that goes on."""
     script = GRAINS + WHEEL + "restart 50 {0}.1 {0}.2\nrun {1}\n"
     (table.folder / "first.lig").write_text(script.format("same", 100000000))
-    first = subprocess.Popen([furrow, "-in", "first.lig", "-log", "none"], cwd=table.folder, stdin=subprocess.DEVNULL,
-                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        began = time.monotonic()
-        while not (table.folder / "same.2").exists() and first.poll() is None and time.monotonic() < began + 60:
-            time.sleep(0.02)
+    with going([furrow, "-in", "first.lig", "-log", "none"], table.folder) as first:
+        wait_until((table.folder / "same.2").exists, first)
         second = run_script(furrow, table.folder, script.format("same", 200))
         table.check("a name of another run", second, 1, "restart names 'same.",
                     "', to which another run writes its checkpoints", "name other files, or wait until that run has ended")
         table.check("another name beside it", run_script(furrow, table.folder, script.format("other", 200)), 0)
         check = continued(furrow, table, "same.1", mode="unchecked")
         table.check("checkpoint of a run that goes on is read", check, 0)
-    finally:
-        first.kill()
-        first.wait()
     table.check("the name of a run that was killed", run_script(furrow, table.folder, script.format("same", 200)), 0)
 
 

@@ -5,12 +5,11 @@
 """
 
 import os
-import subprocess
 import sys
-import time
 from pathlib import Path
 
-from faults import TIME_LIMIT, Table, run, run_script
+from faults import Table, run, run_script
+from furrow_run import going, wait_until
 
 REFUSED = "is 'results', which another run is writing to; allowed: a folder for each run"
 NO_END = 100_000_000  # steps
@@ -22,13 +21,8 @@ def main(furrow, script, inputs, *mpirun):
     endless = short.replace("run             20", f"run             {NO_END}")
     (table.folder / "endless.lig").write_text(endless)
     results = table.folder / "results"
-    first = subprocess.Popen([furrow, "-in", "endless.lig", "-log", "none"], cwd=table.folder,
-                             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                             stderr=subprocess.DEVNULL)
-    try:
-        end = time.monotonic() + TIME_LIMIT
-        while not (results / "terrain.h5").exists() and time.monotonic() < end:
-            time.sleep(0.02)
+    with going([furrow, "-in", "endless.lig", "-log", "none"], table.folder) as first:
+        wait_until((results / "terrain.h5").exists, first)
         table.check("a second run", run_script(furrow, table.folder, short), 1, REFUSED)
         table.check("a second run of two ranks",
                     run_script(furrow, table.folder, short, launcher=[*mpirun, 2]), 1, REFUSED)
@@ -37,16 +31,12 @@ def main(furrow, script, inputs, *mpirun):
         scene = Path(inputs) / "scenes" / "wheel_on_snow.lig"
         words = ["bash", Path(inputs) / "run", "--no-build", scene, "-o", results]
         build = str(Path(furrow).parents[1])
-        table.check("inputs/run", run(words, table.folder, FURROW_BUILD=build), 2,
-                    "which another run is writing to")
+        table.check("inputs/run", run(words, table.folder, FURROW_BUILD=build), 2, "which another run is writing to")
         table.expect("nothing of theirs is in the folder",
                      {file.name for file in results.iterdir()} <= {
                          "history.h5", "terrain.h5", "history.part.h5", "terrain.part.h5"},
                      os.listdir(results))
         table.expect("the first run goes on", first.poll() is None, first.returncode)
-    finally:
-        first.kill()
-        first.wait()
     table.check("after a kill", run_script(furrow, table.folder, short), 0)
     table.end()
 

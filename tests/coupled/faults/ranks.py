@@ -10,9 +10,8 @@ import subprocess
 import sys
 import time
 
-import h5py
-
 from faults import CONTINUED, GRAINS, WHEEL, Said, Table, run_script
+from furrow_run import columns, going, wait_until
 
 WITHIN = 10.0  # s
 GRAINS = "processors 2 1 1\n" + GRAINS
@@ -33,24 +32,16 @@ def timed(table, name, command, *texts, script, meanwhile=None):
     folder = table.folder
     (folder / "script.lig").write_text(script)
     (folder / "going").unlink(missing_ok=True)
-    with open(folder / "said", "w+") as said:
-        run = subprocess.Popen([*command, "-in", "script.lig", "-log", "none"], cwd=folder, stdin=subprocess.DEVNULL,
-                               stdout=said, stderr=subprocess.STDOUT)
-        began = time.monotonic()
-        while not (folder / "going").exists() and run.poll() is None and time.monotonic() < began + 60:
-            time.sleep(0.02)
+    with going([*command, "-in", "script.lig", "-log", "none"], folder) as run:
+        wait_until((folder / "going").exists, run)
         if meanwhile:
             meanwhile()
         began = time.monotonic()
-        try:
-            failed = run.wait(timeout=3 * WITHIN) != 0
-        except subprocess.TimeoutExpired:
-            run.kill()
-            failed = False
+        wait_until(lambda: False, run, 3 * WITHIN)
         duration = time.monotonic() - began
-        said.seek(0)
-        table.check(name, Said("an error" if failed else "none", said.read()), "an error", *texts)
-        table.expect(f"{name}: within {WITHIN:g} s", duration < WITHIN, f"{duration:.1f} s")
+        failed = run.poll() not in (None, 0)
+    table.check(name, Said("an error" if failed else "none", (folder / "said").read_text()), "an error", *texts)
+    table.expect(f"{name}: within {WITHIN:g} s", duration < WITHIN, f"{duration:.1f} s")
 
 
 def main(furrow, *mpirun):
@@ -64,8 +55,7 @@ def main(furrow, *mpirun):
     timed(table, "an infinite force on a grain", here, "ERROR on rank 1", "at run",
           script=GRAINS + WHEEL + HISTORY + SECOND_RANK + begun + "variable push equal 1e305*(step>200)*1e305\n"
                  "fix push right addforce 0.0 0.0 v_push\n" + GO_ON)
-    with h5py.File(table.folder / "results/history.h5") as content:
-        rows = len(content["history/time"])
+    rows = len(columns(table.folder / "results/history.h5")["time"])
     table.expect("an infinite force on a grain: all rows are there", rows >= 200, rows)
     timed(table, "a file of rank 0", here, "ERROR", "Cannot open", "line ",
           script=GRAINS + "dump d all custom 20 /proc/no/dump id\n" + begun + GO_ON)

@@ -14,7 +14,8 @@ import subprocess
 import sys
 import time
 
-from faults import CONTINUED, GRAINS, TIME_LIMIT, WHEEL, Said, Table, run_script
+from faults import CONTINUED, GRAINS, WHEEL, Said, Table, run_script
+from furrow_run import going, wait_until
 
 BEGIN = GRAINS + WHEEL
 
@@ -36,39 +37,30 @@ def interrupted(furrow, table, script, numbers, launcher=()):
     for file in (*table.folder.glob("restart_forced*"), *table.folder.glob("pid*")):
         file.unlink()
     shell = 'file=pid${OMPI_COMM_WORLD_RANK:-0}; echo $$ > $file.new; mv $file.new $file; exec "$0" "$@"'
-    with open(table.folder / "said", "w+") as said:
-        run = subprocess.Popen([*launcher, "sh", "-c", shell, furrow, "-in", "script.lig", "-log", "none"], cwd=table.folder,
-                               stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.STDOUT)
-        try:
-            began = time.monotonic()
-            while not (table.folder / "going").exists() and run.poll() is None and time.monotonic() < began + TIME_LIMIT:
-                time.sleep(0.02)
-            for number in numbers:
-                if run.poll() is None:
-                    subprocess.run(["kill", f"-{number}", (table.folder / "pid0").read_text().strip()], check=True)
-                    time.sleep(0.2)
-                while number == signal.SIGUSR1 and run.poll() is None and time.monotonic() < began + TIME_LIMIT and \
-                        not list(table.folder.glob("restart_forced*")):
-                    time.sleep(0.02)
-            status = run.wait(timeout=TIME_LIMIT)
-        except subprocess.TimeoutExpired:
-            status = "time limit"
-        finally:
+    with going([*launcher, "sh", "-c", shell, furrow, "-in", "script.lig", "-log", "none"], table.folder) as run:
+        wait_until((table.folder / "going").exists, run)
+        for number in numbers:
             if run.poll() is None:
-                run.terminate()  # mpirun ends its ranks
-                run.wait()
-        said.seek(0)
-        (table.folder / "going").unlink(missing_ok=True)
-        return Said(status, said.read())
+                subprocess.run(["kill", f"-{number}", (table.folder / "pid0").read_text().strip()], check=True)
+                time.sleep(0.2)
+            if number == signal.SIGUSR1:
+                wait_until(lambda: list(table.folder.glob("restart_forced*")), run)
+        wait_until(lambda: False, run)
+        status = run.poll()
+        if status is None:
+            run.terminate()  # mpirun ends its ranks
+            run.wait()
+    (table.folder / "going").unlink(missing_ok=True)
+    return Said(status, (table.folder / "said").read_text())
 
 
-def going(script, steps):
+def going_on(script, steps):
     """Says with a file that steps are taken."""
     return script + f"dump going all custom 50 going id\nthermo 100\nrun {steps} upto\n"
 
 
 def continues(furrow, table, name, number, status, launcher=()):
-    said = interrupted(furrow, table, going(BEGIN, 100000000), [number], launcher)
+    said = interrupted(furrow, table, going_on(BEGIN, 100000000), [number], launcher)
     table.check(f"{name}", said, status, "stopped the run after step", "'read_restart restart_forced_liggghts_",
                 absent=["No neighbour lists were due"])
     files = [path.name for path in table.folder.glob("restart_forced*")]
@@ -100,17 +92,17 @@ def one_process(furrow, table):
     continues(furrow, table, "SIGTERM", signal.SIGTERM, 143)
     continues(furrow, table, "SIGINT", signal.SIGINT, 130)
     continues(furrow, table, "SIGHUP", signal.SIGHUP, 129)
-    said = interrupted(furrow, table, going(GRAINS, 100000000), [signal.SIGUSR1, signal.SIGTERM])
+    said = interrupted(furrow, table, going_on(GRAINS, 100000000), [signal.SIGUSR1, signal.SIGTERM])
     table.check("SIGUSR1", said, 143)
     files = list(table.folder.glob("restart_forced*"))
     table.expect("SIGUSR1: goes on after its checkpoint", len(files) == 2, files)
     resting = GRAINS.replace("fix move all nve/sphere\n", "fix still all freeze\n") + WHEEL
-    said = interrupted(furrow, table, going(resting, 100000000), [signal.SIGTERM])
+    said = interrupted(furrow, table, going_on(resting, 100000000), [signal.SIGTERM])
     table.check("grains that need no new lists", said, 143, "stopped the run after step", "No neighbour lists were due")
-    said = interrupted(furrow, table, going(GRAINS + "write_restart_on_signal no\n", 100000000), [signal.SIGTERM])
+    said = interrupted(furrow, table, going_on(GRAINS + "write_restart_on_signal no\n", 100000000), [signal.SIGTERM])
     table.check("without checkpoint", said, 143, "without a checkpoint")
     table.expect("without checkpoint: no file", not list(table.folder.glob("restart_forced*")), "there is one")
-    said = interrupted(furrow, table, going(GRAINS, 500) , [signal.SIGPIPE])
+    said = interrupted(furrow, table, going_on(GRAINS, 500) , [signal.SIGPIPE])
     table.check("SIGPIPE is ignored", said, 0)
     for number, status in ENDS:
         said = interrupted(furrow, table, ENDLESS, [number])

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every keyword of every style, law and tyre file, missing, misspelt, of another type, outside of its
-range, with too few or too many values: the message has the place, the keyword, what is allowed, and a
-remedy. Every keyword with a usual range, with a value outside: one warning has the place, the keyword,
-the range and a hint of the unit. The keywords come from the programs (furrow --keys, furrow-point laws --json).
+"""Every keyword of every style, law, bed and tyre file, missing, misspelt, twice, without a value, of another type,
+or outside of its range: the message has the place, the keyword, what is allowed, and a remedy. Every keyword with a
+usual range, with a value outside: one warning has the place, the keyword, the range and a hint of the unit. The
+keywords come from the programs (furrow --keys, furrow-point laws --json) and from the heads of bed scripts.
 
     wording.py <folder of the programs>
 """
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -15,18 +16,18 @@ from pathlib import Path
 import yaml
 
 from faults import Table, run, run_script
+from furrow_run import INPUTS
 
-SOURCE = Path(__file__).resolve().parents[3]
 BOX = """units si
 atom_style granular
 atom_modify sort 0 0
 region box block -1 1 -1 1 -1 1 units box
 create_box 1 box
 """
-LINES = len(BOX.splitlines())
 # Lines that LIGGGHTS reads itself, or that the script must not have
-OTHERS = {"fix ave/time", "fix furrow/expected_states", "fix furrow/system", "fix wall/gran/body", "model snow/bond"}
-FIRST = {"command bed", "command read_restart"}  # stand before the box, with a file as first argument
+OTHERS = {"fix ave/time", "fix furrow/expected_states", "fix furrow/system", "fix wall/gran/body", "model snow/bond",
+          "command read_restart"}
+BED = "command bed"
 UNKNOWN = "nonsense"
 SOIL = {"k_c": 15600, "k_phi": 2407400, "n": 1.1, "c": 250, "phi": 31.9, "K": 0.0114}
 FIELD = "fix x all terrain/scm length 3 width 0.6 cell 0.02 "  # the style that has keys with usual ranges
@@ -49,11 +50,10 @@ def wrong_values(key, in_script=False):
         yield [UNKNOWN], "not a number"
     if not in_script or key.get("count") != 0:
         yield ["1e999"] * count, "too large for a number"
-    lower, upper = key.get("lower"), key.get("upper")
-    if lower is not None:
-        yield [f"{lower - 1:.9g}" if not key.get("lower_open") else f"{lower:.9g}"] * count, "is "
-    elif upper is not None:
-        yield [f"{upper + 1:.9g}"] * count, "is "
+    for end, sign in ("lower", -1), ("upper", 1):
+        if end in key:
+            beyond = 0 if key.get(f"{end}_open") else sign * max(1, OUTSIDE * abs(key[end]))
+            yield [f"{key[end] + beyond:.9g}"] * count, "is "
     if kind == "integer":
         yield ["1.5"] * count, "is 1.5"
 
@@ -78,34 +78,57 @@ def unusual_soils(table, furrow, declared):
             line = FIELD + " ".join(f"{each} {number}" for each, number in {**SOIL, name: value}.items())
             said = run_script(furrow, table.folder, f"{BOX}{line}\n").text
             found = [row for row in said.splitlines() if "WARNING" in row and f"keyword '{name}'{problem}" in row]
-            table.expect(line, len(found) == 1 and f"/script.lig, line {LINES + 1}" in said, said)
+            table.expect(line, len(found) == 1 and f"/script.lig, line {BOX.count(chr(10)) + 1}" in said, said)
+
+
+def bed_keys(script):
+    """Keywords of a bed, declared in the head of its script: name, unit, range, meaning."""
+    head = script.read_text().partition("#: parameters\n")[2].partition("\n\n")[0]
+    keys = {}
+    for name, allowed in re.findall(r"^# (\w+) +\S+ +((?:integer )?(?:>=? [\d.e]+|\[[^]]*\]))", head, re.M):
+        bounds = [float(number) for number in re.findall(r"[\d.e]+", allowed.removeprefix("integer"))]
+        keys[name] = {"kind": "integer" if "integer" in allowed else "number", "required": True, "lower_open": "> " in allowed,
+                      **dict(zip(("lower", "upper"), bounds))}
+    return keys
+
+
+def faulty_lines(subject, keys):
+    """Arguments of a line with one fault each, and what the message says of it."""
+    yield [UNKNOWN, "1"], f"{subject} has no keyword '{UNKNOWN}'"
+    for name, key in keys.items():
+        if len(name) > 4:
+            yield [name[:-1], "1"], f"{subject} has no keyword '{name[:-1]}'", "did you mean"
+        for values, problem in wrong_values(key, in_script=True):
+            yield [name, *values], f"{subject}, keyword '{name}'", problem, "it is: "
+    missing = [name for name, key in keys.items() if key["required"]]
+    if missing:
+        yield [], f"{subject}, keyword '{missing[0]}' is missing", "it is: "
+    number = next((name for name, key in keys.items() if key["kind"] == "number"), None)
+    if number:
+        lower = keys[number].get("lower", 0)
+        right = f"{0.5 * (lower + keys[number].get('upper', lower + 2)):.9g}"
+        yield [number], f"{subject} has no value for '{number}'" if subject == BED else f"{subject}, keyword '{number}' has no value"
+        yield [number, right, number, right], f"{subject}, keyword '{number}' is given twice"
+        yield [number, "nan"], f"{subject}, keyword '{number}' is nan", "it is: "
 
 
 def styles(table, furrow):
     """Lines of a script with one fault each."""
     declared = json.loads(run([furrow, "--keys"], table.folder).text)
     unusual_soils(table, furrow, declared)
+    lines = [(subject, BOX, subject.replace("fix ", "fix x all ").removeprefix("command "), keys)
+             for subject, keys in declared.items() if subject not in OTHERS | {BED} and keys]
+    for script in sorted((INPUTS / "beds").glob("*.lig")):  # a bed stands before the box
+        own = {name: key for name, key in declared[BED].items() if name == "depth" or name != "script" and script.stem == "sand"}
+        lines.append((BED, "", f"bed {script}", {**own, **bed_keys(script)}))
     tested = 0
-    for subject, keys in declared.items():
-        kind, _, style = subject.partition(" ")
-        if subject in OTHERS | FIRST or not keys:
-            continue
-        start = f"fix x all {style}" if kind == "fix" else style
-        cases = [([UNKNOWN, "1"], f"{subject} has no keyword '{UNKNOWN}'")]
-        for name, key in keys.items():
-            if len(name) > 4:
-                cases.append(([name[:-1], "1"], f"{subject} has no keyword '{name[:-1]}'", "did you mean"))
-            for values, problem in wrong_values(key, in_script=True):
-                cases.append(([name, *values], f"{subject}, keyword '{name}'", problem, "it is: "))
-        missing = [name for name, key in keys.items() if key["required"]]
-        if missing:
-            cases.append(([], f"{subject}, keyword '{missing[0]}' is missing", "it is: "))
-        for words, *texts in cases:
+    for subject, head, start, keys in lines:
+        for words, *texts in faulty_lines(subject, keys):
             line = " ".join([start, *words])
-            said = run_script(furrow, table.folder, f"{BOX}{line}\n")
-            table.check(line, said, 1, *texts, "; allowed: ", f"/script.lig, line {LINES + 1}: {line}")
+            said = run_script(furrow, table.folder, f"{head}{line}\n")
+            table.check(line, said, 1, *texts, "; allowed: ", f"/script.lig, line {head.count(chr(10)) + 1}: {line}")
             tested += 1
-    table.expect("styles", tested > 500, f"{tested} lines only")
+    table.expect("styles", tested > 1000, f"{tested} lines only")
 
 
 class Answers:
@@ -132,7 +155,7 @@ class Answers:
 def examples(point, folder):
     """A material of each law: sections with effective values."""
     found = {}
-    for file in sorted((SOURCE / "inputs" / "materials").rglob("*.yaml")):
+    for file in sorted((INPUTS / "materials").rglob("*.yaml")):
         if file.parent.name == "contact":
             continue
         content = json.loads(run([point, "show", file, "--json"], folder).text)
@@ -142,8 +165,7 @@ def examples(point, folder):
         "elasticity": {"type": "linear", "E": 1e7, "nu": 0.3},
     })
     found.setdefault("elastic", {
-        "law": {"type": "elastic", "density": 1500},
-        "elasticity": {"type": "linear", "E": 1e7, "nu": 0.3},
+        "law": {"type": "elastic", "density": 1500}, "elasticity": {"type": "linear", "E": 1e7, "nu": 0.3},
     })
     return found
 
@@ -200,7 +222,7 @@ def tyres(table, tyre):
     """Each key of a tyre file of each kind, of another type or unknown."""
     tested = 0
     for name in ("p235_75r15", "p235_75r15_lugged"):
-        content = yaml.safe_load((SOURCE / "inputs" / "tyres" / f"{name}.yaml").read_text())
+        content = yaml.safe_load((INPUTS / "tyres" / f"{name}.yaml").read_text())
         for section, values in content.items():
             if not isinstance(values, dict):
                 continue

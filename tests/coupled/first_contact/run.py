@@ -5,16 +5,15 @@
     run.py friction <furrow>  a contact line without values takes those of the material file
 """
 
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import h5py
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import INPUTS, columns, script_output
 
 HERE = Path(__file__).resolve().parent
-MATERIALS = HERE.parents[2] / "inputs" / "materials"
+MATERIALS = INPUTS / "materials"
 GAPS = (0.001, 0.01, 0.05, 0.1)  # [m]
 SAME = 0.02  # of the hub drop at rest
 LOAD = 600.0  # [N]
@@ -28,15 +27,8 @@ def run(furrow: str, **variables: object) -> tuple[dict[str, list[float]], str]:
         folder = Path(name)
         script = (HERE / "wheel.lig").read_text().replace("MATERIALS", str(MATERIALS))
         (folder / "wheel.lig").write_text(script)
-        words = [furrow, "-in", "wheel.lig", "-log", "none"]
-        for key, value in variables.items():
-            words += ["-var", key, str(value)]
-        done = subprocess.run(words, cwd=folder, text=True, stdin=subprocess.DEVNULL, timeout=280, env=os.environ,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        if done.returncode != 0:
-            sys.exit(f"{variables}: status {done.returncode}:\n{done.stdout[-3000:]}")
-        with h5py.File(folder / "results" / "history.h5") as file:
-            return {key: list(column[()]) for key, column in file["history"].items()}, done.stdout
+        said = script_output(furrow, "wheel.lig", folder, seconds=280, **variables)
+        return {key: list(column) for key, column in columns(folder / "results" / "history.h5").items()}, said
 
 
 def expect(what: str, holds: bool) -> None:

@@ -7,14 +7,14 @@ inputs/crosscheck/wheel_continuum.lig.
     run.py <furrow> <folder of the script>
 """
 
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import h5py
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import columns, script_output
 
 CELL, LENGTH, FINE, DISTANCE, LOAD = 0.08, 3.2, 0.65, 1.2, 3120.0  # [m], [N]
 STEADY = 0.4            # of the rows, the last ones
@@ -23,19 +23,12 @@ HUB_DROP, FORCE = 0.03, 0.02  # allowed: of the hub drop; of the load
 
 def roll(furrow, scripts, folder, keywords):
     """@return steady means of the history, columns of the terrain's history"""
-    variables = {"here": scripts, "results": folder, "cell": CELL, "length": LENGTH, "distance": DISTANCE, "load": LOAD, "slip": 0.1,
-                 "scheme": f"growth 1.3 {keywords}"}
-    words = [str(word) for pair in variables.items() for word in ("-var", *pair)]
-    done = subprocess.run([furrow, "-in", scripts / "wheel_continuum.lig", "-log", "none", *words], cwd=scripts, text=True,
-                          stdin=subprocess.DEVNULL, capture_output=True, timeout=500, env=os.environ)
-    if done.returncode:
-        sys.exit(f"the script stopped:\n{(done.stdout + done.stderr)[-3000:]}")
-    with h5py.File(folder / "history.h5") as file:
-        rows = {name: file["history"][name][:] for name in ("hub_drop", "drawbar_pull", "drive_torque")}
-    with h5py.File(folder / "terrain.h5") as file:
-        terrain = {name: file["history"][name][:] for name in ("particles", "travelled", "residual", "contact_work", "load_work")}
+    script_output(furrow, scripts / "wheel_continuum.lig", folder, here=scripts, results=folder, cell=CELL, length=LENGTH,
+                  distance=DISTANCE, load=LOAD, slip=0.1, scheme=f"growth 1.3 {keywords}")
+    rows = columns(folder / "history.h5")
     steady = slice(-int(STEADY * len(rows["hub_drop"])), None)
-    return {name: values[steady].mean() for name, values in rows.items()}, terrain
+    means = {name: rows[name][steady].mean() for name in ("hub_drop", "drawbar_pull", "drive_torque")}
+    return means, columns(folder / "terrain.h5")
 
 
 def main(furrow, scripts):

@@ -10,17 +10,18 @@ does not change: what differs, a number with a unit in the program has done.
 A wheel with its lunar load on the Earth is not scaled: it sinks less and pulls more than on the Moon.
 """
 
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import h5py
 import numpy as np
 import yaml
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import INPUTS, columns, script_output
+
 HERE = Path(__file__).resolve().parent
-SAND = HERE.parents[2] / "inputs" / "materials" / "dry_sand_smooth.yaml"
+SAND = INPUTS / "materials" / "dry_sand_smooth.yaml"
 EARTH, MOON = 9.80665, 1.62  # [m/s^2]
 ROUNDING = 1e-9  # of the largest value
 
@@ -39,20 +40,14 @@ def material(path, stress):
 
 def run(furrow, folder, name, length, gravity, stress, share=1.0):
     material(folder / f"{name}.yaml", stress)
-    words = {"results": name, "material": f"{name}.yaml", "L": length, "gravity": gravity, "share": share}
-    command = [furrow, "-in", HERE / "wheel.lig", "-log", "none"]
-    for key, value in words.items():
-        command += ["-var", key, str(folder / value) if key in ("results", "material") else repr(value)]
-    done = subprocess.run(list(map(str, command)), cwd=folder, stdin=subprocess.DEVNULL, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=500)
-    if done.returncode:
-        sys.exit(f"{name}: status {done.returncode}\n{done.stdout[-3000:]}")
+    script_output(furrow, HERE / "wheel.lig", folder, results=folder / name, material=folder / f"{name}.yaml", L=length,
+                  gravity=gravity, share=share)
     time = np.sqrt(length / gravity)
     weight = 10.0 * share * length**3 * gravity
     scale = {"time": time, "hub_drop": length, "x": length, "force_x": weight, "force_z": weight,
              "drive_torque": weight * length, "contact_work": weight * length, "slip": 1.0}
-    with h5py.File(folder / name / "history.h5") as file:
-        return {key: file["history"][key][()] / factor for key, factor in scale.items()}
+    history = columns(folder / name / "history.h5")
+    return {key: history[key] / factor for key, factor in scale.items()}
 
 
 def steady(history):

@@ -15,14 +15,14 @@ standard errors of their difference, and the sinkage by what the load of the oth
 
 import json
 import math
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import h5py
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import columns, script_output
 
 HERE = Path(__file__).resolve().parent
 COVERAGE = 3.0  # standard errors
@@ -35,29 +35,12 @@ LOADS = {"": 40.0, "rear": 30.0}  # of sand_axles.lig [N]
 LOAD_ERROR = 0.1  # of the load: the mean over a short way
 QUANTITIES = ("hub_drop", "resistance_coefficient")
 # variables by which a run continues from a checkpoint
-CONTINUED = {"sand": lambda file: ("from", file), "sand_axles": lambda file: ("from", file),
-             "snow": lambda file: ("continued", "1")}
+CONTINUED = {"sand": lambda file: {"from": file}, "sand_axles": lambda file: {"from": file}, "snow": lambda file: {"continued": 1}}
 
 
-def run(furrow, case, folder, *variables):
-    words = [furrow, "-in", HERE / f"{case}.lig", "-log", "none"]
-    if variables:
-        words += ["-var", *variables]
-    done = subprocess.run(words, cwd=folder, text=True, stdin=subprocess.DEVNULL, timeout=500,
-                          env={**os.environ, "FURROW_CACHE": str(folder / "cache")},
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if done.returncode != 0:
-        sys.exit(f"status {done.returncode}:\n{done.stdout[-4000:]}")
-
-
-def columns(results):
-    """Columns of all wheels, by file and name."""
-    found = {}
-    for path in sorted(results.rglob("history.h5")):
-        with h5py.File(path) as file:
-            found.update({(path.parent.name, name): column[()]
-                          for name, column in file["history"].items()})
-    return found
+def histories(results):
+    """Columns of all wheels, by folder and name."""
+    return {(path.parent.name, name): column for path in sorted(results.rglob("history.h5")) for name, column in columns(path).items()}
 
 
 def summary_of(results):
@@ -73,10 +56,10 @@ def values(found):
 def check_continued(furrow, case, folder):
     """The run is there; it is continued from its checkpoint, and gives the same again."""
     results = folder / "results"
-    whole = columns(results)
+    whole = histories(results)
     (checkpoint,) = (path for path in folder.glob("checkpoint.*") if path.is_file())
-    run(furrow, case, folder, *CONTINUED[case](checkpoint.name))
-    parts = columns(results)
+    script_output(furrow, HERE / f"{case}.lig", folder, **CONTINUED[case](checkpoint.name))
+    parts = histories(results)
     assert whole.keys() == parts.keys()
     different = [name for name in whole if not np.array_equal(whole[name], parts[name])]
     assert not different, f"the run that continues has other values of {different}"
@@ -113,7 +96,7 @@ def main(case, furrow, *axles):
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
         results = folder / "results"
-        run(furrow, case, folder)
+        script_output(furrow, HERE / f"{case}.lig", folder)
         if case == "sand_axles":
             for wheel, load in LOADS.items():
                 check_wheel(results / wheel, load)

@@ -6,17 +6,17 @@ rolls on the next as on this one alone.
     run.py continuum <furrow>   continuum, soils across the travel
 """
 
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import h5py
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import INPUTS, columns, script_output
+
 HERE = Path(__file__).resolve().parent
-MATERIALS = HERE.parents[2] / "inputs" / "materials"
+MATERIALS = INPUTS / "materials"
 CARD = """gravity: 9.80665
 pressure_sinkage: {{k_c: 0, k_phi: {k_phi}, n: 1.1}}
 shear: {{c: {c}, phi: {phi}, K: 0.01}}
@@ -28,17 +28,8 @@ CHANNELS = {"field": ("hub_drop", "force_x", "force_z", "drive_torque"), "contin
 
 def roll(furrow, folder, name, ground, soil, steps):
     """Wheel -> channel -> its values."""
-    words = [furrow, "-in", HERE / "wheels.lig", "-log", "none", "-var", "continuum", str(int(ground == "continuum")), "-var", "soil", soil,
-             "-var", "results", folder / name, "-var", "steps", str(steps)]
-    done = subprocess.run(words, cwd=folder, text=True, stdin=subprocess.DEVNULL, timeout=500, env=os.environ,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if done.returncode != 0:
-        sys.exit(f"status {done.returncode}:\n{done.stdout[-4000:]}")
-    found = {}
-    for wheel in ("left", "right"):
-        with h5py.File(folder / name / wheel / "history.h5") as file:
-            found[wheel] = {channel: file["history"][channel][()] for channel in (*CHANNELS[ground], "force_z")}
-    return found
+    script_output(furrow, HERE / "wheels.lig", folder, continuum=int(ground == "continuum"), soil=soil, results=folder / name, steps=steps)
+    return {wheel: columns(folder / name / wheel / "history.h5") for wheel in ("left", "right")}
 
 
 def compare(ground, what, found, alone, last):

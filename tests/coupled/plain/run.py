@@ -9,27 +9,21 @@
         a script with a mesh without a screen, where liggghts itself breaks down
 """
 
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import h5py
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import columns, output, words_of
 
 HERE = Path(__file__).resolve().parent
 PARTS = HERE.parent / "bad_input/parts"
-TIME_LIMIT = 300  # s
 
 
 def run(command, script, folder):
-    variables = [word for name, path in (("here", HERE), ("parts", PARTS))
-                 if f"${{{name}}}" in Path(script).read_text() for word in ("-var", name, path)]
-    done = subprocess.run([*command, "-in", script, "-log", "none", *variables],
-                          cwd=folder, timeout=TIME_LIMIT, text=True,
-                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if done.returncode != 0:
-        sys.exit(f"{command} stopped with status {done.returncode}:\n{done.stdout}")
-    return done.stdout
+    text = Path(script).read_text()
+    variables = {name: path for name, path in (("here", HERE), ("parts", PARTS)) if f"${{{name}}}" in text}
+    return output([*command, "-in", script, "-log", "none", *words_of(variables)], folder, 300)
 
 
 def is_numbers(line):
@@ -71,11 +65,6 @@ def same(liggghts, furrow, script, *launcher):
         compare(*([line for line in output.splitlines() if "WARNING" in line] for output in outputs), "warnings")
 
 
-def history(folder):
-    with h5py.File(Path(folder) / "results/history.h5") as file:
-        return {name: data[:].tobytes() for name, data in file["history"].items()}
-
-
 def silent(furrow):
     with tempfile.TemporaryDirectory() as folder:
         output = run([furrow, "-screen", "none"], HERE / "moving_mesh.lig", folder)
@@ -87,10 +76,10 @@ def clear(furrow):
     with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as other:
         run([furrow], HERE / "clear.lig", one)
         run([furrow], PARTS.parent / "sound.lig", other)
-        after, alone = history(one), history(other)
+        after, alone = (columns(Path(folder) / "results/history.h5") for folder in (one, other))
         assert len(alone["time"]) > 0 and after.keys() == alone.keys()
         for name in alone:
-            assert after[name] == alone[name], f"the histories differ in {name}"
+            assert after[name].tobytes() == alone[name].tobytes(), f"the histories differ in {name}"
         print(f"{len(alone)} channels of the history agree in every bit")
 
 

@@ -3,7 +3,6 @@
 
 import os
 import signal
-import subprocess
 import sys
 import tempfile
 import threading
@@ -17,6 +16,7 @@ sys.path.insert(0, str(HERE.parent / "support"))
 
 import furrow
 import numpy as np
+from furrow_run import output, run, words_of
 from same_results import compare_arrays
 
 SCENE = HERE / "wheel.lig"
@@ -27,12 +27,9 @@ LAUNCH: list[str] = []
 
 def executable(script: Path, fails: bool = False, launch: tuple[str, ...] = (), **variables: object) -> str:
     """@return what it printed"""
-    given = [word for name, value in variables.items() for word in ("-var", name, str(value))]
-    done = subprocess.run([*launch, PROGRAM, "-in", str(script), "-log", "none", *given], text=True,
-                          capture_output=True, check=False)
-    if bool(done.returncode) != fails:
-        sys.exit(f"status {done.returncode}:\n{done.stdout}{done.stderr}")
-    return done.stdout
+    said = run([*launch, PROGRAM, "-in", script, "-log", "none", *words_of(variables)], None, 500)
+    assert bool(said.status) == fails, f"status {said.status}:\n{said.text}"
+    return said.text
 
 
 def opened(script: Path = SCENE, **variables: object) -> furrow.Simulation:
@@ -131,8 +128,7 @@ class Stepping(Case):
         with opened(results="driven") as run:
             run.step(1)
             signal.setitimer(signal.ITIMER_REAL, 0.05)
-            with self.assertRaises(KeyboardInterrupt):
-                run.run()
+            self.assertRaises(KeyboardInterrupt, run.run)
             self.assertLess(run.step_number, 500)
             run.run()
         self.assert_same("alone", "driven")
@@ -167,15 +163,13 @@ class Targets(Case):
             for wrong, text in (({"slip": 3}, "keyword 'slip' is 3"), ({"torque": 1}, "keyword 'torque' is given in mode slip"),
                                 ({"damping": 1}, "keyword 'damping' cannot change during a run; allowed: load_mass"),
                                 ({"speed": -1, "slip": 0.2}, "keyword 'speed'")):
-                with self.assertRaisesRegex(furrow.Error, text):
-                    rig.set(**wrong)
+                self.assertRaisesRegex(furrow.Error, text, rig.set, **wrong)
                 self.assertEqual(rig.targets, {"load_force": 100.0, "speed": 0.5, "slip": 0.1, "drawbar_load": 0.0})
 
     def test_summary_warns_of_targets_that_changed_in_the_cruise(self) -> None:
         with opened(results="mixed") as run:
             run.step(300)
-            with self.assertRaisesRegex(furrow.Error, "summary: the run has not ended"):
-                run.summary()
+            self.assertRaisesRegex(furrow.Error, "summary: the run has not ended", run.summary)
             run.rigs["rig"].set(slip=0.3)
             run.run()
             warnings = run.summary()["warnings"]
@@ -205,8 +199,7 @@ class Targets(Case):
             self.assertEqual(wheel.load, [0.0, 0.0, -80.0])
             run.step(1)
             self.assertEqual(wheel.constraint[2], 0.0)
-            with self.assertRaisesRegex(furrow.Error, "coordinate is 'up'; allowed: x, y, z, spin"):
-                wheel.hold("up")
+            self.assertRaisesRegex(furrow.Error, "coordinate is 'up'; allowed: x, y, z, spin", wheel.hold, "up")
         with opened(results="rigged") as run:
             with self.assertRaisesRegex(furrow.Error, "wheel 'wheel': fix rig sets z in every step"):
                 run.wheels["wheel"].prescribe("z", 0.0)
@@ -226,8 +219,7 @@ class Threads(Case):
             self.assertEqual((run.step_number, len(places)), (100, 50))
         run = opened(results="closed")
         self.in_threads([lambda: run.run(), run.close])
-        with self.assertRaisesRegex(furrow.Error, "the simulation is closed"):
-            run.step(1)
+        self.assertRaisesRegex(furrow.Error, "the simulation is closed", run.step, 1)
 
     def in_threads(self, actions: list[Callable[[], object]]) -> None:
         failures: list[BaseException] = []
@@ -261,8 +253,7 @@ class Seams(Case):
             os.mkfifo("pipe")
             for path, fault in (("pipe", "is a device or a pipe"), ("/dev/null", "is a device or a pipe"), (".", "is a folder"),
                                 ("missing/file", "lies in a folder that does not exist"), ("a\0b", "has a zero byte in its name")):
-                with self.assertRaisesRegex(furrow.Error, fault):
-                    run.write_checkpoint(path)
+                self.assertRaisesRegex(furrow.Error, fault, run.write_checkpoint, path)
             self.assertFalse(Path("missing").exists() or Path("a").exists())
             self.assertTrue(Path("pipe").is_fifo())
             run.write_checkpoint("file")
@@ -272,8 +263,7 @@ class Seams(Case):
             run.step(5)
             with self.assertWarnsRegex(UserWarning, "speed' is 7 m/s, and 'wheel' usually has at most"):
                 run.rigs["rig"].set(speed=7)
-            with self.assertRaisesRegex(furrow.Error, "speed' is 1000 m/s"):
-                run.rigs["rig"].set(speed=1000)
+            self.assertRaisesRegex(furrow.Error, "speed' is 1000 m/s", run.rigs["rig"].set, speed=1000)
             self.assertEqual(run.rigs["rig"].targets["speed"], 7)
 
     def test_suspended_wheel_continues_with_the_targets_of_python(self) -> None:
@@ -302,8 +292,7 @@ class Seams(Case):
             with furrow.Simulation(lines, variables={"here": HERE, "results": coordinate}) as run:
                 wheel = run.wheels["wheel"]
                 for command in (lambda: wheel.prescribe(coordinate, 0.1), lambda: wheel.hold(coordinate), lambda: wheel.release(coordinate)):
-                    with self.assertRaisesRegex(furrow.Error, f"fix rig sets {coordinate} in every step"):
-                        command()
+                    self.assertRaisesRegex(furrow.Error, f"fix rig sets {coordinate} in every step", command)
         lines = [line for line in whole.replace("&\n", "").splitlines() if not line.startswith(("fix             rig", "fix             out"))]
         with furrow.Simulation(lines, variables={"here": HERE, "results": "free"}) as run:
             wheel = run.wheels["wheel"]
@@ -341,8 +330,7 @@ class Arrays(Case):
         for use in (lambda: wheel.position, run.step, run.run, lambda: run.time, lambda: run.step_number,
                     lambda: run.bodies, lambda: run.grains, lambda: run.folders, run.summary, lambda: run.outputs("soil"),
                     lambda: run.variable("slip"), lambda: run.write_checkpoint("late")):
-            with self.assertRaisesRegex(furrow.Error, "the simulation is closed; open it again"):
-                use()
+            self.assertRaisesRegex(furrow.Error, "the simulation is closed; open it again", use)
         self.assertTrue(run.ended)
         run.end()
         run.close()
@@ -365,7 +353,7 @@ class Arrays(Case):
 
 
 class Checkpoints(Case):
-    def test_a_run_continues_from_a_checkpoint(self) -> None:
+    def test_a_run_continues_from_a_checkpoint_of_the_script_and_one_between_steps(self) -> None:
         executable(SCENE, here=HERE, results="alone")
         with opened(results="driven") as run:
             run.step(350)
@@ -374,13 +362,8 @@ class Checkpoints(Case):
             self.assertEqual(run.step_number, 301)
             run.run()
         self.assert_same("alone", "driven")
-
-
-    def test_a_checkpoint_is_written_between_steps(self) -> None:
-        executable(SCENE, here=HERE, results="alone")
         with opened(results="driven") as run:
-            with self.assertRaisesRegex(furrow.Error, "needs a run that has begun"):
-                run.write_checkpoint("own")
+            self.assertRaisesRegex(furrow.Error, "needs a run that has begun", run.write_checkpoint, "own")
             run.step(350)
             run.write_checkpoint("own")
         with opened(results="driven", begin="read_restart own") as run:
@@ -419,22 +402,17 @@ class Errors(Case):
         self.assertEqual(caught[0].filename, __file__)
 
     def test_wrong_arguments(self) -> None:
-        with self.assertRaisesRegex(furrow.Error, "script 'absent.lig' cannot be read"):
-            furrow.Simulation("absent.lig")
-        with self.assertRaisesRegex(furrow.Error, "has a variable 'slipp' that no line"):
-            opened(slipp=0.1)
+        self.assertRaisesRegex(furrow.Error, "script 'absent.lig' cannot be read", furrow.Simulation, "absent.lig")
+        self.assertRaisesRegex(furrow.Error, "has a variable 'slipp' that no line", opened, slipp=0.1)
         with opened(results="driven") as run:
-            with self.assertRaisesRegex(furrow.Error, "no fix of Furrow has the id 'absent'"):
-                run.outputs("absent")
-            with self.assertRaisesRegex(furrow.Error, "steps is negative"):
-                run.step(-1)
+            self.assertRaisesRegex(furrow.Error, "no fix of Furrow has the id 'absent'", run.outputs, "absent")
+            self.assertRaisesRegex(furrow.Error, "steps is negative", run.step, -1)
 
     def test_error_in_a_step_ends_the_simulation(self) -> None:
         with opened(results="driven") as run:
             run.step(300)
             run.rigs["rig"].set(load_force=1e6)
-            with self.assertRaises(furrow.Error):
-                run.run()
+            self.assertRaises(furrow.Error, run.run)
             self.assertTrue(run.ended)
             self.assertEqual(run.step(), 0)
         self.assertTrue((self.folder / "driven" / "history.h5").exists())
@@ -468,10 +446,8 @@ class Ranks(Case):
         two = (*LAUNCH, "2")
         executable(SCENE, launch=two, here=HERE, results="alone")
         (self.folder / "driver.py").write_text(RANKS, encoding="utf-8")
-        done = subprocess.run([*two, sys.executable, "driver.py", str(SCENE), str(HERE)], text=True,
-                              capture_output=True, check=False)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertIn("rank 1 of 2", done.stdout)
+        printed = output([*two, sys.executable, "driver.py", SCENE, HERE], self.folder)
+        self.assertIn("rank 1 of 2", printed)
         self.assert_same("alone", "driven")
 
 

@@ -18,13 +18,14 @@ within 1 %, and it is lost below, ahead of and beside the track.
 """
 
 import json
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import h5py
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import columns, output, script_output
 
 HERE = Path(__file__).resolve().parent
 WIDTH, DEPTH = 0.1, 0.1  # of the strip [m]
@@ -34,13 +35,6 @@ BULLDOZING = 0.08  # of the whole: the contact is long, not endless
 UNEXPLAINED = 0.01  # of the whole
 OF_THE_WORK = 0.01  # error of works on grains
 OF_THE_ROAD = 0.05  # of the whole: friction, contact, damping of the rig
-
-
-def run(folder, *words):
-    done = subprocess.run(words, cwd=folder, text=True, stdin=subprocess.DEVNULL, timeout=500,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if done.returncode != 0:
-        sys.exit(f"{words[0]}: status {done.returncode}\n{done.stdout[-4000:]}")
 
 
 def parts_of(results):
@@ -54,9 +48,7 @@ def parts_of(results):
 
 def compression_work(file, sinkage):
     """Per metre, what is not given back [N]."""
-    with h5py.File(file) as content:
-        point = {name: column[()] for name, column in content["point"].items()
-                 if name in ("axial_strain", "axial_stress", "stored_energy")}
+    point = columns(file, "point")
     shortened = 1.0 - np.exp(-point["axial_strain"])  # z/h
     stress = point["axial_stress"]
     work = np.concatenate([[0.0], np.cumsum(0.5 * (stress[1:] + stress[:-1]) * np.diff(shortened))])
@@ -67,8 +59,8 @@ def compression_work(file, sinkage):
 def strip(furrow, furrow_point):
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
-        run(folder, furrow, "-in", HERE / "strip.lig", "-log", "none")
-        run(folder, furrow_point, "run", HERE / "oedometer.yaml", "-o", folder / "point", "--no-plot")
+        script_output(furrow, HERE / "strip.lig", folder)
+        output([furrow_point, "run", HERE / "oedometer.yaml", "-o", folder / "point", "--no-plot"], folder)
         whole, parts, sinkage = parts_of(folder / "results")
         penetration = np.loadtxt(folder / "penetration.txt")[-10:].mean()
         expected = compression_work(folder / "point" / "point.h5", sinkage - penetration)
@@ -98,8 +90,7 @@ def bed(results):
     print(f"in the window grains are given {sum(given.values()):.4g} N, found among them {among:.4g} N")
     assert abs(among - sum(given.values())) <= UNEXPLAINED * whole, "places do not sum to what grains get"
     assert min(parts[f"grains, {place}"] for place in ("below the track", "ahead and aside")) > 0.05 * whole
-    with h5py.File(Path(results) / "history.h5") as file:
-        history = {name: column[()] for name, column in file["history"].items()}
+    history = columns(Path(results) / "history.h5")
     error, *given = (history[name][-1] for name in ("contact_spring_loss", "drive_work", "load_work"))
     print(f"of {sum(given):.4g} J given, {error:.3g} J are not found again")
     assert abs(error) <= OF_THE_WORK * sum(given), "works at the contacts are not the wheel's"

@@ -28,14 +28,14 @@ import tempfile
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import INPUTS, wait_until, words_of
 from same_results import compare_arrays
 
 LOOK = 0.03  # [s] between looks at a run
 PRINTED = 1e-5  # a last digit of a curve
-INPUTS = Path(__file__).resolve().parents[3] / "inputs"
 
 parser = argparse.ArgumentParser()
 parser.add_argument("--kills", type=int, default=1)
@@ -69,13 +69,15 @@ def continued_script(checkpoint: Path) -> str:
 def start(folder: Path, script: str) -> subprocess.Popen:
     (folder / "results").mkdir(parents=True, exist_ok=True)  # as inputs/run does
     (folder / "scene.lig").write_text(script)
-    given = [part for name, value in zip(variables[::2], variables[1::2])
-             for part in ("-var", name, value)]
-    return subprocess.Popen([*launch, furrow, "-in", "scene.lig", "-log", "none", "-var", "results",
-                             "results", *given], cwd=folder, stdin=subprocess.DEVNULL,
-                            env={**os.environ, "FURROW_CACHE": cache.name},
-                            stdout=open(folder / "screen.txt", "w"), stderr=subprocess.STDOUT,
-                            start_new_session=True)
+    given = words_of({"results": "results", **dict(zip(variables[::2], variables[1::2]))})
+    return subprocess.Popen([*launch, furrow, "-in", "scene.lig", "-log", "none", *given], cwd=folder, stdin=subprocess.DEVNULL,
+                            env={**os.environ, "FURROW_CACHE": cache.name}, stdout=open(folder / "screen.txt", "w"),
+                            stderr=subprocess.STDOUT, start_new_session=True)
+
+
+def stop(what: str, folder: Path) -> None:
+    """Ends the test with the last words of a run."""
+    sys.exit(f"{what}:\n{(folder / 'screen.txt').read_text()[-3000:]}")
 
 
 def finish(folder: Path, script: str) -> tuple[float, float]:
@@ -90,7 +92,7 @@ def finish(folder: Path, script: str) -> tuple[float, float]:
             prepared = time.monotonic() - began
         time.sleep(LOOK)
     if run.returncode != 0:
-        sys.exit(f"{folder.name} stopped:\n" + (folder / "screen.txt").read_text()[-3000:])
+        stop(f"{folder.name} stopped", folder)
     return prepared, time.monotonic() - began
 
 
@@ -129,11 +131,10 @@ def kill_after_checkpoint(folder: Path) -> Path | None:
     began = time.monotonic()
     run = start(folder, whole_script())
     files = [folder / "ck.1", folder / "ck.2"]
-    while not all(file.exists() for file in files) and run.poll() is None:
-        time.sleep(LOOK)
+    wait_until(lambda: all(file.exists() for file in files), run, seconds=900)
     time.sleep(random.uniform(0.0, 0.3) * (time.monotonic() - began))  # well before the end
     if run.poll() is not None:
-        sys.exit("the run ended before it was killed:\n" + (folder / "screen.txt").read_text()[-2000:])
+        stop("the run ended before it was killed", folder)
     os.killpg(run.pid, signal.SIGKILL)
     end(run)
     return newest(files)
@@ -145,7 +146,7 @@ def kill_at_any_moment(folder: Path, prepared: float, duration: float, number: i
     try:
         moment = prepared + random.uniform(0.05, 0.9) * (duration - prepared)
         if run.wait(timeout=moment) != 0:
-            sys.exit("the run stopped:\n" + (folder / "screen.txt").read_text()[-2000:])
+            stop("the run stopped", folder)
         return newest([folder / "ck.1", folder / "ck.2"])  # faster than the first: continued from its last
     except subprocess.TimeoutExpired:
         os.killpg(run.pid, number)

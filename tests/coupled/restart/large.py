@@ -4,7 +4,7 @@
     large.py <furrow> <mpirun> <-n> [<million particles>]
 
 Settling ground of 12 million particles unless said otherwise. The test fails when
-  - the memory of a rank grows by more than a tenth while the checkpoint is written,
+  - a rank that writes the checkpoint takes a tenth more memory than one that does not,
   - a checkpoint that the continued run writes has another byte in any file of particles,
   - the ground that one rank has read has other energies, by more than 1e-9 of the largest.
 It prints the memory and the sizes.
@@ -12,16 +12,18 @@ It prints the memory and the sizes.
 
 import filecmp
 import re
-import subprocess
+import resource
 import sys
 import tempfile
-import time
 from pathlib import Path
 
-MATERIAL = Path(__file__).resolve().parents[3] / "inputs/materials/fresh_snow.yaml"
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import INPUTS, output
+
+MATERIAL = INPUTS / "materials/fresh_snow.yaml"
 CELL = 0.02                 # m
 PARTICLES_IN_CELL = 8
-MEMORY_GROWTH = 0.1         # of the memory before the checkpoint
+MEMORY_GROWTH = 0.1         # of the memory of a run without a checkpoint
 TOLERANCE = 1e-9            # of the largest energy: one rank adds up in another order
 TIME_LIMIT = 3600           # s of one run
 
@@ -41,41 +43,11 @@ NEW_BOX = "processors 2 1 1\nregion box block -100 100 -100 100 -1 3 units box\n
 PRINT = "".join(f"variable e{n} equal f_soil[{n}]\n" for n in (1, 2, 3, 6)) + 'print "END ${e1} ${e2} ${e3} ${e6}"'
 
 
-def memory(session: int, program: str) -> dict[int, float]:
-    """Largest memory so far of each process of a session that runs a program [MB]."""
-    found = {}
-    for folder in Path("/proc").glob("[0-9]*"):
-        try:
-            name, rest = (folder / "stat").read_text().rpartition(")")[0::2]
-            if name.endswith(f"({Path(program).name[:15]}") and int(rest.split()[3]) == session:
-                status = (folder / "status").read_text()
-                found[int(folder.name)] = int(re.search(r"VmHWM:\s+(\d+)", status).group(1)) / 1e3
-        except (OSError, AttributeError):  # has ended
-            continue
-    return found
-
-
-def run(command: list[str], folder: Path, script: str, begun: Path | None = None) -> tuple[str, list[float], list[float]]:
-    """@param begun  its first file tells that the checkpoint is being written
-    @return what it printed, and the memory of the ranks before and at the end [MB]"""
+def run(command: list[str], folder: Path, script: str) -> tuple[str, float]:
+    """Output of a run, and the largest memory of a process of this and all former runs [MB]."""
     (folder / "script.lig").write_text(script)
-    with open(folder / "screen.txt", "w+") as screen:
-        process = subprocess.Popen([*command, "-in", "script.lig", "-log", "none"], cwd=folder, stdin=subprocess.DEVNULL,
-                                   stdout=screen, stderr=subprocess.STDOUT, start_new_session=True)
-        began, before, after = time.monotonic(), {}, {}
-        while process.poll() is None:
-            if time.monotonic() - began > TIME_LIMIT:
-                process.kill()
-            now = memory(process.pid, command[-1])
-            after.update(now)
-            if begun is None or not begun.exists():
-                before.update(now)
-            time.sleep(0.1)
-        screen.seek(0)
-        text = screen.read()
-    if process.returncode != 0:
-        sys.exit(f"status {process.returncode}:\n{text[-3000:]}")
-    return text, sorted(before.values()), sorted(after.values())
+    text = output([*command, "-in", "script.lig", "-log", "none"], folder, TIME_LIMIT)
+    return text, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e3
 
 
 def energies(text: str) -> list[float]:
@@ -92,25 +64,26 @@ def main(furrow: str, mpirun: str, number: str, millions: str = "12") -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         particles = folder / "large.particles"
-        text, before, after = run(two, folder, script(NEW_BOX, f"run 2\n{PRINT}\nwrite_restart large"), particles)
+        _, before = run(two, folder, script(NEW_BOX, f"run 2\n{PRINT}"))
+        text, after = run(two, folder, script(NEW_BOX, f"run 2\n{PRINT}\nwrite_restart large"))
         whole = energies(text)
         files = sorted(particles.iterdir())
         size = sum(file.stat().st_size for file in files)
         print(f"{whole[0]:.0f} particles: {size / 1e9:.3f} GB in {len(files)} files, {size / whole[0]:.1f} bytes a particle; "
               f"restart file {(folder / 'large').stat().st_size / 1e9:.3f} GB")
-        print("memory of a rank [MB]: before the checkpoint", *before, "and at its end", *after, flush=True)
+        print(f"memory of a rank [MB]: without a checkpoint {before:.0f} and with one {after:.0f}", flush=True)
         assert whole[0] > 0.99e6 * float(millions) and len(files) == 2
         assert size > 2**31 or float(millions) < 12, "the checkpoint is no larger than a record of LIGGGHTS can be"
-        assert max(after) < (1 + MEMORY_GROWTH) * max(before), "the checkpoint takes the memory of a rank"
+        assert after < (1 + MEMORY_GROWTH) * before, "the checkpoint takes the memory of a rank"
 
-        text, _, read = run(two, folder, script("read_restart large", f"write_restart again\nrun 0\n{PRINT}"))
-        print("memory of a rank that reads it [MB]:", *read, flush=True)
+        _, read = run(two, folder, script("read_restart large", f"write_restart again\nrun 0\n{PRINT}"))
+        print(f"memory of a rank in these runs and in one that reads it [MB]: {read:.0f}", flush=True)
         again = sorted((folder / "again.particles").iterdir())
         for one, other in zip(files, again, strict=True):
             assert one.suffix == other.suffix and filecmp.cmp(one, other, shallow=False), f"{other} is not {one}"
         for file in again:
             file.unlink()
-        text, _, _ = run([furrow], folder, script("read_restart large", f"run 0\n{PRINT}"))
+        text, _ = run([furrow], folder, script("read_restart large", f"run 0\n{PRINT}"))
         alone = energies(text)
         largest = max(map(abs, whole[1:]))
         print("energies of two ranks", *whole[1:], "and of one", *alone[1:])

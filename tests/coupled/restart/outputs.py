@@ -9,13 +9,14 @@ outputs of fixes must agree, from the first row on. So must the history, where t
 """
 
 import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import h5py
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import columns, script_output
 
 HERE = Path(__file__).resolve().parent
 CHECKPOINT = 1000  # step
@@ -23,21 +24,13 @@ CHECKPOINT = 1000  # step
 
 def run(furrow, folder, script, **variables):
     """@return the rows of the thermo output by their step"""
-    folder.mkdir(exist_ok=True)
-    words = [word for pair in {"here": HERE, **variables}.items() for word in ("-var", *map(str, pair))]
-    done = subprocess.run([furrow, "-in", HERE / script, "-log", "none", *words], cwd=folder,
-                          timeout=400, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if done.returncode != 0:
-        sys.exit(f"{script} stopped with status {done.returncode}:\n{done.stdout[-4000:]}")
-    return {int(row.split()[0]): row.split() for row in re.findall(r"^ *\d+(?: +-?[\d.]\S*)+ *$", done.stdout, flags=re.M)}
+    said = script_output(furrow, HERE / script, folder, here=HERE, **variables)
+    return {int(row.split()[0]): row.split() for row in re.findall(r"^ *\d+(?: +-?[\d.]\S*)+ *$", said, flags=re.M)}
 
 
 def history(folder):
     file = folder / "results/history.h5"
-    if not file.exists():
-        return {}
-    with h5py.File(file) as content:
-        return {name: data[:] for name, data in content["history"].items()}
+    return columns(file) if file.exists() else {}
 
 
 def continue_run(furrow, scene, check, **variables):

@@ -22,17 +22,16 @@ them over these 2000 steps, and none for a missing state: without the forces of 
 step the difference was 1e-2.
 """
 
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import h5py
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import columns, script_output
+
 HERE = Path(__file__).resolve().parent
-TIME_LIMIT = 500  # s of one run
 ROUNDING = 1e-9   # of the largest value of a channel
 
 # options of the script, ranks before and after the checkpoint, tolerance, script
@@ -49,26 +48,8 @@ CASES = {
 }
 
 
-class Runner:
-    def __init__(self, furrow, mpirun, folder, options):
-        self.furrow, self.mpirun, self.folder, self.options = furrow, mpirun, folder, options
-
-    def __call__(self, part, script="wheel", ranks=1, **more):
-        folder = self.folder / part
-        folder.mkdir(exist_ok=True)
-        launcher = [*self.mpirun, str(ranks)] if ranks > 1 else []
-        variables = {"here": HERE, **self.options, **more}
-        words = [word for pair in variables.items() for word in ("-var", *map(str, pair))]
-        done = subprocess.run([*launcher, self.furrow, "-in", HERE / f"{script}.lig", "-log", "none", *words], cwd=folder,
-                              env={**os.environ, "FURROW_CACHE": str(self.folder / "cache")}, timeout=TIME_LIMIT,
-                              text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        if done.returncode != 0:
-            sys.exit(f"{part} stopped with status {done.returncode}:\n{done.stdout[-4000:]}")
-
-
 def history(folder):
-    with h5py.File(folder / "results/history.h5") as file:
-        return {name: data[:] for name, data in file["history"].items()}
+    return columns(folder / "results/history.h5")
 
 
 def difference(one, other):
@@ -82,18 +63,22 @@ def main(case, furrow, *mpirun):
     options, before, after, tolerance, script = CASES[case]
     checkpoint = options.get("checkpoint", 12000)
     with tempfile.TemporaryDirectory() as folder:
-        run = Runner(furrow, mpirun, Path(folder), options)
-        run("whole", script, ranks=before)
+        whole, parts = Path(folder) / "whole", Path(folder) / "parts"
+
+        def run(part, script, ranks, **more):
+            launcher = [*mpirun, ranks] if ranks > 1 else []
+            script_output(furrow, HERE / f"{script}.lig", part, launcher, cache=f"{folder}/cache", here=HERE, **options, **more)
+
+        run(whole, script, before)
         # The first part goes on beyond its checkpoint, as a run does that is killed: those rows must
         # be dropped.
-        run("parts", script, ranks=before, until=checkpoint + 500)
-        assert len(history(Path(folder) / "parts")["time"]) < len(history(Path(folder) / "whole")["time"])
-        run("parts", "wheel" if script == "two_runs" else script, ranks=after, **{"from": f"checkpoint.{checkpoint}"})
-
-        whole, parts = Path(folder) / "whole", Path(folder) / "parts"
-        largest = difference(history(whole), history(parts))
-        worst = max(largest, key=largest.get)
+        run(parts, script, before, until=checkpoint + 500)
         moving = history(whole)
+        assert len(history(parts)["time"]) < len(moving["time"])
+        run(parts, "wheel" if script == "two_runs" else script, after, **{"from": f"checkpoint.{checkpoint}"})
+
+        largest = difference(moving, history(parts))
+        worst = max(largest, key=largest.get)
         print(f"{case}: {len(moving['time'])} rows, largest difference {largest[worst]:.1e} of the largest {worst}")
         assert np.ptp(moving["x"]) > 0.01 and moving["force_z"].max() > 5.0, "the wheel does not roll on the bed"
         assert largest[worst] <= tolerance, f"differences: { {k: v for k, v in largest.items() if v > tolerance} }"

@@ -16,12 +16,14 @@ frozen and counted (variants of plane).
 
 import os
 import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import script_output
 
 HERE = Path(__file__).resolve().parent
 TIME_LIMIT = 250  # s; on a busy machine ranks wait for each other in every step
@@ -49,13 +51,8 @@ def run(furrow, mpirun, folder, ranks, load, **more):
     folder.mkdir(exist_ok=True)
     write_floor(folder / "floor.stl")
     variables = {"here": HERE, "load": load, **VARIABLES[load], **more}
-    words = [word for pair in variables.items() for word in ("-var", *map(str, pair))]
-    done = subprocess.run([*mpirun, str(ranks), furrow, "-in", HERE / "crushed.lig", "-log", "none", *words],
-                          cwd=folder, timeout=TIME_LIMIT, text=True, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if done.returncode != 0:
-        sys.exit(f"{folder.name} stopped with status {done.returncode}:\n{done.stdout[-4000:]}")
-    (folder / "screen.txt").write_text(done.stdout)
+    said = script_output(furrow, HERE / "crushed.lig", folder, [*mpirun, ranks], TIME_LIMIT, **variables)
+    (folder / "screen.txt").write_text(said)
     return np.loadtxt(folder / "grains.txt", skiprows=9), (folder / "bonds.txt").read_text()
 
 
@@ -93,8 +90,7 @@ def same(furrow, mpirun, folder):
     plane, mesh = (run(furrow, mpirun, folder / load, 1, load) for load in ("plane", "mesh"))
     check_that_it_happens(*plane)
     compare("mesh and plane", plane, mesh, ROUNDING)
-    compare("LIGGGHTS's loop", *(run(furrow, mpirun, folder / load, 1, load)
-                                 for load in ("frozen", "counted")), 0.0)
+    compare("LIGGGHTS's loop", *(run(furrow, mpirun, folder / load, 1, load) for load in ("frozen", "counted")), 0.0)
     os.environ["FURROW_ISA"] = "baseline"
     compare("without AVX2", plane, run(furrow, mpirun, folder / "baseline", 1, "plane"), 0.0)
 

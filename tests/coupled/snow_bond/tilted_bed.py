@@ -8,23 +8,20 @@ it a little, its lowest clusters may roll. Frozen to the ground by its base it s
 """
 
 import math
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import INPUTS, script_output
+
 HERE = Path(__file__).resolve().parent
-BEDS = HERE.parents[2] / "inputs" / "beds"
 GRAVITY, FRICTION, SLOPE, TIME = 9.80665, 0.3, math.radians(25), 0.05
 
 
 def speed_downhill(furrow, folder, base):
     """Clusters of the frozen base, mean speed [m/s], level of the bed [m]."""
-    words = ["-var", "beds", BEDS, "-var", "base", str(base), "-log", "none"]
-    done = subprocess.run([furrow, "-in", HERE / "tilted_bed.lig", *words], cwd=folder, timeout=200, text=True,
-                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if done.returncode != 0:
-        sys.exit(f"stopped with status {done.returncode}:\n{done.stdout[-4000:]}")
+    script_output(furrow, HERE / "tilted_bed.lig", folder, seconds=200, beds=INPUTS / "beds", base=base)
     _, frozen, _, downhill, _, level = (folder / "slope.txt").read_text().split()
     return int(float(frozen)), float(downhill), float(level)
 

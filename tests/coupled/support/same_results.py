@@ -14,9 +14,7 @@ def largest(values: np.ndarray) -> float:
     return float(np.nanmax(np.abs(values), initial=0.0))
 
 
-def numbers(
-    folder: Path, groups: tuple[str, ...] = GROUPS
-) -> tuple[dict[str, np.ndarray], dict[str, float]]:
+def numbers(folder: Path, groups: tuple[str, ...] = GROUPS) -> tuple[dict[str, np.ndarray], dict[str, float]]:
     """Arrays by name, and the largest value of their unit: of a force component that is zero but
     for rounding, that of all forces."""
     found: dict[str, np.ndarray] = {}
@@ -34,11 +32,7 @@ def numbers(
 
 
 def compare_arrays(
-    one: Path,
-    other: Path,
-    tolerance: float,
-    groups: tuple[str, ...] = GROUPS,
-    but: tuple[str, ...] = (),
+    one: Path, other: Path, tolerance: float, groups: tuple[str, ...] = GROUPS, but: tuple[str, ...] = (),
 ) -> int:
     """Compares two folders of results; ends the program where they differ.
 

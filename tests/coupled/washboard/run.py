@@ -9,13 +9,14 @@ axle follows the washboard, which stays. On sand that yields the wheel levels it
 and troughs higher after the pass, and the force swings less.
 """
 
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import h5py
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from furrow_run import columns, script_output
 
 WAVELENGTH, AMPLITUDE, SPEED = 0.5, 0.012, 2.0  # [m], [m], [m/s]
 UNSPRUNG, SPRUNG = 10.0, 20.0  # of the scene with mass 30 [kg]
@@ -32,16 +33,10 @@ def roll(furrow, scene, material, folder, modulus_scale):
     variables = {"continuum": 1, "material": material, "results": folder, "speed": SPEED, "mass": UNSPRUNG + SPRUNG,
                  "stiffness": SPRING, "damping": DAMPER, "relief": f"washboard {WAVELENGTH} {AMPLITUDE} flat_until {BEGINS}",
                  "cell": CELL, "depth": 4 * CELL, "ground_width": 0.1, "distance": DISTANCE, "modulus_scale": modulus_scale, "vtk": 0}
-    words = [str(word) for pair in variables.items() for word in ("-var", *pair)]
-    done = subprocess.run([furrow, "-in", scene, "-log", "none", *words], capture_output=True, text=True, timeout=300)
-    if done.returncode:
-        sys.exit(f"the scene stopped:\n{(done.stdout + done.stderr)[-3000:]}")
-    with h5py.File(folder / "history.h5") as file:
-        history = {name: file["history"][name][:] for name in ("x", "z", "sprung_drop", "force_z")}
-    with h5py.File(folder / "terrain.h5") as file:
-        points = file["rut/x"][:]
+    script_output(furrow, Path(scene).resolve(), folder, seconds=300, **variables)
+    points = columns(folder / "terrain.h5", "rut")["x"]
     x = np.unique(points[:, 0])
-    return history, x, np.array([points[points[:, 0] == place, 2].mean() for place in x])
+    return columns(folder / "history.h5"), x, np.array([points[points[:, 0] == place, 2].mean() for place in x])
 
 
 def wave(x, values):

@@ -4,11 +4,8 @@
 import math
 import unittest
 
-from furrow_post.csv_table import read_rows
-from support.evaluation import VALIDATION, evaluation
+from support.evaluation import evaluation, stored
 
-
-FOLDER = VALIDATION / "cmu_sand"
 study = evaluation("cmu_sand")
 GOAL = 0.10  # rms of Fx/Fz
 
@@ -26,50 +23,38 @@ class FrameTest(unittest.TestCase):
 
 
 class PageTest(unittest.TestCase):
-    def setUp(self) -> None:
-        accuracy = read_rows(FOLDER / "accuracy.csv")
-        self.rms = {
-            (row["ground"], float(row["size_mm"])): float(row["rms_fx_over_fz"]) for row in accuracy
-        }
-        limits = read_rows(FOLDER / "best_estimates.csv")
-        self.limits = {(row["ground"], row["slip"]): row for row in limits}
-
     def test_grains_leave_the_measurement_as_they_become_finer(self) -> None:
-        rms = [self.rms["grains", size] for size in (10.0, 8.0, 6.0, 0.0)]
-        self.assertEqual(rms, sorted(rms))
-        self.assertGreater(rms[-1], GOAL)
+        rms = stored("cmu_sand", "accuracy").set_index(["ground", "size_mm"])["rms_fx_over_fz"]["grains"]
+        self.assertTrue(rms[[10.0, 8.0, 6.0, 0.0]].is_monotonic_increasing)
+        self.assertGreater(rms[0.0], GOAL)
 
     def test_the_law_of_the_smooth_wheel_meets_grousers_with_six_mm_alone(self) -> None:
-        rows = read_rows(FOLDER / "grousers_accuracy.csv")
+        rows = stored("cmu_sand", "grousers_accuracy")
         points = [p for p in study.MEASURED if p["kind"] == "grouser" and -0.55 < p["slip"] < 0.8]
-        self.assertTrue(all(int(row["slips"]) == len(points) for row in rows))
-        rms = {float(row["size_mm"]): float(row["rms_fx_over_fz"]) for row in rows}
+        self.assertTrue((rows["slips"] == len(points)).all())
+        rms = rows.set_index("size_mm")["rms_fx_over_fz"]
         self.assertLess(rms[8.0], rms[10.0])
         self.assertGreater(rms[8.0], GOAL)
         self.assertLessEqual(rms[6.0], GOAL)
 
     def test_with_coarse_grains_lateral_force_follows_their_strength_alone(self) -> None:
-        sideways = [row for row in read_rows(FOLDER / "grounds.csv") if row["fy_over_fz"]]
-        strong = [row for row in sideways if "rolling" in row["ground"]]
-        self.assertEqual(len(strong), 1)
-        weak = [float(row["fy_over_fz"]) for row in sideways if row not in strong]
+        sideways = stored("cmu_sand", "grounds").dropna(subset="fy_over_fz")
+        is_strong = sideways["ground"].str.contains("rolling")
+        weak, (strong,) = sideways["fy_over_fz"][~is_strong], sideways["fy_over_fz"][is_strong]
         self.assertGreater(len(weak), 6)
-        self.assertLess(max(weak) - min(weak), 0.11)
-        self.assertGreater(float(strong[0]["fy_over_fz"]), max(weak) + 0.11)
+        self.assertLess(weak.max() - weak.min(), 0.11)
+        self.assertGreater(strong, weak.max() + 0.11)
 
     def test_sixteen_grains_in_the_width_have_less_lateral_force_than_five(self) -> None:
-        rows = read_rows(FOLDER / "slip_angle.csv")
-        mine = [row for row in rows if row["ground"] == "grains, rolling friction 0.35"]
-        finest = max(mine, key=lambda row: float(row["grains_in_width"]))
-        self.assertGreaterEqual(float(finest["grains_in_width"]), 16.0)
-        coarse = [row for row in mine if row["size_mm"] == "10.0"]
+        mine = stored("cmu_sand", "slip_angle").query("ground == 'grains, rolling friction 0.35'")
+        finest = mine.loc[mine["grains_in_width"].idxmax()]
+        self.assertGreaterEqual(finest["grains_in_width"], 16.0)
+        coarse = mine.query("size_mm == 10")["fy_over_fz"]
         self.assertEqual(len(coarse), 2)
-        for row in coarse:
-            self.assertLess(float(finest["fy_over_fz"]), float(row["fy_over_fz"]))
-        limits = {row["ground"]: row for row in read_rows(FOLDER / "slip_angle_best_estimates.csv")}
-        fitted, stronger = (limits[f"grains, rolling friction {law}"] for law in ("0.35", "0.5"))
-        apart = float(stronger["fy_over_fz"]) - float(fitted["fy_over_fz"])
-        self.assertLess(abs(apart), float(stronger["fy_over_fz_error"]))
+        self.assertLess(finest["fy_over_fz"], coarse.min())
+        limits = stored("cmu_sand", "slip_angle_best_estimates").set_index("ground")
+        fitted, stronger = (limits.loc[f"grains, rolling friction {law}"] for law in ("0.35", "0.5"))
+        self.assertLess(abs(stronger["fy_over_fz"] - fitted["fy_over_fz"]), stronger["fy_over_fz_error"])
 
 
 if __name__ == "__main__":

@@ -39,9 +39,7 @@ class TrackTest(unittest.TestCase):
         before = SimpleNamespace(x=x, radius=np.full(len(x), SIZE / 2))
         x = rolled_over(x) - [0, 0, DEPTH]
         clusters = np.ones(len(x))
-        points = GroundPoints(
-            x, BULK * SIZE**3 * clusters, np.pi / 6 * SIZE**3 * clusters, SIZE * clusters, True
-        )
+        points = GroundPoints(x, BULK * SIZE**3 * clusters, np.pi / 6 * SIZE**3 * clusters, SIZE * clusters, True)
         numbers = {"density": bulk, "depth": DEPTH, "wheel_width": 2 * SIDE}
         run = SimpleNamespace(
             ground=ground,
@@ -67,10 +65,8 @@ class TrackTest(unittest.TestCase):
         self.assertRegex(ahead, "ahead +[+-]0 mm risen")
 
     def test_refuses_what_has_no_density_of_clusters(self) -> None:
-        with self.assertRaisesRegex(ResultsError, "its ground is no grains"):
-            self.report("continuum")
-        with self.assertRaisesRegex(ResultsError, "did not measure its density"):
-            self.report(bulk=math.nan)
+        self.assertRaisesRegex(ResultsError, "its ground is no grains", self.report, "continuum")
+        self.assertRaisesRegex(ResultsError, "did not measure its density", self.report, bulk=math.nan)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from unittest import mock
 import numpy as np
 
 from support.command import SOURCE
-from support.laboratory import cell_rows, triaxial_stress, write_test
+from support.laboratory import axisymmetric, write_cell
 
 sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
 
@@ -30,19 +30,13 @@ TASK: dict[str, Any] = {
     "ground": "snow_bonded",
     "variables": {"grains": 100},
     "parameters": {
-        "crush_strength": [1.6e3, 1e2, 1e5],
-        "tensile_strength": [0.7, 0.1, 10],
-        "shear_strength": [0.7, 0.1, 10],
+        "crush_strength": [1.6e3, 1e2, 1e5], "tensile_strength": [0.7, 0.1, 10], "shear_strength": [0.7, 0.1, 10],
     },
     "seeds": [86028121],
     "tests": [
         {
-            "test": "oedometer",
-            "variables": {"stress": 1.1e6},
-            "reference": "reference.csv",
-            "lowest": 1e3,
-            "highest": 1e6,
-            "deviation": 0.1,
+            "test": "oedometer", "variables": {"stress": 1.1e6}, "reference": "reference.csv",
+            "lowest": 1e3, "highest": 1e6, "deviation": 0.1,
         },
         {"test": "tension", "quantities": {"tensile_strength": [CRUSH * TENSILE, 200]}},
     ],
@@ -66,15 +60,12 @@ def make_run(case: Any, folder: Path, scatters: bool) -> None:
     crush, tensile = values["crush_strength"], values["tensile_strength"]
     crush *= scatter_of(values, case.variables["seed"]) if scatters else 1.0
     if folder.name.endswith("1"):
-        strain = np.linspace(0, 1.2, 400)
-        stress = triaxial_stress(0.0, axial(crush, strain))
+        test, strain = "oedometer", np.linspace(0, 1.2, 400)
+        stress = axial(crush, strain)
     else:
-        strain = -np.linspace(0, 0.02, 400)
-        stress = triaxial_stress(0.0, -crush * tensile * np.minimum(-strain / 0.01, 1.0))
-    cell = np.column_stack((0 * strain, 0 * strain, strain))
-    test = "oedometer" if folder.name.endswith("1") else "tension"
-    rows = cell_rows(cell, stress, INITIAL * np.exp(strain))
-    write_test(folder, f"test {test} ground made", rows)
+        test, strain = "tension", -np.linspace(0, 0.02, 400)
+        stress = -crush * tensile * np.minimum(-strain / 0.01, 1.0)
+    write_cell(folder, test, axisymmetric(0, strain), axisymmetric(0, stress), INITIAL * np.exp(strain))
 
 
 class Made:
@@ -96,6 +87,8 @@ class Made:
 
 
 class Scattering(Made):
+    """Stands for the Executor of runs that scatter."""
+
     scatters = True
 
 

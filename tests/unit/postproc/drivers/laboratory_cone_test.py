@@ -12,7 +12,7 @@ from furrow_post.laboratory.evaluation import values_of
 from furrow_post.read.laboratory import LaboratoryTest
 from support.command import SOURCE
 from support.folder import FolderTest
-from support.laboratory import cell_rows, write_test
+from support.laboratory import write_cell
 
 sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
 
@@ -27,9 +27,8 @@ class ConeTest(FolderTest):
         """From the smallest stress to those at the end, at constant q/p from a tenth on."""
         driven = np.linspace(0, 0.2, 400)[:, None]
         stress = end.min() + (end - end.min()) * np.minimum(driven / 0.02, 1)
-        facts = f"test {kind} ground made confinement {end.min():g}"
-        rows = cell_rows(driven * strain, stress)
-        return LaboratoryTest(write_test(self.folder / f"{kind}_{end.min():g}", facts, rows))
+        folder = self.folder / f"{kind}_{end.min():g}"
+        return LaboratoryTest(write_cell(folder, kind, driven * strain, stress, confinement=f"{end.min():g}"))
 
     def of_all_kinds(self, smallest: float) -> list[LaboratoryTest]:
         compression = smallest * TANGENT / (1 - TANGENT / 3)
@@ -39,23 +38,12 @@ class ConeTest(FolderTest):
         b = plane.intermediate
         d = plane.stress_ratio / (np.sqrt(1 - b + b**2) - plane.stress_ratio * (1 + b) / 3)
         half = 0.5 * (1 + GROWTH)
-        return [
-            self.made(
-                "triaxial",
-                np.array([smallest, smallest, smallest + compression]),
-                np.array([-half, -half, 1.0]),
-            ),
-            self.made(
-                "extension",
-                np.array([smallest + q, smallest + q, smallest]),
-                np.array([1.0, 1.0, -2.0 - GROWTH]),
-            ),
-            self.made(
-                "plane_strain",
-                smallest * np.array([1, 1 + b * d, 1 + d]),
-                np.array([-1.0 - GROWTH, 0.0, 1.0]),
-            ),
-        ]
+        ends = (
+            ("triaxial", [1, 1, 1 + compression / smallest], [-half, -half, 1.0]),
+            ("extension", [1 + q / smallest, 1 + q / smallest, 1], [1.0, 1.0, -2.0 - GROWTH]),
+            ("plane_strain", [1, 1 + b * d, 1 + d], [-1.0 - GROWTH, 0.0, 1.0]),
+        )
+        return [self.made(kind, smallest * np.array(stress), np.array(strain)) for kind, stress, strain in ends]
 
     def test_finds_the_cone(self) -> None:
         found = cone.fit_cone([*self.of_all_kinds(1e4), *self.of_all_kinds(5e4)])
@@ -77,8 +65,7 @@ class ConeTest(FolderTest):
         self.assertGreater(found.of("triaxial")[0], 0.0)
 
     def test_every_kind_is_needed(self) -> None:
-        with self.assertRaisesRegex(ResultsError, "there is no plane_strain"):
-            cone.fit_cone(self.of_all_kinds(1e4)[:2])
+        self.assertRaisesRegex(ResultsError, "there is no plane_strain", cone.fit_cone, self.of_all_kinds(1e4)[:2])
 
     def test_angles_of_the_single_tests(self) -> None:
         """sin(phi) = (s1 - s3)/(s1 + s3)."""
@@ -86,9 +73,7 @@ class ConeTest(FolderTest):
             values = values_of(test)
             stress = test.curve()[-1, 4:7]
             known = (stress.max() - stress.min()) / (stress.max() + stress.min())
-            self.assertAlmostEqual(
-                np.sin(np.radians(values["friction_angle_end"])), known, places=6
-            )
+            self.assertAlmostEqual(np.sin(np.radians(values["friction_angle_end"])), known, places=6)
             if sine:
                 self.assertAlmostEqual(known, sine, places=6)
 

@@ -11,7 +11,7 @@ import numpy as np
 from furrow_post.read.laboratory import LaboratoryTest
 from support.command import SOURCE
 from support.folder import FolderTest
-from support.laboratory import cell_rows, triaxial_stress, write_test
+from support.laboratory import axisymmetric, write_cell
 
 sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
 
@@ -24,10 +24,9 @@ class CapLawTest(FolderTest):
     def triaxial(self, lateral: float, end: float = 0.2) -> LaboratoryTest:
         axial = np.linspace(0, end, 4000)
         q = np.minimum(E * axial, lateral * TANGENT / (1 - TANGENT / 3))
-        strain = np.column_stack((-NU * axial, -NU * axial, axial))
-        rows = cell_rows(strain, triaxial_stress(lateral, lateral + q))
-        facts = f"test triaxial ground made confinement {lateral}"
-        return LaboratoryTest(write_test(self.folder / f"triaxial_{lateral:g}", facts, rows))
+        strain, stress = axisymmetric(-NU * axial, axial), axisymmetric(lateral, lateral + q)
+        folder = self.folder / f"triaxial_{lateral:g}"
+        return LaboratoryTest(write_cell(folder, "triaxial", strain, stress, confinement=lateral))
 
     def test_friction_and_its_match(self) -> None:
         found, each = cap.friction([self.triaxial(1e4), self.triaxial(5e4)])
@@ -59,14 +58,12 @@ class CapLawTest(FolderTest):
         # elastic and plastic volume
         elastic = (on_cap.p - on_cap.p[0]) * 3 * (1 - 2 * NU) / E
         compression = elastic + (on_cap.p_b - on_cap.p_b[0]) / H
-        lateral = on_cap.p - on_cap.q / 3
-        strain = np.column_stack((0 * compression, 0 * compression, compression))
-        rows = cell_rows(strain, np.column_stack((lateral, lateral, on_cap.axial)))
-        rows[:, 7] = 1500.0 * np.exp(np.concatenate((compression[:1], compression)))
-        folder = write_test(self.folder / "oedometer", "test oedometer ground made", rows)
+        stress = axisymmetric(on_cap.p - on_cap.q / 3, on_cap.axial)
+        density = 1500.0 * np.exp(compression)
+        folder = write_cell(self.folder / "oedometer", "oedometer", axisymmetric(0, compression), stress, density)
         law = cap.Law(TANGENT, 0.0, R, E, NU)
-        hardening, density = cap.hardening(LaboratoryTest(folder), law)
-        self.assertAlmostEqual(density, 1500.0, places=6)
+        hardening, initial = cap.hardening(LaboratoryTest(folder), law)
+        self.assertAlmostEqual(initial, 1500.0, places=6)
         self.assertGreater(len(hardening), 6)
         for p_b, plastic in hardening:
             self.assertAlmostEqual(p_b, on_cap.p_b[0] + H * plastic, delta=0.01 * p_b)

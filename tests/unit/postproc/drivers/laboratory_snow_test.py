@@ -14,7 +14,7 @@ from furrow_post.read.laboratory import LaboratoryTest
 from furrow_post.run.tools import Tools
 from support.command import SOURCE
 from support.folder import FolderTest
-from support.laboratory import cell_rows, triaxial_stress, write_test
+from support.laboratory import axisymmetric, cell_rows, write_cell, write_test
 
 sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
 
@@ -49,31 +49,22 @@ class RecordTest(FolderTest):
     def test_curves_in_closed_form(self) -> None:
         """Two packings, one 10 % stronger: means, scatter, and the place of each value."""
         tests = []
+        axial, pulled = np.linspace(0, 0.6, 2000), np.linspace(0, 1e-3, 400)
         for packing, strength in enumerate((1.0, 1.1)):
-            axial = np.linspace(0, 0.6, 2000)
             stress = 2e3 * strength * np.exp(axial / 0.1)
-            rows = cell_rows(
-                np.column_stack((0 * axial, 0 * axial, axial)),
-                np.column_stack((0.1 * stress, 0.1 * stress, stress)),
-            )
-            rows[:, 7] = 200 * np.exp(np.concatenate((axial[:1], axial)))
-            facts = "test oedometer ground made"
-            tests.append(write_test(self.folder / f"o{packing}", facts, rows))
-            side = np.column_stack((-0.3 * axial, -0.3 * axial, axial))
-            rows = cell_rows(side, triaxial_stress(0.0, 5e3 * strength * (1 + 0 * axial)))
-            facts = "test unconfined ground made compaction 0.7"
-            tests.append(write_test(self.folder / f"u{packing}", facts, rows))
-            pulled = np.linspace(0, 1e-3, 400)
-            pull = np.minimum(1e7 * pulled, 4e3 * strength)
-            strain = np.column_stack((0 * pulled, 0 * pulled, -pulled))
-            rows = cell_rows(strain, triaxial_stress(0.0, -pull))
-            facts = "test tension ground made compaction 0"
-            tests.append(write_test(self.folder / f"t{packing}", facts, rows))
-            still = cell_rows(np.zeros((400, 3)), triaxial_stress(0.0, np.full(400, 1e3)), 300.0)
+            lateral, density = axisymmetric(0.1 * stress, stress), 200 * np.exp(axial)
+            free, q = axisymmetric(-0.3 * axial, axial), axisymmetric(0, 5e3 * strength + 0 * axial)
+            pull = axisymmetric(0, -np.minimum(1e7 * pulled, 4e3 * strength))
+            still = cell_rows(np.zeros((400, 3)), axisymmetric(0, np.full(400, 1e3)), 300.0)
             tau = np.append(0.0, 6e3 * strength * np.minimum(np.linspace(0, 5, 400), 1))
             rows = np.column_stack((still[:, :8], np.linspace(0, 0.01, 401), tau))
             facts = "test shear ground made compaction 0.4 confinement 1000"
-            tests.append(write_test(self.folder / f"s{packing}", facts, rows))
+            tests += [
+                write_cell(self.folder / f"o{packing}", "oedometer", axisymmetric(0, axial), lateral, density),
+                write_cell(self.folder / f"u{packing}", "unconfined", free, q, compaction=0.7),
+                write_cell(self.folder / f"t{packing}", "tension", axisymmetric(0, -pulled), pull, compaction=0),
+                write_test(self.folder / f"s{packing}", facts, rows),
+            ]
         rows_of = record_of(LaboratoryTest(test) for test in tests)
         write_record(self.folder / "record.csv", rows_of)
         found = {row.place: row for row in read_record(self.folder / "record.csv")}
@@ -99,8 +90,7 @@ class RecordTest(FolderTest):
         sand = write_test(self.folder / "s", "test plate ground made", rows)
         with self.assertRaisesRegex(ResultsError, "is a test 'plate'; name results of oedometer"):
             record_of([LaboratoryTest(sand)])
-        with self.assertRaisesRegex(ResultsError, "name results of that test too"):
-            record_of([])
+        self.assertRaisesRegex(ResultsError, "name results of that test too", record_of, [])
 
 
 class FitTest(FolderTest):
@@ -152,9 +142,7 @@ class FitTest(FolderTest):
             self.assertTrue((np.diff(found[kind].density) > 50).all())
         law = snow_strength.of_law("snow_bonded", 100.0, self.points())["shear"]
         text = PRESET.read_text(encoding="utf-8")
-        M, beta, p0 = (
-            float(re.findall(rf"{key}: +\[?({NUMBER})", text)[0]) for key in ("M", "tension_ratio", "p")
-        )
+        M, beta, p0 = (float(re.findall(rf"{key}: +\[?({NUMBER})", text)[0]) for key in ("M", "tension_ratio", "p"))
         self.assertAlmostEqual(law.strength[0] / shear_strength(M, beta, p0, 100.0), 1.0, delta=5e-3)
         slabs = snow_strength.measured("tension")[0]
         self.assertAlmostEqual(float(slabs.at(200.0)), 5.85e3, delta=10)

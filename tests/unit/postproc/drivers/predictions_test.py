@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/validation/predictions: slips, the conditions that are run, and their values."""
 
-import csv
 import hashlib
 import math
 import unittest
@@ -10,7 +9,7 @@ import yaml
 
 from furrow_post.csv_table import read_rows
 from support.command import SOURCE
-from support.evaluation import evaluation
+from support.evaluation import evaluation, stored
 
 FOLDER = SOURCE / "inputs/validation/predictions"
 study = evaluation("predictions")
@@ -23,15 +22,10 @@ QUANTITIES = {
 
 
 class SetUpTest(unittest.TestCase):
-    def setUp(self) -> None:
-        with (FOLDER / "conditions.csv").open() as file:
-            self.conditions = [row for row in csv.DictReader(file) if study.is_predicted(row)]
-
     def test_cmu_conditions_are_two_wheels_at_three_angles_and_four_slips(self) -> None:
-        chosen = [row for row in self.conditions if row["id"].startswith("CMU")]
-        places = {
-            (row["case"], row["slip_angle_deg"], round(float(row["slip"]), 1)) for row in chosen
-        }
+        rows = read_rows(FOLDER / "conditions.csv")
+        chosen = [row for row in rows if study.is_predicted(row) and row["id"].startswith("CMU")]
+        places = {(row["case"], row["slip_angle_deg"], round(float(row["slip"]), 1)) for row in chosen}
         self.assertEqual(len(places), 2 * 3 * 4)
 
     def test_slip_by_total_speed_becomes_that_by_the_speed_in_the_wheel_plane(self) -> None:
@@ -54,13 +48,10 @@ class SetUpTest(unittest.TestCase):
 
 class ValuesTest(unittest.TestCase):
     def test_every_predicted_condition_has_all_quantities_with_an_error(self) -> None:
-        found: dict[str, set[str]] = {}
-        for row in read_rows(FOLDER / "predictions.csv"):
-            self.assertTrue(math.isfinite(float(row["value"])))
-            self.assertGreater(float(row["standard_error"]), 0.0)
-            found.setdefault(row["id"], set()).add(row["quantity"])
-        for name, quantities in found.items():
-            self.assertEqual(quantities, QUANTITIES[name.split("-")[0]], name)
+        rows = stored("predictions", "predictions")
+        self.assertTrue(rows["value"].abs().lt(math.inf).all() and (rows["standard_error"] > 0).all())
+        for name, quantities in rows.groupby("id")["quantity"]:
+            self.assertEqual(set(quantities), QUANTITIES[name.split("-")[0]], name)
 
     def test_frozen_values_are_those_that_were_committed_first(self) -> None:
         names = ("id", "quantity", "value", "standard_error")

@@ -16,9 +16,7 @@ from support.command import SOURCE
 from support.evaluation import VALIDATION, cases, evaluation
 
 # Not by its name: inputs/laboratory has an identify.py, too
-specification = importlib.util.spec_from_file_location(
-    "snow_wheel_identify", VALIDATION / "snow_wheel" / "identify.py"
-)
+specification = importlib.util.spec_from_file_location("snow_wheel_identify", VALIDATION / "snow_wheel" / "identify.py")
 assert specification and specification.loader
 program: Any = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(program)

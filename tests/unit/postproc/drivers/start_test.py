@@ -22,9 +22,7 @@ TOOLS = (
 
 
 def start(*words: object) -> "subprocess.CompletedProcess[str]":
-    return subprocess.run(
-        [sys.executable, *map(str, words)], capture_output=True, text=True, timeout=120, cwd=SOURCE
-    )
+    return subprocess.run([sys.executable, *map(str, words)], capture_output=True, text=True, timeout=120, cwd=SOURCE)
 
 
 class DriversTest(unittest.TestCase):

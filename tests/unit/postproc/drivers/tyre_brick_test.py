@@ -18,11 +18,8 @@ from unittest.mock import patch
 import numpy as np
 import yaml
 
-from furrow_post.csv_table import read_rows
 from support.command import SOURCE
-from support.evaluation import VALIDATION, cases, evaluation
-
-HERE = VALIDATION / "tyre_brick"
+from support.evaluation import cases, evaluation, stored
 
 BELT_RADIUS = 0.3475  # [m] Table 8: diameter of the belts 69.5 cm
 BEAD = (0.0825, 0.2080)  # [m] axial: half of the 6.5 inch rim; radius: Table 8
@@ -170,12 +167,10 @@ class GroovesTest(unittest.TestCase):
 
 class Table6Test(unittest.TestCase):
     def test_the_stored_table_has_its_errors(self) -> None:
-        table, measured = (read_rows(VALIDATION / name) for name in ("tyre_brick/table6.csv", "tyre_table6/reference.csv"))
-        for row, known in zip(table, measured, strict=True):
-            for what in ("deflection_cm", "area_cm2", "section_width_cm"):
-                error = float(row[what]) / float(known[what]) - 1
-                name = what.removesuffix("_cm2").removesuffix("_cm") + "_error"
-                self.assertAlmostEqual(float(row[name]), error, delta=2e-4)  # both are rounded
+        table, measured = stored("tyre_brick", "table6"), stored("tyre_table6", "reference")
+        for what in ("deflection_cm", "area_cm2", "section_width_cm"):
+            error = table[f"{what.rpartition('_')[0]}_error"]
+            np.testing.assert_allclose(error, table[what] / measured[what] - 1, atol=2e-4)  # both are rounded
 
 
 if __name__ == "__main__":

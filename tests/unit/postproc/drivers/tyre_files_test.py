@@ -2,20 +2,20 @@
 """furrow-post fit tyre with furrow-tyre: [Shoop2001]'s tyre from Table 6, and the files that come with
 Furrow."""
 
-import math
 import re
 import shlex
 import tempfile
 import unittest
 from pathlib import Path
 
+import numpy as np
 import yaml
 
 from furrow_post.laws.tyre_estimate import Catalogue
 from furrow_post.laws.tyre_fit import PlateTest, fit_tyre, press, read_tests
 from furrow_post.laws.tyre_size import INCH, read_size
-from furrow_post.csv_table import read_numbers
 from support.command import SOURCE, run_post
+from support.evaluation import stored
 
 TYRES = SOURCE / "inputs" / "tyres"
 ESTIMATES = ("lt265_75r16", "16_00r20", "710_70r38", "15x6_00_6")
@@ -23,24 +23,10 @@ TABLE6_LOAD = 6227.0  # [N] [Shoop2001] Table 6
 
 
 def table6(used_for: str) -> list[PlateTest]:
-    names = {
-        "deflection_cm": "deflection_cm",
-        "area_cm2": "perimeter_area_cm2",
-        "section_width_cm": "section_width_cm",
-    }
-    path = SOURCE / "inputs" / "validation" / "tyre_table6" / "reference.csv"
-    text = (
-        path.read_text(encoding="utf-8").replace("identification", "1").replace("prediction", "0")
-    )
-    with tempfile.TemporaryDirectory() as folder:
-        table = Path(folder) / "reference.csv"
-        table.write_text(text, encoding="utf-8")
-        rows = read_numbers(table)
-    return [
-        PlateTest(row["pressure_kPa"], TABLE6_LOAD, {new: row[old] for old, new in names.items()})
-        for row in rows
-        if (row["used_for"] == 1.0) == (used_for == "identification")
-    ]
+    rows = stored("tyre_table6", "reference").query(f"used_for == '{used_for}'").set_index("pressure_kPa")
+    measured = rows[["deflection_cm", "area_cm2", "section_width_cm"]]
+    measured.columns = ["deflection_cm", "perimeter_area_cm2", "section_width_cm"]
+    return [PlateTest(float(pressure), TABLE6_LOAD, row.to_dict()) for pressure, row in measured.iterrows()]
 
 
 class MeasuredTyresTest(unittest.TestCase):
@@ -48,17 +34,11 @@ class MeasuredTyresTest(unittest.TestCase):
         """Its tread width, section, belts and stiffnesses are known from Tables 6 and 8."""
         known = Catalogue(read_size("235/75R15"), 241e3, rim_width=6.5 * INCH, diameter=0.737)
         fit = fit_tyre(known, table6("identification"))
-        true = {
-            "belt_radius": 0.3475,
-            "half_width": 0.0785,
-            "section_width": 0.229,
-            "belt_stiffness": 1.0,
-            "sidewall_stiffness": 1.0,
-        }
+        true = {"belt_radius": 0.3475, "half_width": 0.0785, "section_width": 0.229}
+        true |= {"belt_stiffness": 1.0, "sidewall_stiffness": 1.0}
         for parameter in fit.parameters:
             with self.subTest(name=parameter.name):
-                off = abs(math.log(parameter.value / true[parameter.name]))
-                self.assertLess(off, 2.0 * parameter.error)
+                self.assertLess(abs(np.log(parameter.value / true[parameter.name])), 2.0 * parameter.error)
         found = {parameter.name: parameter for parameter in fit.parameters}
         self.assertGreater(found["half_width"].determined, 0.5)
         self.assertGreater(found["section_width"].determined, 0.5)
@@ -72,9 +52,7 @@ class MeasuredTyresTest(unittest.TestCase):
     def test_a_truck_tyre_meets_its_curves(self) -> None:
         """[Goodyear2010]: the fitted file beside the same tyre without its tests."""
         tests = read_tests(TYRES / "measured" / "335_65r22_5.csv")
-        known = Catalogue(
-            read_size("335/65R22.5"), 414e3, rim_width=9 * INCH, diameter=0.9974, mass=55.4
-        )
+        known = Catalogue(read_size("335/65R22.5"), 414e3, rim_width=9 * INCH, diameter=0.9974, mass=55.4)
         text = (TYRES / "335_65r22_5.yaml").read_text(encoding="utf-8")
         fitted = misfit(press(text, tests), tests)
         guess = fit_tyre(known, []).file_text("335/65R22.5", [])
@@ -86,11 +64,9 @@ class MeasuredTyresTest(unittest.TestCase):
 
 def misfit(states: list[dict[str, float]], tests: list[PlateTest]) -> float:
     """rms relative error of the deflections."""
-    ratios = [
-        state["deflection_cm"] / test.measured["deflection_cm"]
-        for test, state in zip(tests, states)
-    ]
-    return math.sqrt(sum((ratio - 1.0) ** 2 for ratio in ratios) / len(ratios))
+    computed = [state["deflection_cm"] for state in states]
+    measured = [test.measured["deflection_cm"] for test in tests]
+    return float(np.sqrt(np.mean((np.divide(computed, measured) - 1.0) ** 2)))
 
 
 class FilesTest(unittest.TestCase):
@@ -112,10 +88,8 @@ class FilesTest(unittest.TestCase):
                 share = float(re.findall(r"# Rated load: .* (\d+) % of the section", text)[0])
                 self.assertTrue(12 <= share <= 30, share)
                 self.assertNotIn("check load", done.stdout)
-                computed = float(
-                    re.findall(r"rated load .* (\d+) % of the section", done.stdout)[0]
-                )
-                self.assertAlmostEqual(computed, share, delta=1.0)
+                (computed,) = re.findall(r"rated load .* (\d+) % of the section", done.stdout)
+                self.assertAlmostEqual(float(computed), share, delta=1.0)
 
     def test_wrong_inputs_are_refused(self) -> None:
         with tempfile.TemporaryDirectory() as folder:

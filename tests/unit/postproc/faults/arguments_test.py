@@ -17,6 +17,8 @@ from support.laboratory import write_plate
 from support.runs import write_run
 from support.tables import made_runs
 
+SCENE = "wheel_on_snow"
+NOT_MEASURED = str(SOURCE / "inputs" / "costs" / "runs.csv")
 BEKKER = "bekker --load 6000 --diameter 0.74 --width 0.272 --terrain"
 WONG = "wong_reece --load 6000 --diameter 1.2 --width 0.3 --terrain"
 
@@ -96,6 +98,63 @@ OTHERS: tuple[tuple[list[str], str], ...] = (
     (["variables", "none.lig"], "furrow: script 'none.lig' cannot be read: No such file or directory"),
 )
 
+# (arguments of inputs/run, message)
+RUN: tuple[tuple[list[str], str], ...] = (
+    (["no_such_scene"], "no scene 'no_such_scene'"),
+    (["wheel_on_snwo"], "no scene 'wheel_on_snwo'. Did you mean wheel_on_snow"),
+    (["scenes/tyre_on_sno.lig"], "Did you mean tyre_on_snow"),
+    (["tyre_on_snow\n"], "'tyre_on_snow\\n' has a line break or another control character"),
+    ([SCENE, "-o", "a\ntouch pwned #"], "'a\\ntouch pwned #' has a line break"),
+    ([""], "an argument is empty"),
+    ([SCENE, "wheel_on_sand"], "are two scenes; name one"),
+    ([SCENE, "-n", "1", "-n", "2"], "-n: is given twice"),
+    ([SCENE, "-n", str(4 * len(os.sched_getaffinity(0)) + 1)], "would crawl"),
+    ([SCENE, "-o", "a", "-o", "b"], "-o/--output: is given twice"),
+    ([SCENE, "-o", __file__], "there is a file of this name"),
+    ([SCENE, "-o", "/proc/x"], "no right to write"),
+    (["-v", "speed", "1"], "name one"),
+    (["-n", "1"], "name one"),
+    ([SCENE, "-v", "cell", ""], "-v cell has an empty value"),
+    ([SCENE, "-v", "", "1"], "-v has an empty name; it takes a name and a value"),
+    ([SCENE, "-v", "widht", "3"], "no line reads 'widht'; did you mean width?"),
+    ([SCENE, "--quick", "-v", "sell", "3"], "no line reads 'sell'; did you mean cell?"),
+    ([SCENE, "-v", "steps", "3"], "computes 'steps' itself"),
+    ([SCENE, "-v", "results", "x"], "-v results: use -o"),
+    ([SCENE, "-v", "cell", "0.1", "-v", "cell", "0.2"], "-v cell is given 2 times"),
+    (["wheel_on_sand", "-v", "bed_level", "0.1"], "no line reads 'bed_level'"),
+    ([SCENE, "--error", "10%", "-v", "widht", "3"], "no line reads 'widht'"),
+    ([SCENE, "--quick", "--error", "10%"], "give one of them"),
+    ([SCENE, "--quick", "--time", "10min"], "give one of them"),
+    ([SCENE, "--dry-run"], "--dry-run prints the plan for --error or --time; give one of them"),
+    (["--time", "1h"], "--time belongs to a scene; name one"),
+    ([SCENE, "--continue", "-o", "/proc/x"], "/proc/x: has no run to continue"),
+    ([SCENE, "--continue", "-n", "1"], "leave out -n"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--continue"], "the same command resumes it"),
+    (["--checkpoint", "1h"], "--checkpoint belongs to a scene"),
+    (["--sweep", "slip=0,1"], "--sweep belongs to a scene; name one"),
+    (["--until-steady", "3%"], "--until-steady belongs to a scene; name one"),
+    ([SCENE, "--sweep", "slip"], "'slip' has no ="),
+    ([SCENE, "--sweep", "slip=0:1:0.1"], "not the step"),
+    ([SCENE, "--sweep", "slip=a:b:3"], "'a:b:3' is no range FIRST:LAST:COUNT"),
+    ([SCENE, "--sweep", "slip=nan"], "nan is no finite number"),
+    ([SCENE, "--sweep", "slip=0,-inf"], "-inf is no finite number"),
+    ([SCENE, "--sweep", "material=../materials/fresh_snow_cam_clay.yaml,x.yaml"], "material: there is no file x.yaml"),
+    ([SCENE, "-v", "material", "../materials/snwo.yaml"], "-v material: there is no file ../materials/snwo.yaml"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--measured", __file__], "arguments_test.py: "),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--measured", NOT_MEASURED], "is no table of measured points"),
+    ([SCENE, "--sweep", "sell=0.1,0.2"], "no line reads 'sell'; did you mean cell?"),
+    ([SCENE, "--sweep", "results=a,b"], "--sweep results: use -o"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "-v", "cell", "0.1"], "given both by -v and by --sweep"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--packings", "2"], "no line of"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--error", "10%"], "--error chooses one run"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--formula", "x"], "there is no formula 'x'"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--measured", "x.csv"], "x.csv: no such file"),
+    ([SCENE, "--jobs", "2"], "--jobs belongs to --sweep"),
+    ([SCENE, "--again"], "--again belongs to --sweep"),
+    ([SCENE, "--until-steady", "3%", "--until-steady", "4%"], "--until-steady: is given twice"),
+    ([SCENE, "--time-limit", "2h"], "--time-limit belongs to --until-steady or --sweep"),
+)
+
 
 class ArgumentsFaultsTest(FaultsTest):
     folder: Path
@@ -137,6 +196,14 @@ class ArgumentsFaultsTest(FaultsTest):
     def test_others(self) -> None:
         for words, message in OTHERS:
             self.post(words, message)
+
+    def test_runs(self) -> None:
+        for words, message in RUN:
+            with self.subTest(words=words):
+                found = outcome(lambda: main(["run", *words]))
+                self.assertEqual(found.status, 2)
+                self.assertIn(message, found.said)
+                self.assertLessEqual(len(found.said.splitlines()), 2)
 
     def test_folder_with_an_equals_sign_in_its_name(self) -> None:
         name = "slip=0.1"

@@ -1,19 +1,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Mistakes of users with the laboratory: its tests, their evaluation, calibrations."""
 
-import copy
+import functools
 import importlib
 import json
+import operator
 import os
 import shutil
 import sys
 import tempfile
 import unittest
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 from unittest import mock
 
+import jsonschema
 import numpy as np
 
 from furrow_post.arrays import Floats
@@ -26,6 +28,8 @@ LABORATORY = SOURCE / "inputs" / "laboratory"
 MATERIAL = SOURCE / "inputs" / "materials" / "fresh_snow.yaml"
 REFERENCE = SOURCE / "inputs" / "validation" / "snow_oedometer" / "reference.csv"
 sys.path.insert(0, str(LABORATORY))
+
+from task import SCHEMA
 
 # (words of run.py, error); everything is refused before a run
 TESTS = (
@@ -91,66 +95,68 @@ GOOD: dict[str, Any] = {
 }
 QUANTITIES: dict[str, Any] = {"reference": None, "lowest": None, "highest": None}
 SEVERAL: dict[str, Any] = {"test": None, **QUANTITIES}
-PULL = {"tensile_strength": [1e3, 100]}
+PULL = {"strength": [1e3, 100]}
+INNER: dict[str, Any] = {"series": [1e4], "quantities": PULL}  # what has forms within forms
+EXAMPLE: dict[str, Any] = {**GOOD, **INNER, "tests": [{"test": "tension", **INNER}]}
 
-# (changed keys, None: left out; error)
+# Faults that span several keys, or the scripts of a test: (changed keys, None: left out; error)
 CALIBRATIONS: tuple[tuple[dict[str, Any], str], ...] = (
     *(({key: None}, f"'{key}' is missing") for key in ("test", "ground", "parameters", "seeds")),
-    ({"test": "odometer"}, "'test' is \"odometer\"; needed is a test: oedometer"),
-    ({"test": ["oedometer"]}, "'test' is [\"oedometer\"]"),
     ({"ground": "snoww"}, "there is no ground 'snoww'"),
-    ({"ground": 3}, "'ground' is 3"),
     ({"grund": "snow"}, "there is no key 'grund'; did you mean 'ground'?"),
     ({"variables": {"grians": 1}}, "no line reads 'grians'"),
-    ({"variables": [1]}, "'variables' is [1]; needed is an object"),
     ({"variables": {"rate": -1}}, "variable rate: -1 is not above 0"),
     ({"variables": {"seed": 86028121}}, "seeds stand in 'seeds'"),
     ({"parameters": {"strenth": [2, 1, 3]}}, "no line reads 'strenth'; did you mean strength or"),
     ({"parameters": {"k1": [2, 1, 3]}}, "computes 'k1' itself"),
     ({"parameters": {"seed": [2, 1, 3]}}, "give it once, seeds in 'seeds'"),
     ({"parameters": {"grains": [60, 50, 70]}}, "is a parameter and a variable"),
-    ({"parameters": ["strength"]}, "'parameters' is [\"strength\"]; needed is an object"),
-    ({"parameters": {"strength": [1, 2]}}, "'parameters.strength' is [1, 2]; needed is [start, lower, upper]"),
-    ({"parameters": {"strength": ["a", 1, 2]}}, "[start, lower, upper] with 0 < lower"),
     ({"parameters": {"strength": [1, 3, 2]}}, "[start, lower, upper] with 0 < lower"),
-    ({"parameters": {"strength": [1, 0, 2]}}, "[start, lower, upper] with 0 < lower"),
     ({"parameters": {"strength": [5, 1, 2]}}, "starts at 5, and goes from 1 to 2; needed is [start, lower, upper]"),
     ({"parameters": {"strength": [float("nan"), 1, 2]}}, "[start, lower, upper]"),
-    ({"seeds": []}, "'seeds' is []; needed is a list"),
-    ({"seeds": 86028121}, "needed is a list of different whole numbers"),
-    ({"seeds": ["a"]}, "'seeds.0' is \"a\"; needed is a list of different whole numbers"),
     ({"seeds": [86028122]}, "variable seed: 86028122 is no prime"),
-    ({"seeds": [86028121, 86028121]}, "needed is a list of different whole numbers"),
     ({"reference": None}, "one of 'reference', with 'lowest' and 'highest', and 'quantities' is needed"),
     ({"reference": "none.csv"}, "none.csv is no file; the path is relative to"),
     ({"lowest": None}, "one of 'reference', with 'lowest' and 'highest'"),
     ({"lowest": 2e6}, "'lowest' is 2e+06, not below 'highest', 1.01e+06 Pa"),
     ({"lowest": 1e9, "highest": 2e9}, "has no row with a stress of 1e+09 to 2e+09 Pa"),
     ({"quantities": {"K0": [0.4, 0.1]}}, "one of 'reference', with"),
-    ({**QUANTITIES, "quantities": {}}, "'quantities' is {}; needed is an object"),
-    ({**QUANTITIES, "quantities": {"K0": 0.4}}, "[value, deviation] with a deviation above 0"),
-    ({**QUANTITIES, "quantities": {"K0": [0.4, 0]}}, "[value, deviation] with a deviation above 0"),
-    ({**QUANTITIES, "quantities": {"K0": [0.4, "30"]}}, "or [value, \"30%\"] with a value above 0"),
-    ({**QUANTITIES, "quantities": {"K0": [0.4, "130%"]}}, "or [value, \"30%\"]"),
-    ({**QUANTITIES, "quantities": {"K0": [0, "30%"]}}, "or [value, \"30%\"]"),
+    *(
+        ({**QUANTITIES, "quantities": {"K0": value}}, 'or [value, "30%"]')
+        for value in ([0.4, 0], [0.4, "30"], [0.4, "130%"], [0, "30%"])
+    ),
     ({"series": [1e4]}, "'series' is of confinements; the test oedometer has none"),
-    ({"deviation": 0}, "'deviation' is 0; needed is a deviation of the logarithms of stresses, above 0"),
     ({"tests": [{"test": "tension", "quantities": PULL}]}, "'test' stands beside 'tests'; write it for each of them"),
-    ({**SEVERAL, "tests": []}, "'tests' is []; needed is a list of objects"),
-    ({**SEVERAL, "tests": ["tension"]}, "'tests.0' is \"tension\"; needed is an object"),
     ({**SEVERAL, "tests": [{"variables": {}}]}, "tests.0: 'test' is missing; give an object"),
     ({**SEVERAL, "tests": [{"test": "oedometer"}]}, "tests.0: one of 'reference', with"),
     ({**SEVERAL, "tests": [{"test": "tension", "seeds": [3]}]}, "there is no key 'seeds'"),
-    ({**SEVERAL, "tests": [{"test": "pull", "quantities": PULL}]}, "'tests.0.test' is \"pull\"; needed is a test"),
     ({**SEVERAL, "tests": [{"test": "tension", "quantities": PULL}]}, "no line reads 'stress'"),
-    ({"iterations": 0}, "'iterations' is 0; needed is a whole number from 1"),
 )
+
+Place = tuple[str | int, ...]  # keys and indices of a value within values
+
+
+CANDIDATES: tuple[Any, ...] = (None, "nonsense", [1], {}, [], 0, -1, 1.5, [7, 7])  # of values that a form may refuse
+
+
+def faults_of(form: Mapping[str, Any], place: Place = (), needed: str = "") -> Iterator[tuple[Place, str, str]]:
+    """(place of a value, text of a wrong one, form that is needed) of a form of the schema and all within it."""
+    needed = form.get("description", needed)
+    for value in CANDIDATES:
+        errors = jsonschema.Draft202012Validator(form).iter_errors(value)
+        if any(not error.path and error.validator not in ("required", "oneOf") for error in errors):
+            yield place, json.dumps(value), needed
+    inner: dict[str | int, Any] = {0: form.get("items"), "strength": form.get("additionalProperties")}
+    inner |= form.get("properties", {})
+    for key, one in inner.items():
+        if one:
+            yield from faults_of(one, (*place, key), needed)
+
 
 # (text of the file, error)
 NO_CALIBRATIONS = (
     ("", "is no JSON"),
     ('{"test": ', "is no JSON"),
-    ("[]", "the file is []; needed is an object"),
     ('{"test": "a", "test": "b"}', "the key 'test' stands there 2 times"),
 )
 
@@ -231,12 +237,22 @@ class LaboratoryFaultsTest(FaultsTest):
     def test_calibrations(self) -> None:
         self.calibrate(json.dumps(GOOD), "there is no program")  # nothing else is wrong
         for changes, message in CALIBRATIONS:
-            changed = {**copy.deepcopy(GOOD), **changes}
-            kept = {key: value for key, value in changed.items() if value is not None}
+            kept = {key: value for key, value in {**GOOD, **changes}.items() if value is not None}
             self.calibrate(json.dumps(kept), message)
         for text, message in NO_CALIBRATIONS:
             self.calibrate(text, message)
         self.start("calibrate", ["none.json"], "none.json: no such file or directory")
+
+    def test_every_value_of_a_calibration(self) -> None:
+        """Key, value and needed form are in the message, by the schema of the file."""
+        faults = list(faults_of(SCHEMA))
+        for place, value, needed in faults:
+            task: Any = [json.loads(json.dumps(EXAMPLE))]
+            *way, last = (0, *place)
+            functools.reduce(operator.getitem, way, task)[last] = json.loads(value)
+            name = f"'{'.'.join(map(str, place))}'" if place else "the file"
+            self.calibrate(json.dumps(task[0]), f"{name} is {value}; needed is {needed}")
+        self.assertEqual(len(faults), 263)  # another number: the schema accepts or refuses other values
 
     def test_results_of_tests(self) -> None:
         for kind, rows in CURVES.items():
@@ -270,8 +286,7 @@ class LaboratoryFaultsTest(FaultsTest):
 
     def test_laws_from_tests(self) -> None:
         triaxial, oedometer = (
-            str(write_test(Path(kind), f"test {kind} {FACTS}", CURVES[kind]))
-            for kind in ("triaxial", "oedometer")
+            str(write_test(Path(kind), f"test {kind} {FACTS}", CURVES[kind])) for kind in ("triaxial", "oedometer")
         )
         for tests, confined, message in (
             ("none", oedometer, "none: has no facts.txt"),

@@ -28,22 +28,15 @@ SUBCOMMANDS = ("plot", "picture", "terrain", "report", "compare", "cost")
 
 
 def column(name: str, values: Callable[[Any], Any]) -> Change:
-    """Replaces a channel."""
+    """Replaces a channel, or all of them."""
 
     def change(content: Any) -> None:
-        data = content["history"][name]
-        attributes, changed = dict(data.attrs), values(data[()])
-        del content["history"][name]
-        content["history"][name] = changed
-        content["history"][name].attrs.update(attributes)
-
-    return change
-
-
-def every_column(values: Callable[[Any], Any]) -> Change:
-    def change(content: Any) -> None:
-        for name in list(content["history"]):
-            column(name, values)(content)
+        for channel in [name] if name else list(content["history"]):
+            data = content["history"][channel]
+            attributes, changed = dict(data.attrs), values(data[()])
+            del content["history"][channel]
+            content["history"][channel] = changed
+            content["history"][channel].attrs.update(attributes)
 
     return change
 
@@ -53,8 +46,7 @@ def styles(change_entries: Callable[[Any], object]) -> Change:
         entries = json.loads(content["run/styles"][()])
         text = change_entries(entries)
         del content["run/styles"]
-        written = text if isinstance(text, str) else json.dumps(entries)
-        content["run/styles"] = np.bytes_(written.encode())
+        content["run/styles"] = np.bytes_((text if isinstance(text, str) else json.dumps(entries)).encode())
 
     return change
 
@@ -107,17 +99,12 @@ HISTORIES: tuple[tuple[str, Change, str, str], ...] = (
     ("short channel", column("force_x", lambda v: v[:10]), "plot", "have 10 to 2000 rows"),
     ("a text", column("x", lambda v: np.full(len(v), b"a")), "cost", "'x' is no row of numbers"),
     ("two axes", column("x", lambda v: np.zeros((len(v), 2))), "plot", "'x' is no row of numbers"),
-    ("no rows", every_column(lambda v: v[:0]), "plot", "fewer than two rows; run longer"),
-    ("one row", every_column(lambda v: v[:1]), "compare", "fewer than two rows; run longer"),
+    ("no rows", column("", lambda v: v[:0]), "plot", "fewer than two rows; run longer"),
+    ("one row", column("", lambda v: v[:1]), "compare", "fewer than two rows; run longer"),
     ("styles cut", styles(lambda e: "[{"), "compare", "/run/styles cannot be read"),
     ("a style of numbers", styles(lambda e: e[0].update(style=3)), "cost", "are no texts"),
     ("no values", styles(lambda e: e[1]["options"].update(load_force=[])), "report", "no values"),
-    (
-        "a word for a number",
-        styles(lambda e: e[0]["options"].update(diameter=["x"])),
-        "compare",
-        "'diameter' is 'x', not a number",
-    ),
+    ("a word", styles(lambda e: e[0]["options"].update(diameter=["x"])), "compare", "'diameter' is 'x', not a number"),
 )
 
 SUMMARY = '{"window": {"start": %s, "end": %s}, "quantities": {"hub_drop": %s}}'

@@ -6,6 +6,7 @@ from pathlib import Path
 from types import ModuleType
 
 import click
+import pandas
 
 from furrow_post.cli import study_command
 from furrow_post.cli.main import message_of
@@ -17,6 +18,7 @@ from furrow_post.run.executor import Run
 from furrow_post.run.record import Record
 from furrow_post.study.definition import cases_of, evaluation_of
 from furrow_post.study.study import Study, carry_out
+from furrow_post.tables.frames import read_frame
 
 from .command import SOURCE
 
@@ -27,6 +29,11 @@ def evaluation(study: str) -> ModuleType:
     module = evaluation_of(VALIDATION / study)
     assert module, study
     return module
+
+
+def stored(study: str, table: str) -> pandas.DataFrame:
+    """A table of a study as it is kept."""
+    return read_frame(VALIDATION / study / f"{table}.csv")
 
 
 def run_in(folder: Path) -> Run:

@@ -28,10 +28,23 @@ def cell_rows(strain: Floats, stress: Floats, density: float | Floats = 1500.0) 
     return np.vstack((rows[:1], rows))
 
 
+def write_cell(
+    folder: Path, test: str, strain: Floats, stress: Floats, density: float | Floats = 1500.0, **facts: object
+) -> Path:
+    """A test in a cell; strain, stress (n, 3)."""
+    known = " ".join(f"{name} {value}" for name, value in facts.items())
+    return write_test(folder, f"test {test} ground made {known}", cell_rows(strain, stress, density))
+
+
+def axisymmetric(side: float | Floats, axial: Floats) -> Floats:
+    """(n, 3) strains or stresses along both sides and the axis."""
+    sides = np.full_like(axial, side)
+    return np.column_stack((sides, sides, axial))
+
+
 def triaxial_stress(lateral: float, axial: Floats) -> Floats:
     """(n, 3)."""
-    side = np.full_like(axial, lateral)
-    return np.column_stack((side, side, axial))
+    return axisymmetric(lateral, axial)
 
 
 def write_plate(folder: Path, k: float, size: float = 0.1, speed: float = 0.5) -> None:

@@ -45,12 +45,9 @@ def write_vtp(file: Path, x: Floats, triangles: Integers | None = None, **fields
 
 
 def write_collection(file: Path, entries: dict[float, str]) -> None:
-    lines = "".join(
-        f'<DataSet timestep="{time!r}" part="0" file="{name}"/>\n' for time, name in entries.items()
-    )
+    lines = "".join(f'<DataSet timestep="{time!r}" part="0" file="{name}"/>\n' for time, name in entries.items())
     file.write_text(
-        f'<?xml version="1.0"?>\n<VTKFile type="Collection"><Collection>\n{lines}'
-        "</Collection></VTKFile>\n"
+        f'<?xml version="1.0"?>\n<VTKFile type="Collection"><Collection>\n{lines}' "</Collection></VTKFile>\n"
     )
 
 
@@ -91,9 +88,7 @@ def write_rolling_wheel(folder: Path, behind: float = 0.0) -> None:
     write_collection(frames / "wheel.pvd", names)
 
 
-def write_moving_run(
-    folder: Path, kind: str = "grains", number: int = 6, noise: float = 0.0
-) -> Path:
+def write_moving_run(folder: Path, kind: str = "grains", number: int = 6, noise: float = 0.0) -> Path:
     """The wheel rolls; the ground settles under it.
 
     kind: "grains", or "continuum", a half model; noise: [m] that each frame adds
@@ -114,7 +109,5 @@ def write_moving_run(
         else:
             fields |= {"id": 1.0 * identity, "volume": 1e-4 * one, "density": (200 + k) * one}
         write_vtp(frames / f"{series}_{k}.vtp", start + moved, **fields)
-    write_collection(
-        frames / f"{series}.pvd", {k * INTERVAL: f"{series}_{k}.vtp" for k in range(FRAMES)}
-    )
+    write_collection(frames / f"{series}.pvd", {k * INTERVAL: f"{series}_{k}.vtp" for k in range(FRAMES)})
     return folder

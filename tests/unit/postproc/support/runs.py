@@ -54,10 +54,7 @@ def write_head(content: Any, styles: list[Entry] | None, title: str = "made") ->
     """/run of history.h5; styles: None as an older Furrow wrote it."""
     run = content.create_group("run")
     for name, value in (
-        ("title", title),
-        ("version", "0.0.9"),
-        ("script", "none"),
-        ("started", "2026-01-01T00:00:00Z"),
+        ("title", title), ("version", "0.0.9"), ("script", "none"), ("started", "2026-01-01T00:00:00Z"),
     ):
         run.attrs[name] = np.bytes_(value)
     run.attrs["ranks"] = 1
@@ -67,12 +64,7 @@ def write_head(content: Any, styles: list[Entry] | None, title: str = "made") ->
 
 
 def write_summary(
-    folder: Path,
-    sinkage: float,
-    load: float,
-    slip: float = 0.2,
-    pull: float = -0.2,
-    torque: float = 0.0,
+    folder: Path, sinkage: float, load: float, slip: float = 0.2, pull: float = -0.2, torque: float = 0.0,
 ) -> None:
     """pull: over the load; torque [N m]"""
 
@@ -92,6 +84,17 @@ def write_summary(
     (folder / "summary.json").write_text(json.dumps(content))
 
 
+def write_history(
+    path: Path, time: Floats, columns: Mapping[str, Floats], styles: list[Entry], title: str = "made"
+) -> None:
+    """A wheel that settles until 0.5 s and accelerates until 0.8 s; columns: without time, stage and place."""
+    stage = np.where(time < 0.5, 0.0, np.where(time < 0.8, 1.0, 2.0))
+    with h5py.File(path, "w") as content:
+        write_head(content, styles, title)
+        group = content.create_group("history", track_order=True)
+        write_columns(group, {"time": time, "stage": stage, "x": np.maximum(time - 0.65, 0), **columns})
+
+
 def write_run(
     folder: Path,
     load: float = 1000.0,
@@ -102,21 +105,14 @@ def write_run(
     pull: float = -0.2,
     torque: float = 0.0,
 ) -> None:
-    """A wheel of RADIUS and WIDTH on ground without grains, steady from 1 s on.
-
-    It settles until 0.5 s, accelerates until 0.8 s. styles: instead of a rigid wheel on a rig;
-    pull: over the load; torque [N m]
-    """
+    """A wheel of RADIUS and WIDTH on ground without grains, steady from 1 s on. styles: instead of a rigid wheel on a rig;
+    pull: over the load; torque [N m]"""
     folder.mkdir(parents=True, exist_ok=True)
     time = np.arange(2000) * 1e-3
-    stage = np.where(time < 0.5, 0.0, np.where(time < 0.8, 1.0, 2.0))
     v = np.where(time > 0.65, 1.0, 0.0)
     rim = v / (1 - slip) if slip >= 0 else v * (1 + slip)
     one = np.ones_like(time)
     columns = {
-        "time": time,
-        "stage": stage,
-        "x": np.maximum(time - 0.65, 0),
         "y": 0 * one,
         "z": RADIUS * one,
         "velocity_x": v,
@@ -129,9 +125,7 @@ def write_run(
         "drive_torque": torque * one,
         "slip": slip * v,
     }
-    with h5py.File(folder / "history.h5", "w") as content:
-        write_head(content, styles or [rigid_wheel(), rig(load, datum=datum)])
-        write_columns(content.create_group("history", track_order=True), columns)
+    write_history(folder / "history.h5", time, columns, styles or [rigid_wheel(), rig(load, datum=datum)])
     write_summary(folder, sinkage, load, slip, pull, torque)
 
 
@@ -140,12 +134,7 @@ def add_parts(folder: Path, forces: Mapping[str, float], unexplained: float = 0.
     file = folder / "summary.json"
     content = json.loads(file.read_text())
     whole = sum(forces.values()) + unexplained
-    content["resistance_parts"] = {
-        "unit": "N",
-        "whole": whole,
-        "parts": dict(forces),
-        "unexplained": unexplained,
-    }
+    content["resistance_parts"] = {"unit": "N", "whole": whole, "parts": dict(forces), "unexplained": unexplained}
     file.write_text(json.dumps(content))
 
 
@@ -159,11 +148,7 @@ def write_noisy_history(path: Path, rows: int = 4000) -> None:
     def noise(size: float) -> Floats:
         return size * random.normal(size=rows)
 
-    time = np.arange(rows) * 1e-3
     columns = {
-        "time": time,
-        "stage": np.where(time < 0.5, 0.0, np.where(time < 0.8, 1.0, 2.0)),
-        "x": np.maximum(time - 0.65, 0),
         "hub_drop": 0.02 + noise(2e-4),
         "force_x": -20 + noise(1.0),
         "force_y": noise(0.5),
@@ -172,14 +157,10 @@ def write_noisy_history(path: Path, rows: int = 4000) -> None:
         "drive_torque": 3 + noise(0.1),
         "slip": 0.1 + noise(0.002),
     }
-    with h5py.File(path, "w") as content:
-        write_head(content, [rigid_wheel(), rig()], "synthetic")
-        write_columns(content.create_group("history", track_order=True), columns)
+    write_history(path, np.arange(rows) * 1e-3, columns, [rigid_wheel(), rig()], "synthetic")
 
 
-def write_grains(
-    group: Any, x: Floats, radius: Floats, bed_level: float, identity: Integers | None = None
-) -> None:
+def write_grains(group: Any, x: Floats, radius: Floats, bed_level: float, identity: Integers | None = None) -> None:
     """/grains/reference or /grains/final; identity: 0, 1, 2 ... if it is not given."""
     group["id"] = np.arange(len(x)) if identity is None else identity
     group["x"], group["radius"] = x, radius

@@ -16,11 +16,7 @@ def bed(
 ) -> tuple[Floats, Floats]:
     """Hexagonal layers with a little disorder: x (n, 3), radius (n) [m]; surface at z = depth."""
     pitch = 1.04 * diameter
-    counts = (
-        int(depth / (pitch * np.sqrt(2 / 3))),
-        int(breadth / (pitch * np.sqrt(3) / 2)),
-        int(length / pitch),
-    )
+    counts = (int(depth / (pitch * np.sqrt(2 / 3))), int(breadth / (pitch * np.sqrt(3) / 2)), int(length / pitch))
     k, j, i = (index.ravel() for index in np.indices(counts))
     top = depth - diameter / 2
     x = np.stack(
@@ -36,9 +32,7 @@ def bed(
     return x, diameter * (0.5 + 0.05 * random.uniform(-1, 1, len(x)))
 
 
-def rut(
-    x: Floats, level: float, start: float, axle: float, radius: float, width: float, sinkage: float
-) -> Floats:
+def rut(x: Floats, level: float, start: float, axle: float, radius: float, width: float, sinkage: float) -> Floats:
     """Displacement (n, 3) under a wheel that rolled from start to axle.
 
     Down below it, up and aside in berms.
@@ -58,9 +52,7 @@ def rut(
     return moved
 
 
-def wheel(
-    radius: float, width: float, centre: npt.ArrayLike, segments: int = 72
-) -> tuple[Integers, Floats]:
+def wheel(radius: float, width: float, centre: npt.ArrayLike, segments: int = 72) -> tuple[Integers, Floats]:
     """A closed cylinder: triangles (m, 3), x (n, 3)."""
     angle = 2 * np.pi * np.arange(segments) / segments
     ring = radius * np.stack([np.cos(angle), np.zeros(segments), np.sin(angle)], axis=1)

@@ -33,15 +33,11 @@ def wheel(slip: Floats, load: Floats, phi: Floats, k: Floats | float = 1.0) -> d
 def samples(runs: int, noise: float = 0.0, ranges: Ranges = RANGES) -> dict[str, Floats]:
     """Inputs and answers by name; noise: standard deviation over the mean size of an answer."""
     unit = qmc.Halton(len(ranges), seed=1).random(runs)
-    inputs = {
-        name: low + u * (high - low) for (name, (low, high)), u in zip(ranges.items(), unit.T)
-    }
+    inputs = {name: low + u * (high - low) for (name, (low, high)), u in zip(ranges.items(), unit.T)}
     random = np.random.default_rng(2)
     answers = wheel(**inputs)
     for name in (PULL, TORQUE, HUB_DROP):
-        answers[name] = answers[name] + noise * np.mean(np.abs(answers[name])) * random.normal(
-            size=runs
-        )
+        answers[name] = answers[name] + noise * np.mean(np.abs(answers[name])) * random.normal(size=runs)
     return {**inputs, **answers}
 
 

@@ -29,16 +29,7 @@ def made_runs() -> list[Row]:
     Two packings of grains of 40 mm, and a wider domain too
     """
     rows = [
-        row(
-            f"c{h}",
-            "continuum",
-            h,
-            0.1 * (1 + 2 * h),
-            0.2 * (1 - 5 * h),
-            1e-4 / h**4,
-            seed="",
-            error=1e-9,
-        )
+        row(f"c{h}", "continuum", h, 0.1 * (1 + 2 * h), 0.2 * (1 - 5 * h), 1e-4 / h**4, seed="", error=1e-9)
         for h in (0.04, 0.02, 0.01)
     ]
     for h in (0.04, 0.02, 0.01):
