@@ -61,7 +61,7 @@ class SeriesTest(unittest.TestCase):
             with self.subTest(quantity=quantity.key):
                 whole = Entry(quantity, "grains", base, Budget(0.0, 0.002, 0.001, 0.0), BEST)
                 zero = series.moved(whole, self.point, self.twin, 0.004)
-                np.testing.assert_allclose([zero.value, *zero.parts.numerical()], [value, *parts], atol=5e-8)
+                np.testing.assert_allclose([zero.value, *(zero.parts.part(name) for name in Budget.NUMERICAL)], [value, *parts], atol=5e-8)
 
     def test_the_twin_has_the_point_s_size_packing_and_width(self) -> None:
         others = [

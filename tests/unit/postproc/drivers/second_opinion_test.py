@@ -38,7 +38,7 @@ class ComparisonTest(unittest.TestCase):
                 for x in (0.001, 0.006)
             ]
         )
-        tables.made["means"] = pandas.DataFrame(engine.rows(study.Runs([], None), "means", tables))
+        tables["means"] = pandas.DataFrame(engine.rows(study.Runs([], None), "means", tables))
         row = engine.derived("grains", tables).to_dict("records")[0]
         self.assertEqual((row["quantity"], row["ours"], row["other"]), ("mean load to 5 mm", 11.0, 9.0))
         self.assertAlmostEqual(row["ours_error"], 1.0)  # of differences 1 and 3
