@@ -83,7 +83,7 @@ class CommittedTest(unittest.TestCase):
             if "±" in table:
                 pages += 1
                 self.assertRegex(text, STATED, f"{page}: what is the number behind ±?")
-            # Cards have no sinkage or resistance of a series: equal digits are chance. The cross-check has a test of its own.
+            # Cards have no sinkage or resistance of a series: equal digits are chance. Another test reads the cross-check.
             if page.parent.name in ("soils", "crosscheck"):
                 continue
             for value, error in SHOWN.findall(re.sub("<!-- value: .*?<!-- end value -->", "", table)):
