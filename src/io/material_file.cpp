@@ -138,6 +138,7 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
   result.model = find_material_model(type.text, models);
   const MaterialModel& model = result.model;
 
+  std::vector<std::string> of_cone_index;  // warnings, which explain nothing of the law
   for (const auto& [key, value] : file.keys) {
     if (key == "title") {
       result.title = text_of(file, key, "a text").text;
@@ -147,7 +148,7 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
     if (key == cone_index) {
       const Options options = read_cone_index(value);
       result.cone_index = options.number(cone_index);
-      result.warnings = options.warnings();
+      of_cone_index = options.warnings();
       continue;
     }
     const std::vector<std::string> names = section_names(model);
@@ -187,7 +188,9 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
     check_plausible(*material);
     return 0;
   });
-  if (!result.warnings.empty()) return result;  // one of the keys is the reason of what follows
+  const bool doubtful = !result.warnings.empty();
+  result.warnings.insert(result.warnings.end(), of_cone_index.begin(), of_cone_index.end());
+  if (doubtful) return result;  // one of the keys is the reason of what follows
   for (const std::string& doubt : doubts(*material))
     result.warnings.push_back(fmt::format("{}: {}", path, doubt));
   const MaterialOptions options = read_sections(model, result.sections);
