@@ -3,6 +3,7 @@
 
 import functools
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,7 +21,10 @@ from ..read.wheel_run import WheelRun
 from ..run.tools import answer
 from .sweep_curves import PULL, RESISTANCE, TORQUE, Axis, Line
 
-CLAY_LAW = "undrained_clay"
+# Law -> kind of soil of the formulas; they do not speak of other laws, as those of snow
+KINDS = {"undrained_clay": "clay", "drucker_prager": "sand", "drucker_prager_cap": "sand", "norsand": "sand"}
+SHELL_TYRE = "tyre/darnell"
+RADIAL = re.compile(r"\d ?Z?R ?\d")  # in the designation of a tyre: 265/70R17
 MESH = (4, 36)  # of the tyre on a rigid plane
 ROLLING = 1e-6  # slip for formulas of a towed tyre
 # Axis -> quantity of the formulas. Those of clay have no tyre that skids.
@@ -74,11 +78,16 @@ class ConeBand:
 
 
 def cone_bands(lines: Sequence[Line]) -> list[ConeBand]:
-    """Bands of the lines whose runs have a tyre on one soil of known cone index."""
+    """Bands of the lines all of whose runs have a tyre on one soil of known cone index."""
     found = []
     for line in lines:
-        soil = _soil_of(line.points[0].runs[0]) if line.points else None
-        if soil:
+        try:
+            soils = {_soil_of(run) for point in line.points for run in point.runs}
+        except ResultsError as error:
+            note = f"{line.label}: no formulas of a cone index: {error}"
+            found.append(ConeBand(line, Soil("", math.nan), tuple(None for _ in line.points), note))
+            continue
+        if len(soils) == 1 and (soil := soils.pop()):
             found.append(_band(line, soil))
     return found
 
@@ -102,9 +111,12 @@ def _is_towed(run: WheelRun) -> bool:
 
 
 def _soil_of(run: WheelRun) -> Soil | None:
-    """None without a tyre, or where the material has no cone index."""
-    ground = run.results.styles().of_kind("terrain")
-    if not run.deformable or run.ground != "continuum" or ground is None or not ground.has("material"):
+    """None without a shell tyre on one material, or where the material has no cone index. @raises ResultsError"""
+    styles = run.results.styles()
+    wheel, ground = styles.of_kind("wheel"), styles.of_kind("terrain")
+    if run.ground != "continuum" or wheel is None or wheel.style != SHELL_TYRE or ground is None:
+        return None
+    if not ground.has("material") or ground.has("patches"):
         return None
     file = _file(run, ground.text("material"))
     return soil_of(file) if file.is_file() else None
@@ -117,10 +129,10 @@ def _file(run: WheelRun, name: str) -> Path:
 
 @functools.cache
 def soil_of(material: Path) -> Soil | None:
-    """Soil of a material file; None where the file has no cone index. @raises ResultsError"""
+    """Soil of a material file; None where it has no cone index, or no sand or clay. @raises ResultsError"""
     content = parse_json(answer([find_program("furrow-point"), "show", material, "--json"]))
-    index = content["cone_index"]
-    return None if index is None else Soil("clay" if content["law"] == CLAY_LAW else "sand", float(index))
+    index, kind = content.get("cone_index"), KINDS.get(content["law"])
+    return Soil(kind, float(index)) if kind and index is not None else None
 
 
 def _tyre_of(run: WheelRun) -> Tyre:
@@ -134,11 +146,13 @@ def _tyre_of(run: WheelRun) -> Tyre:
 def formula_tyre(file: Path, pressure: float, load: float) -> Tyre:
     """Sizes of a tyre file and its deflection on a rigid plane, for formulas. pressure [Pa], load [N].
 
-    The outer diameter is that of the inflated belt with the tread of an estimated tyre. @raises ResultsError"""
+    The outer diameter is that of the inflated belt with the tread of an estimated tyre. A tyre is radial where its title
+    is a designation with R. @raises ResultsError"""
     with content_of(file, "a tyre file is YAML, inputs/guide/tyre_files.md"):
         text = file.read_text(encoding="utf-8")
-        bead = float(yaml.safe_load(text)["tyre"]["bead_radius"])
+        content = yaml.safe_load(text)
+        bead, title = float(content["tyre"]["bead_radius"]), str(content.get("title", ""))
     (state,) = press(text, [PlateTest(1e-3 * pressure, load, {})], MESH)
     diameter = 0.02 * state["crown_radius_cm"] / (1 - 2 * TREAD_OVER_DIAMETER)
     width = 1e-2 * state["section_width_cm"]
-    return Tyre(load, diameter, width, 0.5 * diameter - bead + FLANGE, 1e-2 * state["deflection_cm"], radial=True)
+    return Tyre(load, diameter, width, 0.5 * diameter - bead + FLANGE, 1e-2 * state["deflection_cm"], radial=bool(RADIAL.search(title)))

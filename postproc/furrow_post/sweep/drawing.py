@@ -19,7 +19,7 @@ from .sweep_formulas import FormulaLine
 from .sweep_measured import MeasuredPoints
 
 LEGEND = f"{BARS} (thick: time average alone; thin: all known parts); open: not steady"
-CAPTION = f"{LEGEND[0].upper()}{LEGEND[1:]}."
+CAPTION = f"{LEGEND[0].upper()}{LEGEND[1:]}. Dotted and shaded, where shown: mean and band of the formulas for the cone index."
 MARKERS = "osD^vP"
 DASHES = ((6, 2), (2, 2), (6, 2, 1, 2), (1, 2))
 MEASURED_MARKERS = "sD^v"

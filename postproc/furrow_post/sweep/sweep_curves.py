@@ -120,10 +120,18 @@ def arrange(series: Sequence[Series], against: str | None = None) -> Figure:
 
 
 def _tells_place(points: Sequence[SweepPoint], name: str, positions: Callable[[SweepPoint], float]) -> bool:
-    """True of a variable that has one value at each place of the x axis, as the mode of a rig that sets the slip."""
+    """True of a variable of words that has one value at each place of the x axis, as a motion that sets the slip."""
     pairs = {(_setting(point, name), positions(point)) for point in points}
     values, places = (set(column) for column in zip(*pairs)) if pairs else (set(), set())
-    return len(pairs) == len(values) == len(places) > 1
+    return len(pairs) == len(values) == len(places) > 1 and not any(map(_is_number, values))
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _label(series: Series, point: SweepPoint, others: Sequence[str], number: int) -> str:

@@ -3,11 +3,13 @@
 
 import unittest
 from pathlib import Path
+from unittest.mock import patch
 
 import h5py
 import numpy as np
 
 from furrow_post.laws.cone_formulas import formulas_for
+from furrow_post.errors import ResultsError
 from furrow_post.run.record import Record
 from furrow_post.sweep.cone_band import Soil, formula_tyre, soil_of
 from furrow_post.sweep.sweep_curves import HUB_DROP, PULL, RESISTANCE, TORQUE
@@ -62,6 +64,8 @@ class ConeBandTest(FolderTest):
         self.assertAlmostEqual(tyre.section_height, 0.176, delta=0.006)
         self.assertAlmostEqual(tyre.width, 0.235, delta=0.035)  # under load it bulges
         self.assertAlmostEqual(tyre.deflection, 0.0404, delta=0.005)
+        self.assertTrue(tyre.radial)
+        self.assertFalse(formula_tyre(TYRE.with_name("15x6_00_6.yaml"), 1e5, 1000.0).radial)
 
     def test_clay_has_a_band_and_values_outside_are_named(self) -> None:
         result = self.sweep("clay_medium", {0.1: 0.25, 0.2: -0.5})
@@ -76,6 +80,29 @@ class ConeBandTest(FolderTest):
         self.assertEqual(len(named), 1, named)
         self.assertRegex(named[0], r"slip_0.2: net traction coefficient -0.50 ± \S+ is outside of the formulas, 0\.\d+ to 0\.\d+")
         self.assertIn("sweep.png", write_sweep(result, self.folder / "drawn"))
+
+    def test_a_line_over_several_soils_has_no_band(self) -> None:
+        for name in ("sand_firm", "clay_stiff"):
+            write_tyre_run(self.folder / name, name, 0.2, 0.1)
+        points = tuple(Point(name, {"material": name}) for name in ("sand_firm", "clay_stiff"))
+        Plan("scene.lig", ("material",), points=points).write(self.folder)
+        self.assertEqual(list(evaluate([Named(self.folder)], Wanted()).bands), [])
+
+    def test_a_material_that_cannot_be_read_is_a_note(self) -> None:
+        with patch("furrow_post.sweep.cone_band.answer", side_effect=ResultsError("sand.yaml: no such law")):
+            soil_of.cache_clear()
+            result = self.sweep("sand_firm", {0.1: 0.2, 0.3: 0.2})
+        self.assertIn("no formulas of a cone index: sand.yaml: no such law", " ".join(result.remarks()))
+        self.assertIn("sweep.png", write_sweep(result, self.folder / "drawn"))
+
+    def test_samples_of_several_numbers_stay_apart(self) -> None:
+        points = []
+        for slip, load in ((0.1, "5000"), (0.3, "7000")):
+            write_tyre_run(self.folder / load, "fresh_snow", slip, 0.1)
+            points.append(Point(load, {"slip": f"{slip:g}", "load": load}))
+        Plan("scene.lig", ("slip", "load"), points=tuple(points)).write(self.folder)
+        lines = evaluate([Named(self.folder)], Wanted(against="slip")).figure.lines
+        self.assertEqual([line.label for line in lines], ["load 5000", "load 7000"])
 
     def test_a_towed_tyre_on_sand_has_the_formula_of_towed_resistance(self) -> None:
         for load in (5000, 6000):
