@@ -42,6 +42,7 @@ def main(scene, signal_name, results, *words):
     command = ["bash", PROJECT / "inputs" / "run", "--no-build", scene, *words, "-o", stopped]
     with going([*command, "--checkpoint", "0.5s"], folder, **cache) as begun:
         wait_until((stopped / "checkpoint.data").exists, begun, PATIENCE)
+        assert (stopped / "checkpoint.data").exists(), f"the run wrote no checkpoint in {PATIENCE} s"
         assert programs_of(stopped), f"the run ended before it was stopped:\n{(folder / 'said').read_text()}"
         begun.send_signal(number)
         begun.wait(PATIENCE)

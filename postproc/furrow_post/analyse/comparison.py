@@ -203,6 +203,8 @@ def measured_near(
     where a column is missing or fewer than three rows are near
     """
     rows = pd.DataFrame(read_numbers(path))
+    if rows.empty:
+        raise ResultsError(f"{path}: has no rows; a scatter needs three")
     conditions = {name: value for name, value in (("depth", depth), ("density", density)) if math.isfinite(value)}
     for column in (*(COLUMNS[name] for name in conditions), *NAME_IN_REFERENCE.values()):
         if column not in rows:
@@ -227,7 +229,7 @@ def measured_entries(path: Path, run: WheelRun) -> list[Entry]:
     rows = measured_near(path, run.number("depth"), run.number("density"))
     note = f"mean and scatter of {len(rows)} tests"
     columns = [(quantity, rows[NAME_IN_REFERENCE[quantity.key]]) for quantity in QUANTITIES]
-    return [Entry(q, MEASURED, column.mean(), Budget(time=column.std()), MEASURED, note) for q, column in columns]
+    return [Entry(q, MEASURED, column.mean(skipna=False), Budget(time=column.std(skipna=False)), MEASURED, note) for q, column in columns]
 
 
 # ---- for people and programs

@@ -49,8 +49,8 @@ def surrogate_(given: Given) -> None:
 def _fit(sources: Sequence[Path], output: Path | None) -> Surrogate:
     folder = sources[0] if sources[0].is_dir() else sources[0].parent
     target = output or folder / "surrogate.json"
-    require_file(target, "json", make_folder=True)
     training = read_training(sources)
+    require_file(target, "json", make_folder=True)
     surrogate, held_out = fit(training, _origin(sources))
     surrogate.write(target)
     draw_held_out(training.quantities, held_out, target.with_suffix(".png"))

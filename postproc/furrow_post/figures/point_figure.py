@@ -47,7 +47,7 @@ YieldSurface = tuple[Floats, Floats]  # p, q [Pa]
 
 
 def draw_point(folder: Path) -> list[Path]:
-    """Draws the results folder of furrow-point run or fit, and returns the figure's path.
+    """Draws the results folder of furrow-point run or fit, and returns the figure's path in a list.
 
     @raises ResultsError where it is none
     """

@@ -30,7 +30,7 @@ class Profile(NamedTuple):
 
 
 def draw_sidewall(folder: Path) -> list[Path]:
-    """Draws sidewall.h5 of a results folder, and returns the figure's path."""
+    """Draws sidewall.h5 of a results folder, and returns the figure's path in a list."""
     use_style()
     with opened(folder / "sidewall.h5") as file:
         curves: dict[str, Curve] = {

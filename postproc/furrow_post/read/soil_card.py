@@ -374,7 +374,7 @@ def _read_part(path: Path, kind: Any, section: str, content: dict[str, Any] | No
     if "failed" in content:
         return NoResult(str(content["failed"]))
     _refuse_others(path, section, content, [one.name for one in fields(kind)])
-    given: dict[str, Any] = {"speed_stress": 0.0, **content}
+    given: dict[str, Any] = {**content, "speed_stress": content.get("speed_stress") or 0.0}
     values: dict[str, Any] = {}
     for one in fields(kind):
         where, value = f"{path}: {section}.{one.name}", given.get(one.name)
@@ -383,7 +383,8 @@ def _read_part(path: Path, kind: Any, section: str, content: dict[str, Any] | No
                 raise ResultsError(f"{where} is missing; {REMEDY}")
             values[one.name] = _fitted(where, UNITS[one.name], value if isinstance(value, dict) else {"value": value})
         elif one.type is Range:
-            values[one.name] = Range(*(_finite(where, number) for number in value)) if value else Range(0.0, math.inf)
+            low, high = value if value else (0.0, math.inf)
+            values[one.name] = Range(_finite(where, low), _finite(where, high) if value else high)
         else:
             values[one.name] = math.nan if value is None and kind is not Cone else _finite(where, value)
     return kind(**values)

@@ -58,14 +58,19 @@ LIMIT_KEYS = {"table", "where", "holds", "message", "least", "absent", "key", "r
 
 Spec = Mapping[str, Any]
 
-# Functions of the files *_measures.py whose first argument is a run, or all runs of the study
-MEASURES: Mapping[str, Callable[..., Any]] = {
-    name: value
-    for module in (element_measures, ground_measures, tyre_measures, wheel_measures)
-    for name, value in vars(module).items()
-    if isfunction(value) and value.__module__ == module.__name__ and not name.startswith("_")
-    if next(iter(signature(value).parameters)) in ("run", "runs")
-}
+
+def measures(first: str) -> Mapping[str, Callable[..., Any]]:
+    """Functions of the files *_measures.py whose first argument has this name."""
+    return {
+        name: value
+        for module in (element_measures, ground_measures, tyre_measures, wheel_measures)
+        for name, value in vars(module).items()
+        if isfunction(value) and value.__module__ == module.__name__ and not name.startswith("_")
+        if next(iter(signature(value).parameters)) == first
+    }
+
+
+MEASURES, MEASURES_OF_ALL = measures("run"), measures("runs")  # of one run, and of all runs of a study
 
 
 class Variables(SimpleNamespace):
@@ -164,7 +169,7 @@ class Engine:
             rows = filled(made, names, self.where(name))
         else:
             called = filled({made: {}} if isinstance(made, str) else made, names, self.where(name))
-            rows = [row for one, given in called.items() for row in self.function(one, MEASURES, name)(runs, **given)]
+            rows = [row for one, given in called.items() for row in self.function(one, MEASURES_OF_ALL, name)(runs, **given)]
         for row in rows:
             yield cells({**names, **row}, block["columns"], self.where(name)) if block.get("columns") else row
 

@@ -178,11 +178,13 @@ def off_curve(
     column NAME has its standard error in NAME_error. Columns: by, quantity, difference, difference_error; points beyond
     the ends of the chain are left out."""
     chain = where(frame, known, base).sort_values(x, kind="stable")
+    if len(chain) < 2:
+        return pandas.DataFrame([])
     points = frame.drop(chain.index)
     points = points[points[x].between(chain[x].min(), chain[x].max())]
     made = []
     for key, rows in groups(points, by):
-        piece = np.clip(np.searchsorted(chain[x], rows[x]) - 1, 0, None)  # its line begins there
+        piece = np.clip(np.searchsorted(chain[x], rows[x]) - 1, 0, len(chain) - 2)  # its line begins there
         first, second = (chain.iloc[place].set_index(rows.index) for place in (piece, piece + 1))
         share = (rows[x] - first[x]) / (second[x] - first[x])
         for quantity in values:

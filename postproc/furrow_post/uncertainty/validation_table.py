@@ -29,7 +29,7 @@ class ValidationTable(Generic[Content]):
         path = inputs / "validation" / self.name if inputs else None
         return self._read(path) if path and path.is_file() else self.parse([])
 
-    @lru_cache(maxsize=2)
+    @lru_cache(maxsize=None)
     def _read(self, path: Path) -> Content:
         with content_of(path, f"write it again with 'furrow-post study {self.study}'"):
             return self.parse(read_rows(path))
