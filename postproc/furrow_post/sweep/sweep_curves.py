@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..analyse.conditions import TOLERANCES, answers_of_ground
+from ..arguments import is_number
 from ..errors import ResultsError
 from ..formatting import in_unit
 from .series import Series, SweepPoint, Value
@@ -123,15 +124,7 @@ def _tells_place(points: Sequence[SweepPoint], name: str, positions: Callable[[S
     """True of a variable of words that has one value at each place of the x axis, as a motion that sets the slip."""
     pairs = {(_setting(point, name), positions(point)) for point in points}
     values, places = (set(column) for column in zip(*pairs)) if pairs else (set(), set())
-    return len(pairs) == len(values) == len(places) > 1 and not any(map(_is_number, values))
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    return len(pairs) == len(values) == len(places) > 1 and not any(map(is_number, values))
 
 
 def _label(series: Series, point: SweepPoint, others: Sequence[str], number: int) -> str:
