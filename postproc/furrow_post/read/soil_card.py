@@ -383,11 +383,15 @@ def _read_part(path: Path, kind: Any, section: str, content: dict[str, Any] | No
                 raise ResultsError(f"{where} is missing; {REMEDY}")
             values[one.name] = _fitted(where, UNITS[one.name], value if isinstance(value, dict) else {"value": value})
         elif one.type is Range:
-            low, high = value if value else (0.0, math.inf)
-            values[one.name] = Range(_finite(where, low), _finite(where, high) if value else high)
+            values[one.name] = _range(where, value) if value else Range(0.0, math.inf)
         else:
             values[one.name] = math.nan if value is None and kind is not Cone else _finite(where, value)
     return kind(**values)
+
+
+def _range(where: str, value: Any) -> Range:
+    low, high = value
+    return Range(_finite(where, low), _finite(where, high))
 
 
 def _fitted(where: str, unit: str, given: dict[str, Any]) -> Fitted:
