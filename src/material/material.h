@@ -111,8 +111,8 @@ class Material {
     return density_ / state[field::volume_ratio];
   }
   /// Speed of the fastest elastic wave [m/s]. Associated flow is slower. Flow that is not
-  /// associated can be stiffer than elasticity in one direction: by 0.5 % for the cap law and by a
-  /// factor of 2 for the foam of [Shoop2001]. The explicit step needs a margin.
+  /// associated can be stiffer than elasticity in one direction. The cap law is 0.5 % stiffer, and
+  /// the foam of [Shoop2001] twice as stiff. The explicit step needs a margin.
   double wave_speed(const VectorX& state) const;
   /// The largest of a block's wave speeds [m/s].
   virtual double largest_wave_speed(const PointBlock& block) const;
@@ -123,8 +123,8 @@ class Material {
   /// The stress that an error of the yield function is compared with [Pa]: the strength or the
   /// pressure, and at least rounding_stress(). A law that never yields has the wave modulus.
   virtual double stress_scale(const VectorX& state) const { return moduli(state).wave(); }
-  /// The yield surface of the state in triaxial compression as points (p, q), from the tensile end
-  /// to the tip of the cap; empty for a law that never yields.
+  /// Points (p, q) of the yield surface in triaxial compression. They begin at the tensile end and
+  /// stop at the tip of the cap. A law that never yields has none.
   virtual std::vector<Vector2> yield_surface(const VectorX& state, std::size_t points = 200) const;
 
  protected:

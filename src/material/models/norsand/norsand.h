@@ -31,10 +31,10 @@
 /// of d(eps_q). Sand with D_l >= M/(1 - N) is too loose to bear shear, and compression softens it.
 /// Grains that had separated thus bear a load only after the void ratio has fallen again.
 ///
-/// A shear band of dense sand is narrower than the piece of ground that a point stands for. With
-/// the key shear_band, its width, the void ratio is that of the band from the peak on: it grows by
-/// w/shear_band times the dilation, w the width of the piece. The strength then falls over a slip
-/// that does not depend on the cell. In a continuum w is the cell (TerrainFill).
+/// A shear band of dense sand is narrower than the piece of ground that a point stands for. The key
+/// shear_band gives the width of the band. From the peak on, the void ratio is that of the band. It
+/// grows by the dilation times w/shear_band, where w is the width of the piece: in a continuum, the
+/// cell (TerrainFill). The strength then falls over a slip that does not depend on the cell.
 ///
 /// psi_i in D_l and h, and the power in h, have the P_i of the start of a step. The void ratio is
 /// that of its end.
