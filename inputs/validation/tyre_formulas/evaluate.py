@@ -6,6 +6,7 @@ from functools import cache
 from statistics import fmean
 from typing import Any
 
+from furrow_post.laws.cone_files import Soil, soil_of
 from furrow_post.laws.cone_formulas import Formulas, formulas_for
 from furrow_post.uncertainty.whole_error import budgets_of
 from furrow_post.cli.answer_command import Compared, EstimatedTyre, compared, estimate_tyre
@@ -13,7 +14,6 @@ from furrow_post.errors import ResultsError
 from furrow_post.run.summary import Summary
 from furrow_post.soil.material import find_ground
 from furrow_post.study.runs import Run
-from furrow_post.sweep.cone_band import Soil, soil_of
 
 # Size: load [N], inflation [kPa]
 TYRES = {

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from ..laws.cone_formulas import Formulas, Tyre, formulas_for
 from ..laws.tyre_estimate import Catalogue
 from ..laws.tyre_fit import PlateTest, fit_tyre, press
-from ..laws.tyre_size import read_size
+from ..laws.tyre_size import is_radial, read_size
 from ..uncertainty.whole_error import budgets_of
 from ..csv_table import write_rows
 from ..arguments import between, fraction, inflation, path, positive, seconds
@@ -93,7 +93,7 @@ def estimate_tyre(text: str, load: float, pressure: float, command: str) -> Esti
     fit = fit_tyre(Catalogue(size, 1e3 * pressure), [])
     file_text = fit.file_text(size.designation, [command])
     (state,) = press(file_text, [PlateTest(pressure, load, {})])
-    tyre = Tyre(load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"], radial="R" in text.upper())
+    tyre = Tyre(load, size.diameter, size.width, size.height, 1e-2 * state["deflection_cm"], radial=is_radial(text))
     return EstimatedTyre(file_text, fit.values()["belt_radius"], tyre)
 
 

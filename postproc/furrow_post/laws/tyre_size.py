@@ -13,6 +13,7 @@ from ..errors import ResultsError
 INCH = 0.0254  # [m]
 
 _RIM = r"\s*(?:ZR|R|D|B|-)\s*(?P<rim>\d{1,2}(?:\.\d)?)(?:LT|C)?"
+_RADIAL = re.compile(r"\d\s*Z?R\s*\d")
 _METRIC = re.compile(r"(?:P|LT|ST|IF|VF)?(?P<width>\d{3})/(?P<aspect>\d{2,3})" + _RIM)
 _FLOTATION = re.compile(
     r"(?P<diameter>\d{2}(?:\.\d+)?)[xX×](?P<width>\d{1,2}(?:\.\d{1,2})?)" + _RIM
@@ -62,6 +63,11 @@ def read_size(designation: str) -> TyreSize:
     low = decimals == 0 and rim == _LOW_RIM
     ratio, error = _LOW_HEIGHT_OVER_WIDTH if low else _HEIGHT_OVER_WIDTH[decimals]
     return _checked(text, width, ratio * width, rim, 2.0 * error * width)
+
+
+def is_radial(text: str) -> bool:
+    """True of a text with the designation of a radial tyre."""
+    return bool(_RADIAL.search(text.upper()))
 
 
 def _checked(text: str, width: float, height: float, rim: float, error: float) -> TyreSize:

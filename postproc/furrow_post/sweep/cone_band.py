@@ -1,43 +1,23 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Formulas of the cone index of the ground for the runs of a tyre: mean, band, and values outside of the band."""
 
-import functools
 import math
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import yaml
-
+from ..errors import ResultsError
+from ..laws.cone_files import Soil, formula_tyre, soil_of
 from ..laws.cone_formulas import Formulas, Tyre, formulas_for
-from ..laws.tyre_estimate import FLANGE, TREAD_OVER_DIAMETER
-from ..laws.tyre_fit import PlateTest, press
-from ..uncertainty.verdict import COVERAGE
-from ..errors import ResultsError, content_of
-from ..json_text import parse_json
-from ..programs import find_program
 from ..read.wheel_run import WheelRun
-from ..run.tools import answer
+from ..uncertainty.verdict import COVERAGE
 from .sweep_curves import PULL, RESISTANCE, TORQUE, Axis, Line
 
-# Law -> kind of soil of the formulas; they do not speak of other laws, as those of snow
-KINDS = {"undrained_clay": "clay", "drucker_prager": "sand", "drucker_prager_cap": "sand", "norsand": "sand"}
 SHELL_TYRE = "tyre/darnell"
-RADIAL = re.compile(r"\d ?Z?R ?\d")  # in the designation of a tyre: 265/70R17
-MESH = (4, 36)  # of the tyre on a rigid plane
 ROLLING = 1e-6  # slip for formulas of a towed tyre
 # Axis -> quantity of the formulas. Those of clay have no tyre that skids.
 DRIVEN = {PULL: "net", TORQUE: "gross"}
 TOWED = {"sand": {RESISTANCE: "towed_resistance"}, "clay": {RESISTANCE: "resistance"}}
-
-
-@dataclass(frozen=True)
-class Soil:
-    """kind: sand or clay, as the formulas have it; cone index [Pa]."""
-
-    kind: str
-    cone_index: float
 
 
 @dataclass(frozen=True)
@@ -112,9 +92,11 @@ def _is_towed(run: WheelRun) -> bool:
 
 def _soil_of(run: WheelRun) -> Soil | None:
     """None without a shell tyre on one material, or where the material has no cone index. @raises ResultsError"""
+    if run.ground != "continuum" or not run.deformable:
+        return None
     styles = run.results.styles()
     wheel, ground = styles.of_kind("wheel"), styles.of_kind("terrain")
-    if run.ground != "continuum" or wheel is None or wheel.style != SHELL_TYRE or ground is None:
+    if wheel is None or wheel.style != SHELL_TYRE or ground is None:
         return None
     if not ground.has("material") or ground.has("patches"):
         return None
@@ -127,32 +109,8 @@ def _file(run: WheelRun, name: str) -> Path:
     return Path(run.results.run.get("script", "")).parent / name
 
 
-@functools.cache
-def soil_of(material: Path) -> Soil | None:
-    """Soil of a material file; None where it has no cone index, or no sand or clay. @raises ResultsError"""
-    content = parse_json(answer([find_program("furrow-point"), "show", material, "--json"]))
-    index, kind = content.get("cone_index"), KINDS.get(content["law"])
-    return Soil(kind, float(index)) if kind and index is not None else None
-
-
 def _tyre_of(run: WheelRun) -> Tyre:
     """@raises ResultsError where the tyre's file is gone"""
     style = run.results.styles().of_kind("wheel")
     assert style is not None  # of a run with a tyre
     return formula_tyre(_file(run, style.text("file")), run.number("pressure"), run.number("load"))
-
-
-@functools.cache
-def formula_tyre(file: Path, pressure: float, load: float) -> Tyre:
-    """Sizes of a tyre file and its deflection on a rigid plane, for formulas. pressure [Pa], load [N].
-
-    The outer diameter is that of the inflated belt with the tread of an estimated tyre. A tyre is radial where its title
-    is a designation with R. @raises ResultsError"""
-    with content_of(file, "a tyre file is YAML, inputs/guide/tyre_files.md"):
-        text = file.read_text(encoding="utf-8")
-        content = yaml.safe_load(text)
-        bead, title = float(content["tyre"]["bead_radius"]), str(content.get("title", ""))
-    (state,) = press(text, [PlateTest(1e-3 * pressure, load, {})], MESH)
-    diameter = 0.02 * state["crown_radius_cm"] / (1 - 2 * TREAD_OVER_DIAMETER)
-    width = 1e-2 * state["section_width_cm"]
-    return Tyre(load, diameter, width, 0.5 * diameter - bead + FLANGE, 1e-2 * state["deflection_cm"], radial=bool(RADIAL.search(title)))

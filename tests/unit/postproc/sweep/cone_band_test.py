@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Formulas of a cone index in a sweep: soil and tyre of the files, band, values outside of the band."""
+"""Formulas of a cone index in a sweep: the band, and values outside of it."""
 
 import unittest
 from pathlib import Path
@@ -8,10 +8,10 @@ from unittest.mock import patch
 import h5py
 import numpy as np
 
+from furrow_post.laws.cone_files import formula_tyre, soil_of
 from furrow_post.laws.cone_formulas import formulas_for
 from furrow_post.errors import ResultsError
 from furrow_post.run.record import Record
-from furrow_post.sweep.cone_band import Soil, formula_tyre, soil_of
 from furrow_post.sweep.sweep_curves import HUB_DROP, PULL, RESISTANCE, TORQUE
 from furrow_post.sweep.sweep_files import Named, Result, Wanted, evaluate, write_sweep
 from furrow_post.sweep.sweep_plan import Plan, Point
@@ -19,7 +19,6 @@ from support.command import SOURCE
 from support.folder import FolderTest
 from support.runs import rig, rigid_wheel, style, write_run
 
-MATERIALS = SOURCE / "inputs" / "materials"
 TYRE = SOURCE / "inputs" / "tyres" / "p235_75r15.yaml"
 LOAD, PRESSURE = 6000.0, 2e5
 
@@ -52,21 +51,6 @@ class ConeBandTest(FolderTest):
     def test_a_variable_that_sets_the_slip_splits_no_curve(self) -> None:
         self.assertEqual([line.x for line in self.sweep("fresh_snow", {0.1: 0.2, 0.3: 0.2}).figure.lines], [(0.1, 0.3)])
 
-    def test_the_soil_is_that_of_the_material_file(self) -> None:
-        self.assertEqual(soil_of(MATERIALS / "sand_medium.yaml"), Soil("sand", 131e3))
-        self.assertEqual(soil_of(MATERIALS / "clay_stiff.yaml"), Soil("clay", 530e3))
-        self.assertIsNone(soil_of(MATERIALS / "fresh_snow.yaml"))
-
-    def test_the_tyre_has_the_sizes_of_its_designation(self) -> None:
-        """P235/75 R15 has a diameter of 0.733 m and a section height of 0.176 m. Its deflection is that of [Shoop2001]."""
-        tyre = formula_tyre(TYRE, 179e3, 6227.0)
-        self.assertAlmostEqual(tyre.diameter, 0.733, delta=0.01)
-        self.assertAlmostEqual(tyre.section_height, 0.176, delta=0.006)
-        self.assertAlmostEqual(tyre.width, 0.235, delta=0.035)  # under load it bulges
-        self.assertAlmostEqual(tyre.deflection, 0.0404, delta=0.005)
-        self.assertTrue(tyre.radial)
-        self.assertFalse(formula_tyre(TYRE.with_name("15x6_00_6.yaml"), 1e5, 1000.0).radial)
-
     def test_clay_has_a_band_and_values_outside_are_named(self) -> None:
         result = self.sweep("clay_medium", {0.1: 0.25, 0.2: -0.5})
         (band,) = result.bands
@@ -89,7 +73,7 @@ class ConeBandTest(FolderTest):
         self.assertEqual(list(evaluate([Named(self.folder)], Wanted()).bands), [])
 
     def test_a_material_that_cannot_be_read_is_a_note(self) -> None:
-        with patch("furrow_post.sweep.cone_band.answer", side_effect=ResultsError("sand.yaml: no such law")):
+        with patch("furrow_post.laws.cone_files.answer", side_effect=ResultsError("sand.yaml: no such law")):
             soil_of.cache_clear()
             result = self.sweep("sand_firm", {0.1: 0.2, 0.3: 0.2})
         self.assertIn("no formulas of a cone index: sand.yaml: no such law", " ".join(result.remarks()))

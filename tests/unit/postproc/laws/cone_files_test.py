@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Soil and tyre of the formulas of a cone index, from the files of inputs."""
+
+import unittest
+
+from furrow_post.laws.cone_files import Soil, formula_tyre, soil_of
+from support.command import SOURCE
+
+MATERIALS = SOURCE / "inputs" / "materials"
+TYRE = SOURCE / "inputs" / "tyres" / "p235_75r15.yaml"
+
+
+class ConeFilesTest(unittest.TestCase):
+    def test_the_soil_is_that_of_the_material_file(self) -> None:
+        self.assertEqual(soil_of(MATERIALS / "sand_medium.yaml"), Soil("sand", 131e3))
+        self.assertEqual(soil_of(MATERIALS / "clay_stiff.yaml"), Soil("clay", 530e3))
+        self.assertIsNone(soil_of(MATERIALS / "fresh_snow.yaml"))
+
+    def test_the_tyre_has_the_sizes_of_its_designation(self) -> None:
+        """P235/75 R15 has a diameter of 0.733 m and a section height of 0.176 m. Its deflection is that of [Shoop2001]."""
+        tyre = formula_tyre(TYRE, 179e3, 6227.0)
+        self.assertAlmostEqual(tyre.diameter, 0.733, delta=0.01)
+        self.assertAlmostEqual(tyre.section_height, 0.176, delta=0.006)
+        self.assertAlmostEqual(tyre.width, 0.235, delta=0.035)  # under load it bulges
+        self.assertAlmostEqual(tyre.deflection, 0.0404, delta=0.005)
+        self.assertTrue(tyre.radial)
+        self.assertFalse(formula_tyre(TYRE.with_name("15x6_00_6.yaml"), 1e5, 1000.0).radial)
+
+
+if __name__ == "__main__":
+    unittest.main()
