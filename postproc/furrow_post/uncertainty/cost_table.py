@@ -173,7 +173,11 @@ class Family:
             values = (row.value(key) for row in self._bases_of(size))
             beyond = [(value - series.value) ** 2 - error**2 - scatter**2 for value, error in values]
             of_size = max(series.size_error(size), math.sqrt(max([0.0, *beyond])))
-        return Budget(time_error, of_size, self.domain_error(key), packing)
+        return Budget(time_error, of_size, self.domain_error(key), packing, elements=self._elements)
+
+    @property
+    def _elements(self) -> str:
+        return cells_or_grains(self.rows[0].ground)
 
     def _bases_of(self, size: float) -> list[Row]:
         return [base for base in self.bases if same_size(base.size, size)]
@@ -193,7 +197,7 @@ class Family:
         if series is None:
             return None
         if any(math.isclose(row.value(key)[0], value, rel_tol=1e-5) for row in self._bases_of(size)):
-            return series.value, Budget(0.0, series.error, self.domain_error(key), 0.0)
+            return series.value, Budget(0.0, series.error, self.domain_error(key), 0.0, elements=self._elements)
         parts = self.components(key, size, time_error)
         return value - (series.at(size) - series.value), replace(parts, size=series.error)
 
@@ -210,8 +214,7 @@ def numerical_errors(rows: Iterable[Row]) -> list[tuple[Row, dict[str, Budget]]]
     found = []
     for family in families(rows).values():
         for row in sorted(family.bases, key=lambda row: row.cpu_time):
-            errors = {key: family.components(key, row.size, row.value(key)[1]) for key in QUANTITY_KEYS}
-            found.append((row, {key: replace(error, elements=cells_or_grains(row.ground)) for key, error in errors.items()}))
+            found.append((row, {key: family.components(key, row.size, row.value(key)[1]) for key in QUANTITY_KEYS}))
     return found
 
 

@@ -53,6 +53,7 @@ class TableTest(unittest.TestCase):
         zero, error = family.reference("sinkage")
         numerical = [parts.part(name) for name in parts.NUMERICAL]
         self.assertEqual((value, numerical), (zero, [0.0, error, family.domain_error("sinkage"), 0.0]))
+        self.assertEqual(parts.label("size"), "grains")
 
     def test_a_run_of_another_load_moves_as_its_family_does(self) -> None:
         family = cost_table.families(made_runs())[CONTINUUM]
@@ -60,6 +61,7 @@ class TableTest(unittest.TestCase):
         self.assertAlmostEqual(value, 0.5 - 0.2 * 0.03, places=5)
         series = family.convergence("sinkage") or self.fail()
         self.assertEqual((parts.time, parts.size), (1e-4, series.error))
+        self.assertEqual(parts.label("size"), "cells")
 
     def test_a_series_without_order_errs_by_its_range(self) -> None:
         values = {0.05: 0.190, 0.04: 0.184, 0.03: 0.184, 0.02: 0.183}  # no curve
