@@ -54,14 +54,18 @@ void FixWheelChassis::check_equal_motion() const {
   const FixWheelRig& first = *rigs_.front();
   for (const FixWheelRig* rig : rigs_) {
     const std::string name = fmt::format("has the rig '{}'", rig->id);
-    for (const auto& [key, word] : {std::pair{"travel", "prescribed"}, {"lateral", "held"}})
-      if (rig->options().text(key) != word)
-        throw InputError(options().where("rigs"),
-                         fmt::format("{} with {} {}", name, key, rig->options().text(key)),
-                         fmt::format("rigs with {} {}", key, word),
-                         "the chassis does not hold its wheels at their distances");
+    if (rig->options().text("lateral") != "held")
+      throw InputError(options().where("rigs"), name + " with lateral free",
+                       "rigs with lateral held",
+                       "the chassis does not hold its wheels at their distances along y");
+    if (rig->options().text("travel") != first.options().text("travel"))
+      throw InputError(
+          options().where("rigs"),
+          fmt::format("{} with travel {}, and '{}' with travel {}", name,
+                      rig->options().text("travel"), first.id, first.options().text("travel")),
+          "one travel for all wheels of a chassis");
     for (const char* key : {"speed", "start", "settle_time", "accelerate_time", "gravity"})
-      if (rig->options().number(key) != first.options().number(key))
+      if (rig->options().has(key) && rig->options().number(key) != first.options().number(key))
         throw InputError(
             options().where("rigs"),
             fmt::format("{} with {} {:g}, and '{}' with {:g}", name, key,

@@ -65,6 +65,7 @@ class WheelHub : public Body {
   /// drive.
   /// @throws Error for a negative mass
   void set_dragged_mass(double mass);
+  double dragged_mass() const { return dragged_mass_; }  ///< [kg]
   /// Viscous resistance to vertical motion, taken implicitly [N s/m]; its loss is part of the
   /// balance's dissipated_energy.
   /// @throws Error for a negative coefficient

@@ -16,6 +16,7 @@ namespace {
 constexpr double apart = 1e-6;          // [m] wheels that are closer are in one line
 constexpr double most_radii = 10.0;     // of a wheel, of heights above the axles
 constexpr double least_support = 1e-6;  // of the stiffest coordinate
+constexpr double closed_gap = 0.5;      // share of an error of distance that a step takes back
 
 double mass_of(const WheelRig& rig) { return rig.suspension()->mass(); }
 
@@ -114,7 +115,10 @@ Chassis::Chassis(const Options& options, std::vector<WheelRig*> rigs)
                        fmt::format("-{0:.3g} to {0:.3g} m, {1:g} radii of the largest wheel",
                                    most_radii * radius, most_radii),
                        "give m, not cm or mm");
-  for (WheelRig* rig : rigs_) rig->join();
+  for (WheelRig* rig : rigs_) {
+    places_.push_back(rig->wheel().position(Coordinate::x));
+    rig->join();
+  }
 }
 
 void Chassis::release() {
@@ -132,6 +136,30 @@ void Chassis::apply(double time, double dt) {
   }
   body_.advance(struts, moment(dt), dt);
   for (std::size_t i = 0; i < rigs_.size(); ++i) rigs_[i]->press(struts[i]);
+  if (rigs_.front()->travel_free() && rigs_.front()->stage(time + 0.5 * dt) != RigStage::settle)
+    keep_distances(dt);
+}
+
+/// Pulls the axles to the mean of their velocities and to their distances at the start. The forces
+/// have no sum.
+void Chassis::keep_distances(double dt) {
+  double mass = 0.0, velocity = 0.0, shift = 0.0;
+  const auto mass_along = [](const WheelHub& wheel) {
+    return wheel.total_mass() + wheel.dragged_mass();
+  };
+  for (std::size_t i = 0; i < rigs_.size(); ++i) {
+    const WheelHub& wheel = rigs_[i]->wheel();
+    const double own = mass_along(wheel);
+    mass += own;
+    velocity += own * wheel.rate(Coordinate::x);
+    shift += own * (wheel.position(Coordinate::x) - places_[i]);
+  }
+  for (std::size_t i = 0; i < rigs_.size(); ++i) {
+    const WheelHub& wheel = rigs_[i]->wheel();
+    const double behind = shift / mass - (wheel.position(Coordinate::x) - places_[i]);
+    const double slower = velocity / mass - wheel.rate(Coordinate::x);
+    rigs_[i]->pull(mass_along(wheel) / dt * (slower + closed_gap * behind / dt));
+  }
 }
 
 /// About the centre of mass [N m].

@@ -23,6 +23,8 @@ namespace furrow {
 /// The wheels are held by the constraint forces C, so
 ///   E = sum C + m a,   m_x = -H (W_y - m a_y) - e E_y - M_x,   m_y = H (W_x - m a_x) + e E_x - M_y
 /// W is in the axes of the ground. The acceleration a, C and M are those of the last step.
+///
+/// Wheels that travel freely keep their distances along x: they exchange momentum in every step.
 class Chassis {
  public:
   static Schema schema(const std::string& subject);
@@ -42,8 +44,10 @@ class Chassis {
  private:
   static SprungBody make_body(const Options& options, const std::vector<WheelRig*>& rigs);
   Vector2 moment(double dt);
+  void keep_distances(double dt);
 
   std::vector<WheelRig*> rigs_;
+  std::vector<double> places_;    // of the axles along x, at the start [m]
   double height_, guide_height_;  // above the axles [m]
   SprungBody body_;
   Vector2 speed_ = Vector2::Zero();  // along x and y, of the last step [m/s]

@@ -225,6 +225,8 @@ void WheelRig::press(const Strut& strut) {
   wheel_.set_load(wheel_.load() - Vector3(0.0, 0.0, strut.force));
 }
 
+void WheelRig::pull(double force) { wheel_.set_load(wheel_.load() + Vector3(force, 0.0, 0.0)); }
+
 void WheelRig::checkpoint(Checkpoint& state) {
   if (!suspension_) return;
   suspension_->checkpoint(state);

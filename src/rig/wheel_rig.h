@@ -83,6 +83,7 @@ class WheelRig {
 
   /// True if the rig sets a coordinate, "the load" or "the axle torque" of its wheel in every step.
   bool sets(const std::string& coordinate) const;
+  bool travel_free() const { return travel_free_; }
   bool has_suspension() const { return suspension_.has_value(); }
   /// Suspension of the rig; null without one.
   const Suspension* suspension() const { return suspension_ ? &*suspension_ : nullptr; }
@@ -98,6 +99,7 @@ class WheelRig {
   const Vector3& sprung_weight() const { return sprung_weight_; }
   Strut strut() const;                 ///< its arm is the place of the axle
   void press(const Strut& strut);      ///< presses the wheel with the results
+  void pull(double force);             ///< pulls the axle along x, in addition to its load [N]
   void checkpoint(Checkpoint& state);  ///< of the suspension
 
   RigStage stage(double time) const;

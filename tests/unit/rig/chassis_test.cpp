@@ -223,7 +223,8 @@ Options chassis_options(const std::string& line) {
 
 struct Vehicle {
   /// @param rig keywords of all rigs @param line of the chassis
-  Vehicle(std::vector<Vector2> at, const std::string& rig, const std::string& line)
+  Vehicle(std::vector<Vector2> at, const std::string& rig, const std::string& line,
+          const std::string& travel = "speed 0.5")
       : places(std::move(at)), loads(places.size(), 0.0) {
     std::vector<WheelRig*> all_rigs;
     for (const Vector2& place : places) {
@@ -231,9 +232,9 @@ struct Vehicle {
       wheels.back()->place({place.x(), place.y(), 0.2}, 0.0, 0.0);
       rigs.push_back(std::make_unique<WheelRig>(
           rig_of(*wheels.back(),
-                 "load_mass 15 speed 0.5 load_ramp_time 0.4 settle_time 1.5 accelerate_time 0.2 "
+                 "load_mass 15 load_ramp_time 0.4 settle_time 1.5 accelerate_time 0.2 "
                  "ground_level 0 suspension_stiffness 4000 suspension_damping 400 " +
-                     rig)));
+                     travel + " " + rig)));
       all_rigs.push_back(rigs.back().get());
     }
     chassis = std::make_unique<Chassis>(chassis_options(line), all_rigs);
@@ -247,6 +248,7 @@ struct Vehicle {
       for (std::size_t k = 0; k < wheels.size(); ++k) {
         wheels[k]->advance(dt);
         floor.press_on(wheels[k]->surface());
+        if (i * dt > 1.5) push += dt * wheels[k]->ground_wrench().force.x();
         if (steps - i > std::lround(0.1 / dt)) continue;
         const double share = dt / 0.1;
         loads[k] += share * wheels[k]->ground_wrench().force.z();
@@ -267,6 +269,7 @@ struct Vehicle {
   Floor floor{3e4, 0.8, 1e-2};
   std::vector<double> loads;         // [N]
   double torque = 0.0, guide = 0.0;  // [N m], [N]
+  double push = 0.0;                 // impulse of the floor along x since the wheels settled [N s]
 };
 
 constexpr double base = 1.2, track = 1.0, radius = 0.2;  // [m]
@@ -335,6 +338,22 @@ TEST(Chassis, GradeShiftsTheLoadByStatics) {
     expect_shifted(vehicle, 0, moment, 0.005 * moment);
     EXPECT_NEAR(vehicle.chassis->body().position()[1], 0.0, 1e-9);
   }
+}
+
+// Both wheels slide while they accelerate, and the rear one bears more: alone it would leave the
+// front.
+TEST(Chassis, AxlesThatTravelFreelyMoveAsOneUnderTheSumOfTheirForces) {
+  constexpr double slope = 8.0, end = 2.0, settled = 1.5;
+  Vehicle vehicle(bogie, "mode spin spin_rate 20 slope 8", "pitch_inertia 8 height 0.25",
+                  "travel free");
+  vehicle.run(end);
+  const double weight = vehicle.mass() * standard_gravity * std::sin(radians(slope));
+  const double speed = (vehicle.push - weight * (end - settled)) / vehicle.mass();
+  ASSERT_GT(speed, 1.0);
+  EXPECT_GT(vehicle.loads[1] - vehicle.loads[0], 0.1 * vehicle.load());
+  for (const auto& wheel : vehicle.wheels)
+    EXPECT_NEAR(wheel->rate(Coordinate::x), speed, 0.005 * speed);
+  EXPECT_NEAR(vehicle.wheels[0]->centre().x() - vehicle.wheels[1]->centre().x(), base, 1e-6);
 }
 
 TEST(Chassis, RefusesWheelsThatDoNotSupportItAndMissingInertia) {
