@@ -44,16 +44,16 @@ bool any_not_zero(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; });
 }
 
-/// Marks the inputs: a slip or torque that does not change, and the pull of a free axle. A towed
-/// wheel answers with its slip, whether this changes or not.
-void mark_imposed(std::vector<SteadyValue>& values, bool driven, bool axle_free) {
+/// Marks the inputs: a slip or torque that does not change, and the pull of an axle that is free
+/// without others. A towed wheel answers with its slip, whether this changes or not.
+void mark_imposed(std::vector<SteadyValue>& values, bool driven, bool pull_is_given) {
   for (SteadyValue& value : values) {
     const bool constant = value.standard_error == 0.0;
     if (value.name == "slip") value.imposed = driven && constant;
     if (value.name == "drive_torque") value.imposed = constant;
     if (value.name == "drawbar_pull" || value.name == "net_traction_coefficient" ||
         value.name == "resistance_coefficient")
-      value.imposed = axle_free;
+      value.imposed = pull_is_given;
     if (value.imposed) value.standard_error = 0.0;
   }
 }
@@ -112,9 +112,7 @@ const SteadyValue& Resistance::coefficient() const {
   return value(driven ? "net_traction_coefficient" : "resistance_coefficient");
 }
 
-const SteadyValue& Resistance::answer() const {
-  return coefficient().imposed ? value("slip") : coefficient();
-}
+const SteadyValue& Resistance::answer() const { return axle_free ? value("slip") : coefficient(); }
 
 std::string plain_name(const std::string& name) {
   std::string title = name;
@@ -191,8 +189,10 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   add("drive_torque", "N m", part("drive_torque"), torque_scale);
   result.driven = std::abs(result.values.back().mean) > no_torque * torque_scale;
   add("slip", "", part("slip"), slip_scale);
-  mark_imposed(result.values, result.driven,
-               history.has(axle_free_channel) && any_not_zero(part(axle_free_channel)));
+  const std::vector<double> free =
+      history.has(axle_free_channel) ? part(axle_free_channel) : std::vector<double>{};
+  result.axle_free = any_not_zero(free);
+  mark_imposed(result.values, result.driven, result.axle_free && free.back() == 1.0);
   share_error_of_negatives(result.values, "resistance_coefficient", "net_traction_coefficient");
   if (history.has("tractive_force")) {
     const std::vector<double> tractive = part("tractive_force");

@@ -38,8 +38,9 @@ struct Resistance {
   /// count
   std::vector<SteadyValue> values;
   ResistanceParts parts;
-  bool driven = false;  ///< an axle torque drives or brakes the wheel: it is not towed
-  bool steady = false;  ///< the window is good and every value is steady
+  bool driven = false;     ///< an axle torque drives or brakes the wheel: it is not towed
+  bool axle_free = false;  ///< along x, alone or with the other wheels of a vehicle
+  bool steady = false;     ///< the window is good and every value is steady
   /// reasons why it is not steady: "hub drop, slip: it drifts by ..."; empty for a steady run
   std::vector<std::string> reasons;
 
@@ -47,7 +48,7 @@ struct Resistance {
   const SteadyValue& value(const std::string& name) const;  ///< @throws Error for an unknown name
   /// net_traction_coefficient of a driven wheel, resistance_coefficient of a towed one
   const SteadyValue& coefficient() const;
-  /// Value that the run was made for: the coefficient, or the slip where the pull is imposed.
+  /// Value that the run was made for: the coefficient, or the slip of a free axle.
   const SteadyValue& answer() const;
 };
 

@@ -14,7 +14,8 @@ constexpr char stage_channel[] = "stage";
 /// Name of the channel that counts the passes in one rut, from 1.
 constexpr char pass_channel[] = "pass";
 
-/// Name of the channel that is 1 where the axle is free along x: speed and slip are then answers.
+/// Name of the channel that is 1 where the axle is free along x, and 2 where it is free together
+/// with others: speed and slip are then answers. Pull is an answer of the latter only.
 constexpr char axle_free_channel[] = "axle_free";
 
 /// Name of the channel that counts the pitches of grousers by which the wheel has turned.
