@@ -14,8 +14,8 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include "core/error.h"
-#include "core/nearest_word.h"
+#include "furrow/core/error.h"
+#include "furrow/core/nearest_word.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/script_variables.h"
 

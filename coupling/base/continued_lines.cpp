@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/furrow_fix.h"
 #include "coupling/base/keeps_state.h"
 #include "coupling/liggghts/fixes_of.h"

@@ -2,8 +2,8 @@
 #pragma once
 /// Role of a fix that accounts for a part of the work of a wheel on its ground.
 
-#include "bodies/body.h"
-#include "rig/ground_losses.h"
+#include "furrow/bodies/body.h"
+#include "furrow/rig/ground_losses.h"
 
 namespace furrow::coupling {
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow::coupling {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/bed_line.h"
 #include "coupling/base/fix_order.h"
 #include "coupling/base/grain_check.h"

@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "bodies/body.h"
-#include "bodies/coupled_system.h"
-#include "core/checkpoint.h"
-#include "core/communicator.h"
+#include "furrow/bodies/body.h"
+#include "furrow/bodies/coupled_system.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/communicator.h"
 #include "coupling/base/continued_lines.h"
 #include "coupling/base/grain_loads.h"
 #include "coupling/base/motion_controller.h"

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "coupling/base/fix_wheel_hub.h"
-#include "rig/wheel_rig.h"
+#include "furrow/rig/wheel_rig.h"
 
 namespace furrow::coupling {
 

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "coupling/base/furrow_fix.h"
-#include "io/soil_card_file.h"
-#include "scm/height_field.h"
-#include "scm/soil.h"
+#include "furrow/io/soil_card_file.h"
+#include "furrow/scm/height_field.h"
+#include "furrow/scm/soil.h"
 
 namespace furrow::coupling {
 

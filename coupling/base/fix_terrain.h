@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "coupling/base/fix_body.h"
-#include "mpm/continuum_terrain.h"
+#include "furrow/mpm/continuum_terrain.h"
 
 namespace furrow::coupling {
 

@@ -16,10 +16,10 @@
 #include <variant>
 #include <vector>
 
-#include "bodies/body.h"
-#include "bodies/contact.h"
-#include "core/checkpoint.h"
-#include "core/outputs.h"
+#include "furrow/bodies/body.h"
+#include "furrow/bodies/contact.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/outputs.h"
 #include "coupling/liggghts/find_fix.h"
 #include "coupling/liggghts/has_options.h"
 #include "coupling/base/keeps_state.h"

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/error.h"
-#include "core/types.h"
+#include "furrow/core/error.h"
+#include "furrow/core/types.h"
 #include "update.h"
 
 namespace furrow::coupling {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "bodies/body.h"
-#include "core/checkpoint.h"
-#include "core/communicator.h"
+#include "furrow/bodies/body.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/communicator.h"
 #include "coupling/base/contact_work.h"
 #include "coupling/base/momentum_audit.h"
 

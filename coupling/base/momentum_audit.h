@@ -6,7 +6,7 @@
 #include <string>
 
 #include "coupling/base/contact_work.h"
-#include "geometry/surface.h"
+#include "furrow/geometry/surface.h"
 
 namespace furrow::coupling {
 

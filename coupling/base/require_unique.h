@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/fixes_of.h"
 
 namespace furrow::coupling {

@@ -13,8 +13,8 @@
 #include <map>
 #include <vector>
 
-#include "bodies/coupled_system.h"
-#include "core/checkpoint.h"
+#include "furrow/bodies/coupled_system.h"
+#include "furrow/core/checkpoint.h"
 #include "coupling/base/grain_forces.h"
 #include "coupling/base/grain_loads.h"
 #include "coupling/liggghts/saved_histories.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "coupling/liggghts/global_properties.h"
 #include "fix_property_global.h"
 #include "update.h"

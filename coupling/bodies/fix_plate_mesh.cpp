@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/bodies/fix_plate_mesh.h"
 
-#include "bodies/mesh_bodies.h"
+#include "furrow/bodies/mesh_bodies.h"
 #include "coupling/bodies/mesh_of_file.h"
 #include "coupling/liggghts/style_registry.h"
 

@@ -3,9 +3,9 @@
 /// fix plate/rigid: a rigid plate, annulus or cone that is pushed into the ground and turned. See
 /// fix_plate_rigid.md.
 
-#include "bodies/rigid_plate.h"
+#include "furrow/bodies/rigid_plate.h"
 #include "coupling/base/fix_body.h"
-#include "rig/ramp.h"
+#include "furrow/rig/ramp.h"
 
 namespace furrow::coupling {
 

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/script.h"
-#include "tyre/tyre_parameters.h"
+#include "furrow/tyre/tyre_parameters.h"
 #include "update.h"
 
 namespace furrow::coupling {

@@ -2,9 +2,9 @@
 #pragma once
 /// The base of every fix that makes a tyre: keys, refusals, outputs and state that tyres share.
 
-#include "bodies/hub_parameters.h"
+#include "furrow/bodies/hub_parameters.h"
 #include "coupling/base/fix_wheel_hub.h"
-#include "tyre/tyre.h"
+#include "furrow/tyre/tyre.h"
 
 namespace furrow::coupling {
 

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
-#include "io/brick_tyre_file.h"
+#include "furrow/io/brick_tyre_file.h"
 
 namespace furrow::coupling {
 

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/style_registry.h"
-#include "io/sidewall_cache.h"
-#include "io/tyre_file.h"
+#include "furrow/io/sidewall_cache.h"
+#include "furrow/io/tyre_file.h"
 
 namespace furrow::coupling {
 

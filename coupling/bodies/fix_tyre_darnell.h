@@ -3,7 +3,7 @@
 /// fix tyre/darnell: an inflated tyre on a rigid rim. See fix_tyre_darnell.md.
 
 #include "coupling/bodies/fix_tyre.h"
-#include "tyre/darnell_tyre.h"
+#include "furrow/tyre/darnell_tyre.h"
 
 namespace furrow::coupling {
 

@@ -2,7 +2,7 @@
 #pragma once
 /// fix wheel/mesh: a rigid wheel from a mesh file. See fix_wheel_mesh.md.
 
-#include "bodies/mesh_bodies.h"
+#include "furrow/bodies/mesh_bodies.h"
 #include "coupling/base/fix_wheel_hub.h"
 
 namespace furrow::coupling {

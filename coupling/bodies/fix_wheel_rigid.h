@@ -2,7 +2,7 @@
 #pragma once
 /// fix wheel/rigid: a rigid wheel as a body. See fix_wheel_rigid.md.
 
-#include "bodies/rigid_wheel.h"
+#include "furrow/bodies/rigid_wheel.h"
 #include "coupling/base/fix_wheel_hub.h"
 
 namespace furrow::coupling {

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "core/checksum.h"
+#include "furrow/core/checksum.h"
 #include "coupling/liggghts/script.h"
-#include "io/mesh_file.h"
+#include "furrow/io/mesh_file.h"
 
 namespace furrow::coupling {
 

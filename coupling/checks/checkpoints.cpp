@@ -11,7 +11,7 @@
 
 #include "atom.h"
 #include "atom_vec.h"
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "coupling/checks/scene_checks.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/checkpoint_file.h"

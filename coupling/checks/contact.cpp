@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/bodies/fix_plate_rigid.h"
 #include "coupling/bodies/fix_tyre_brick.h"
@@ -20,11 +20,11 @@
 #include "coupling/checks/scene_checks.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "domain.h"
-#include "mpm/boundary_effect.h"
-#include "mpm/divided_ground.h"
-#include "mpm/ground_under_wheel.h"
+#include "furrow/mpm/boundary_effect.h"
+#include "furrow/mpm/divided_ground.h"
+#include "furrow/mpm/ground_under_wheel.h"
 #include "primitive_wall.h"
-#include "tyre/darnell_tyre.h"
+#include "furrow/tyre/darnell_tyre.h"
 
 namespace furrow::coupling {
 

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/communicator.h"
-#include "core/gravity.h"
-#include "core/types.h"
+#include "furrow/core/communicator.h"
+#include "furrow/core/gravity.h"
+#include "furrow/core/types.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/bed_line.h"
 #include "coupling/base/grain_check.h"

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/grain_check.h"
 #include "coupling/base/fix_scm.h"
@@ -21,7 +21,7 @@
 #include "coupling/contact/fix_contact_scm.h"
 #include "coupling/terrain/fix_bed_window.h"
 #include "domain.h"
-#include "geometry/winding_number.h"
+#include "furrow/geometry/winding_number.h"
 #include "primitive_wall.h"
 
 namespace furrow::coupling {

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/scene_watch.h"

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/high_friction.h"
 #include "coupling/base/snow_pairs.h"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/counts_losses.h"
 #include "coupling/base/fix_body.h"
 #include "coupling/base/high_friction.h"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/require_unique.h"
 #include "coupling/contact/ground_contact.h"
 #include "coupling/liggghts/style_registry.h"

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "bodies/rigid_plate.h"
-#include "bodies/rigid_wheel.h"
+#include "furrow/bodies/rigid_plate.h"
+#include "furrow/bodies/rigid_wheel.h"
 #include "comm.h"
-#include "core/check_number.h"
+#include "furrow/core/check_number.h"
 #include "coupling/liggghts/style_registry.h"
 
 namespace furrow::coupling {

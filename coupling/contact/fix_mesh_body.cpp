@@ -7,8 +7,8 @@
 
 #include "atom.h"
 #include "coupling/liggghts/style_registry.h"
-#include "geometry/weld.h"
-#include "core/error.h"
+#include "furrow/geometry/weld.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/find_fix.h"
 #include "coupling/base/read_options.h"
 #include "coupling/base/fix_body.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bodies/body.h"
-#include "core/options.h"
+#include "furrow/bodies/body.h"
+#include "furrow/core/options.h"
 #include "coupling/base/fix_order.h"
 #include "coupling/base/keeps_state.h"
 #include "coupling/liggghts/has_options.h"

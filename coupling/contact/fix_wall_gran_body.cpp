@@ -9,7 +9,7 @@
 
 #include "atom.h"
 #include "contact_interface.h"
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/has_options.h"
@@ -20,8 +20,8 @@
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/liggghts/wall_meshes.h"
 #include "fix_neighlist_mesh.h"
-#include "geometry/winding_number.h"
-#include "mpm/continuum_terrain.h"
+#include "furrow/geometry/winding_number.h"
+#include "furrow/mpm/continuum_terrain.h"
 #include "neighbor.h"
 #include "update.h"
 

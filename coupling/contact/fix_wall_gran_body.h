@@ -10,7 +10,7 @@
 #include "coupling/contact/grain_bed_check.h"
 #include "coupling/liggghts/style_registry.h"
 #include "fix_wall_gran.h"
-#include "geometry/closest_feature.h"
+#include "furrow/geometry/closest_feature.h"
 
 namespace furrow::coupling {
 

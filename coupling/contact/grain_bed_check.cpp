@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "coupling/base/snow_pairs.h"
 #include "coupling/liggghts/global_properties.h"
 #include "coupling/liggghts/script.h"

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "bodies/body.h"
-#include "geometry/surface.h"
+#include "furrow/bodies/body.h"
+#include "furrow/geometry/surface.h"
 #include "lammps.h"
 
 namespace furrow::coupling {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "coupling/liggghts/script.h"
-#include "tyre/tyre.h"
+#include "furrow/tyre/tyre.h"
 
 namespace furrow::coupling {
 

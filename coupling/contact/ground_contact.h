@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "core/options.h"
+#include "furrow/core/options.h"
 #include "coupling/base/fix_body.h"
-#include "material/ground_contact.h"
+#include "furrow/material/ground_contact.h"
 
 namespace furrow::coupling {
 

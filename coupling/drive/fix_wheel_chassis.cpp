@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/style_registry.h"
 

@@ -6,7 +6,7 @@
 
 #include "coupling/base/motion_controller.h"
 #include "coupling/drive/fix_wheel_rig.h"
-#include "rig/chassis.h"
+#include "furrow/rig/chassis.h"
 
 namespace furrow::coupling {
 

@@ -8,15 +8,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/checksum.h"
-#include "core/error.h"
+#include "furrow/core/checksum.h"
+#include "furrow/core/error.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/drive/tilted_gravity.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/base/fix_terrain.h"
-#include "io/csv_file.h"
+#include "furrow/io/csv_file.h"
 #include "update.h"
 
 namespace furrow::coupling {

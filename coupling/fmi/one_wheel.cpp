@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/gravity.h"
+#include "furrow/core/error.h"
+#include "furrow/core/gravity.h"
 #include "coupling/base/fix_rig.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/liggghts/fixes_of.h"

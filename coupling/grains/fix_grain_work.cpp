@@ -10,8 +10,8 @@
 
 #include "atom.h"
 #include "compute.h"
-#include "core/communicator.h"
-#include "core/error.h"
+#include "furrow/core/communicator.h"
+#include "furrow/core/error.h"
 #include "coupling/base/checkpoint_totals.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/fix_rig.h"

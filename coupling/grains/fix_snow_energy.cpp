@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/grains/fix_snow_energy.h"
 
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "coupling/base/checkpoint_totals.h"
 #include "coupling/base/require_unique.h"
 #include "coupling/grains/model_snow_bond.h"

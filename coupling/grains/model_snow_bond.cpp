@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/snow_pairs.h"
 #include "coupling/base/time_step_check.h"
 #include "coupling/liggghts/fixes_of.h"
@@ -23,7 +23,7 @@
 #include "coupling/liggghts/vector.h"
 #include "fix_property_global.h"
 #include "force.h"
-#include "grains/snow_bond.h"
+#include "furrow/grains/snow_bond.h"
 #include "neighbor.h"
 #include "update.h"
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "coupling/liggghts/script.h"
 #include "update.h"
 

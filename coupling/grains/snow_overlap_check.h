@@ -5,7 +5,7 @@
 
 #include "atom.h"
 #include "lammps.h"
-#include "material/point_block.h"
+#include "furrow/material/point_block.h"
 
 namespace furrow::coupling {
 

@@ -8,8 +8,8 @@
 
 #include "atom.h"
 #include "compute.h"
-#include "core/communicator.h"
-#include "core/error.h"
+#include "furrow/core/communicator.h"
+#include "furrow/core/error.h"
 #include "coupling/base/require_unique.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"

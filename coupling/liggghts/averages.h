@@ -2,7 +2,7 @@
 #pragma once
 /// Sums of a fix ave/time, which are private members.
 
-#include "core/checkpoint.h"
+#include "furrow/core/checkpoint.h"
 #include "fix_ave_time.h"
 
 namespace furrow::coupling {

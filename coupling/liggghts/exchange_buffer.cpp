@@ -6,7 +6,7 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/packed_integer.h"
 #include "modify.h"
 

@@ -7,7 +7,7 @@
 
 #include <mpi.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow::coupling {
 

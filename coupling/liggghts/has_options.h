@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/options.h"
+#include "furrow/core/options.h"
 #include "fix.h"
 
 namespace furrow::coupling {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 #include "coupling/liggghts/checked_stream.h"
 #include "coupling/liggghts/checkpoint_file.h"

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "compute_pair_gran_local.h"
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "force.h"
 #include "pair_gran.h"
 #include "update.h"

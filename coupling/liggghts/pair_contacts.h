@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 #include "lammps.h"
 
 namespace furrow::coupling {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "comm.h"
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/driver.h"
 #include "coupling/liggghts/first_rank.h"

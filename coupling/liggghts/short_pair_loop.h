@@ -18,7 +18,7 @@
 #include "force.h"
 #include "modify.h"
 #include "neighbor.h"
-#include "simd/dispatch.h"
+#include "furrow/simd/dispatch.h"
 
 namespace furrow::coupling {
 

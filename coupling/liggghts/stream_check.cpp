@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "core/communicator.h"
-#include "core/error.h"
+#include "furrow/core/communicator.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/checked_stream.h"

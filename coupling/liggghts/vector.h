@@ -2,7 +2,7 @@
 #pragma once
 /// LIGGGHTS's three numbers as a vector.
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow::coupling {
 

@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "atom.h"
-#include "bodies/wheel_hub.h"
-#include "core/error.h"
+#include "furrow/bodies/wheel_hub.h"
+#include "furrow/core/error.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/first_rank.h"
@@ -22,7 +22,7 @@
 #include "coupling/base/fix_terrain.h"
 #include "domain.h"
 #include "input.h"
-#include "io/summary.h"
+#include "furrow/io/summary.h"
 #include "update.h"
 
 namespace furrow::coupling {

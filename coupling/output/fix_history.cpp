@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "comm.h"
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/require_unique.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/fixes_of.h"

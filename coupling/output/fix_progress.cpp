@@ -17,7 +17,7 @@
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/base/fix_terrain.h"
-#include "tyre/tyre.h"
+#include "furrow/tyre/tyre.h"
 #include "update.h"
 
 namespace furrow::coupling {

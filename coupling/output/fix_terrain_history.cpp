@@ -5,8 +5,8 @@
 #include "coupling/liggghts/rescue.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/base/fix_terrain.h"
-#include "mpm/terrain_outputs.h"
-#include "mpm/terrain_snapshot.h"
+#include "furrow/mpm/terrain_outputs.h"
+#include "furrow/mpm/terrain_snapshot.h"
 
 namespace furrow::coupling {
 

@@ -7,15 +7,15 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/require_unique.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/liggghts/vector.h"
 #include "coupling/output/results_folder.h"
-#include "io/csv_file.h"
-#include "io/replace_file.h"
+#include "furrow/io/csv_file.h"
+#include "furrow/io/replace_file.h"
 #include "update.h"
 
 namespace furrow::coupling {

@@ -7,7 +7,7 @@
 
 #include "coupling/base/fix_order.h"
 #include "coupling/base/furrow_fix.h"
-#include "rig/contact_arc.h"
+#include "furrow/rig/contact_arc.h"
 
 namespace furrow::coupling {
 

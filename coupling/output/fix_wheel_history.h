@@ -3,8 +3,8 @@
 /// fix wheel/history: the results folder of a wheel run. See fix_wheel_history.md.
 
 #include "coupling/output/fix_history.h"
-#include "io/vtk_file.h"
-#include "rig/ground_losses.h"
+#include "furrow/io/vtk_file.h"
+#include "furrow/rig/ground_losses.h"
 
 namespace furrow {
 class WheelHub;

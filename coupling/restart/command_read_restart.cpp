@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/checkpoint_file.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/restart/fix_expected_states.h"

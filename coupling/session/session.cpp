@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "atom.h"
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/command_line.h"
 #include "coupling/liggghts/access.h"

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/options.h"
+#include "furrow/core/error.h"
+#include "furrow/core/options.h"
 #include "coupling/base/time_step_check.h"
 #include "coupling/terrain/bed_limits.h"
 

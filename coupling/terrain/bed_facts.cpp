@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "atom.h"
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "domain.h"
 #include "update.h"
 

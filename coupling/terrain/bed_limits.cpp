@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/high_friction.h"
 #include "coupling/base/time_step_check.h"
 

@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/check_number.h"
-#include "core/error.h"
+#include "furrow/core/check_number.h"
+#include "furrow/core/error.h"
 #include "coupling/terrain/bed_limits.h"
 #include "domain.h"
 #include "group.h"
 #include "input.h"
-#include "io/heightmap_file.h"
+#include "furrow/io/heightmap_file.h"
 
 namespace furrow::coupling {
 

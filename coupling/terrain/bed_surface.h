@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/options.h"
-#include "core/types.h"
-#include "geometry/ground_relief.h"
+#include "furrow/core/options.h"
+#include "furrow/core/types.h"
+#include "furrow/geometry/ground_relief.h"
 #include "lammps.h"
 
 namespace furrow::coupling {

@@ -13,11 +13,11 @@
 #include <unistd.h>
 
 #include "comm.h"
-#include "core/check_number.h"
-#include "core/error.h"
-#include "core/gravity.h"
-#include "io/contact_section.h"
-#include "core/types.h"
+#include "furrow/core/check_number.h"
+#include "furrow/core/error.h"
+#include "furrow/core/gravity.h"
+#include "furrow/io/contact_section.h"
+#include "furrow/core/types.h"
 #include "coupling/base/bed_line.h"
 #include "coupling/liggghts/checkpoint_file.h"
 #include "coupling/liggghts/first_rank.h"
@@ -30,9 +30,9 @@
 #include "coupling/terrain/bed_limits.h"
 #include "domain.h"
 #include "input.h"
-#include "io/cache.h"
-#include "io/sealed_file.h"
-#include "io/version.h"
+#include "furrow/io/cache.h"
+#include "furrow/io/sealed_file.h"
+#include "furrow/io/version.h"
 
 namespace furrow::coupling {
 

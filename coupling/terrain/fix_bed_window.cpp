@@ -8,15 +8,15 @@
 #include <mpi.h>
 
 #include "atom.h"
-#include "core/communicator.h"
-#include "core/error.h"
+#include "furrow/core/communicator.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/require_unique.h"
 #include "coupling/base/fix_body.h"
 #include "coupling/liggghts/exchange_buffer.h"
 #include "coupling/liggghts/style_registry.h"
 #include "domain.h"
-#include "geometry/closest_feature.h"
+#include "furrow/geometry/closest_feature.h"
 #include "modify.h"
 #include "update.h"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "comm.h"
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/find_fix.h"
 #include "coupling/base/read_options.h"
 #include "coupling/base/require_unique.h"
@@ -16,8 +16,8 @@
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 #include "domain.h"
-#include "io/terrain_input.h"
-#include "mpm/terrain_size.h"
+#include "furrow/io/terrain_input.h"
+#include "furrow/mpm/terrain_size.h"
 #include "update.h"
 
 namespace furrow::coupling {

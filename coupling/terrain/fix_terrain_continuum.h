@@ -7,8 +7,8 @@
 
 #include "coupling/base/fix_terrain.h"
 #include "coupling/base/motion_controller.h"
-#include "mpm/ground_under_wheel.h"
-#include "mpm/terrain_outputs.h"
+#include "furrow/mpm/ground_under_wheel.h"
+#include "furrow/mpm/terrain_outputs.h"
 
 namespace furrow::coupling {
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/script.h"

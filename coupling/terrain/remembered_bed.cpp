@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/communicator.h"
-#include "core/error.h"
+#include "furrow/core/communicator.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/contact_history.h"
 #include "coupling/liggghts/exchange_buffer.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/options.h"
+#include "furrow/core/options.h"
 
 #include <algorithm>
 #include <charconv>
@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
-#include "core/nearest_word.h"
-#include "core/usual_range.h"
+#include "furrow/core/error.h"
+#include "furrow/core/nearest_word.h"
+#include "furrow/core/usual_range.h"
 
 namespace furrow {
 

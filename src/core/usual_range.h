@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/options.h"
+#include "furrow/core/options.h"
 
 namespace furrow {
 

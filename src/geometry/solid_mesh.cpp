@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/solid_mesh.h"
+#include "furrow/geometry/solid_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "geometry/winding_number.h"
+#include "furrow/core/error.h"
+#include "furrow/geometry/winding_number.h"
 
 namespace furrow {
 

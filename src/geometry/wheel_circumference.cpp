@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/wheel_circumference.h"
+#include "furrow/geometry/wheel_circumference.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "geometry/wheel_geometry.h"
+#include "furrow/geometry/wheel_geometry.h"
 
 namespace furrow {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/wheel_geometry.h"
+#include "furrow/geometry/wheel_geometry.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/check_number.h"
-#include "core/error.h"
+#include "furrow/core/check_number.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

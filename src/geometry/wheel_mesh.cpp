@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/wheel_mesh.h"
+#include "furrow/geometry/wheel_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "geometry/wheel_circumference.h"
+#include "furrow/core/error.h"
+#include "furrow/geometry/wheel_circumference.h"
 
 namespace furrow {
 

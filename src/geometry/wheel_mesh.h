@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "geometry/surface.h"
-#include "geometry/wheel_geometry.h"
+#include "furrow/geometry/surface.h"
+#include "furrow/geometry/wheel_geometry.h"
 
 namespace furrow {
 

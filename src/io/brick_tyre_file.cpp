@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/brick_tyre_file.h"
+#include "furrow/io/brick_tyre_file.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
-#include "io/input_kind.h"
-#include "io/yaml_tree.h"
+#include "furrow/core/error.h"
+#include "furrow/io/input_kind.h"
+#include "furrow/io/yaml_tree.h"
 
 namespace furrow {
 

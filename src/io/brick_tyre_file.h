@@ -11,8 +11,8 @@
 
 #include <string>
 
-#include "io/tyre_sections.h"
-#include "tyre/brick_tyre_parameters.h"
+#include "furrow/io/tyre_sections.h"
+#include "furrow/tyre/brick_tyre_parameters.h"
 
 namespace furrow {
 

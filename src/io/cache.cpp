@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/cache.h"
+#include "furrow/io/cache.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/checksum.h"
+#include "furrow/core/checksum.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/closing_group.h"
+#include "furrow/io/closing_group.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
-#include "io/hdf5_file.h"
+#include "furrow/core/error.h"
+#include "furrow/io/hdf5_file.h"
 
 namespace furrow {
 

@@ -3,7 +3,7 @@
 /// Groups that the end of a run adds to its results file: /audit, /cost and /warnings of
 /// history_file.h.
 
-#include "io/run_report.h"
+#include "furrow/io/run_report.h"
 
 namespace furrow {
 

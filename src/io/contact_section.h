@@ -15,8 +15,8 @@
 
 #include <string>
 
-#include "io/yaml_tree.h"
-#include "material/ground_contact.h"
+#include "furrow/io/yaml_tree.h"
+#include "furrow/material/ground_contact.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/csv_file.h"
+#include "furrow/io/csv_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
-#include "io/input_text.h"
-#include "io/units.h"
+#include "furrow/core/error.h"
+#include "furrow/io/input_text.h"
+#include "furrow/io/units.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/file_lock.h"
+#include "furrow/io/file_lock.h"
 
 #include <cerrno>
 #include <utility>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/grains.h"
+#include "furrow/io/grains.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <unordered_map>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

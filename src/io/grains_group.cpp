@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/grains_group.h"
+#include "furrow/io/grains_group.h"
 
 #include <fmt/format.h>
 
 #include <vector>
 
-#include "core/error.h"
-#include "io/hdf5_file.h"
+#include "furrow/core/error.h"
+#include "furrow/io/hdf5_file.h"
 
 namespace furrow {
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "io/grains.h"
+#include "furrow/io/grains.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/hdf5_file.h"
+#include "furrow/io/hdf5_file.h"
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/heightmap_file.h"
+#include "furrow/io/heightmap_file.h"
 
 #include <algorithm>
 #include <array>
@@ -21,10 +21,10 @@
 #include <vtkPNGReader.h>
 #include <vtkSmartPointer.h>
 
-#include "core/check_number.h"
-#include "core/error.h"
-#include "io/input_text.h"
-#include "io/text_lines.h"
+#include "furrow/core/check_number.h"
+#include "furrow/core/error.h"
+#include "furrow/io/input_text.h"
+#include "furrow/io/text_lines.h"
 
 namespace furrow {
 

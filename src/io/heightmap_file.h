@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "geometry/ground_relief.h"
+#include "furrow/geometry/ground_relief.h"
 
 namespace furrow {
 

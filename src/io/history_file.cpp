@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/history_file.h"
+#include "furrow/io/history_file.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -11,14 +11,14 @@
 #include <filesystem>
 #include <utility>
 
-#include "core/error.h"
-#include "io/closing_group.h"
-#include "io/grains_group.h"
-#include "io/hdf5_file.h"
-#include "io/history_rows.h"
-#include "io/replace_file.h"
-#include "io/terrain_fields.h"
-#include "statistics/rig_stage.h"
+#include "furrow/core/error.h"
+#include "furrow/io/closing_group.h"
+#include "furrow/io/grains_group.h"
+#include "furrow/io/hdf5_file.h"
+#include "furrow/io/history_rows.h"
+#include "furrow/io/replace_file.h"
+#include "furrow/io/terrain_fields.h"
+#include "furrow/statistics/rig_stage.h"
 
 namespace furrow {
 

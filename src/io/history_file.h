@@ -29,10 +29,10 @@
 #include <string>
 #include <vector>
 
-#include "geometry/surface.h"
-#include "io/grains.h"
-#include "io/run_report.h"
-#include "statistics/history.h"
+#include "furrow/geometry/surface.h"
+#include "furrow/io/grains.h"
+#include "furrow/io/run_report.h"
+#include "furrow/statistics/history.h"
 
 namespace furrow {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/history_rows.h"
+#include "furrow/io/history_rows.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
-#include "io/hdf5_file.h"
+#include "furrow/core/error.h"
+#include "furrow/io/hdf5_file.h"
 
 namespace furrow {
 

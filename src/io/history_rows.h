@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "statistics/history.h"
+#include "furrow/statistics/history.h"
 
 namespace furrow {
 

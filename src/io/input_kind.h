@@ -2,7 +2,7 @@
 #pragma once
 /// The kinds of YAML files that Furrow reads, distinguished by their sections.
 
-#include "io/yaml_tree.h"
+#include "furrow/io/yaml_tree.h"
 
 namespace furrow {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/law_json.h"
+#include "furrow/io/law_json.h"
 
 #include <cmath>
 #include <cstdlib>
 
 #include <nlohmann/json.hpp>
 
-#include "core/usual_range.h"
+#include "furrow/core/usual_range.h"
 
 namespace furrow {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/options.h"
-#include "io/material_file.h"
+#include "furrow/core/options.h"
+#include "furrow/io/material_file.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/material_file.h"
+#include "furrow/io/material_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
-#include "core/nearest_word.h"
-#include "io/contact_section.h"
-#include "io/input_kind.h"
-#include "material/plausibility.h"
+#include "furrow/core/error.h"
+#include "furrow/core/nearest_word.h"
+#include "furrow/io/contact_section.h"
+#include "furrow/io/input_kind.h"
+#include "furrow/material/plausibility.h"
 
 namespace furrow {
 

@@ -21,10 +21,10 @@
 #include <string>
 #include <vector>
 
-#include "io/yaml_tree.h"
-#include "material/ground_contact.h"
-#include "material/material.h"
-#include "material/registry.h"
+#include "furrow/io/yaml_tree.h"
+#include "furrow/material/ground_contact.h"
+#include "furrow/material/material.h"
+#include "furrow/material/registry.h"
 
 namespace furrow {
 

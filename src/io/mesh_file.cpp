@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/mesh_file.h"
+#include "furrow/io/mesh_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -12,11 +12,11 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "geometry/weld.h"
-#include "io/input_text.h"
-#include "io/text_lines.h"
-#include "io/vtk_file.h"
+#include "furrow/core/error.h"
+#include "furrow/geometry/weld.h"
+#include "furrow/io/input_text.h"
+#include "furrow/io/text_lines.h"
+#include "furrow/io/vtk_file.h"
 
 namespace furrow {
 

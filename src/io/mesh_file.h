@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/solid_mesh.h"
+#include "furrow/geometry/solid_mesh.h"
 
 namespace furrow {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/mode_results.h"
+#include "furrow/io/mode_results.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "io/csv_file.h"
-#include "io/hdf5_file.h"
-#include "io/replace_file.h"
-#include "io/vtk_file.h"
-#include "tyre/mode_kind.h"
+#include "furrow/io/csv_file.h"
+#include "furrow/io/hdf5_file.h"
+#include "furrow/io/replace_file.h"
+#include "furrow/io/vtk_file.h"
+#include "furrow/tyre/mode_kind.h"
 
 namespace furrow {
 

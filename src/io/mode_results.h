@@ -10,7 +10,7 @@
 
 #include <string>
 
-#include "tyre/tyre.h"
+#include "furrow/tyre/tyre.h"
 
 namespace furrow {
 

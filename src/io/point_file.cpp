@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/point_file.h"
+#include "furrow/io/point_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
-#include "io/csv_file.h"
-#include "io/input_kind.h"
-#include "material/point/point_driver.h"
+#include "furrow/core/error.h"
+#include "furrow/io/csv_file.h"
+#include "furrow/io/input_kind.h"
+#include "furrow/material/point/point_driver.h"
 
 namespace furrow {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "io/material_file.h"
-#include "material/point/point_fit.h"
-#include "material/point/point_path.h"
+#include "furrow/io/material_file.h"
+#include "furrow/material/point/point_fit.h"
+#include "furrow/material/point/point_path.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/point_results.h"
+#include "furrow/io/point_results.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +9,12 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "io/csv_file.h"
-#include "io/hdf5_file.h"
-#include "io/make_folder.h"
-#include "io/replace_file.h"
-#include "io/version.h"
+#include "furrow/core/error.h"
+#include "furrow/io/csv_file.h"
+#include "furrow/io/hdf5_file.h"
+#include "furrow/io/make_folder.h"
+#include "furrow/io/replace_file.h"
+#include "furrow/io/version.h"
 
 namespace furrow {
 

@@ -10,8 +10,8 @@
 
 #include <string>
 
-#include "io/point_file.h"
-#include "material/point/point_driver.h"
+#include "furrow/io/point_file.h"
+#include "furrow/material/point/point_driver.h"
 
 namespace furrow {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "core/rank_numbers.h"
-#include "io/sealed_file.h"
+#include "furrow/core/rank_numbers.h"
+#include "furrow/io/sealed_file.h"
 
 namespace furrow {
 

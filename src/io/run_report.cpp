@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/run_report.h"
+#include "furrow/io/run_report.h"
 
 #include <sys/resource.h>
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/types.h"
-#include "io/style_record.h"
-#include "io/version.h"
+#include "furrow/core/types.h"
+#include "furrow/io/style_record.h"
+#include "furrow/io/version.h"
 
 namespace furrow {
 

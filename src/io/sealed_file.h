@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/checksum.h"
-#include "io/file_lock.h"
+#include "furrow/core/checksum.h"
+#include "furrow/io/file_lock.h"
 
 namespace furrow {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/sidewall_cache.h"
+#include "furrow/io/sidewall_cache.h"
 
 #include <unistd.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
-#include "io/cache.h"
-#include "io/hdf5_file.h"
-#include "io/version.h"
-#include "tyre/sidewall_direct.h"
+#include "furrow/core/error.h"
+#include "furrow/io/cache.h"
+#include "furrow/io/hdf5_file.h"
+#include "furrow/io/version.h"
+#include "furrow/tyre/sidewall_direct.h"
 
 namespace furrow {
 

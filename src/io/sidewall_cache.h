@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "tyre/sidewall_table.h"
+#include "furrow/tyre/sidewall_table.h"
 
 namespace furrow {
 

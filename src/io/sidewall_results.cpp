@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/sidewall_results.h"
+#include "furrow/io/sidewall_results.h"
 
 #include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 
-#include "io/csv_file.h"
-#include "io/hdf5_file.h"
-#include "io/make_folder.h"
-#include "io/replace_file.h"
-#include "io/tyre_file.h"
-#include "io/version.h"
+#include "furrow/io/csv_file.h"
+#include "furrow/io/hdf5_file.h"
+#include "furrow/io/make_folder.h"
+#include "furrow/io/replace_file.h"
+#include "furrow/io/tyre_file.h"
+#include "furrow/io/version.h"
 
 namespace furrow {
 

@@ -9,7 +9,7 @@
 
 #include <string>
 
-#include "tyre/sidewall_survey.h"
+#include "furrow/tyre/sidewall_survey.h"
 
 namespace furrow {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "core/options.h"
-#include "mpm/slide_surface.h"
+#include "furrow/core/options.h"
+#include "furrow/mpm/slide_surface.h"
 
 namespace furrow {
 

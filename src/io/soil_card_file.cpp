@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/soil_card_file.h"
+#include "furrow/io/soil_card_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,14 +10,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/check_number.h"
-#include "core/error.h"
-#include "core/gravity.h"
-#include "core/types.h"
-#include "io/contact_section.h"
-#include "io/input_text.h"
-#include "io/units.h"
-#include "io/yaml_tree.h"
+#include "furrow/core/check_number.h"
+#include "furrow/core/error.h"
+#include "furrow/core/gravity.h"
+#include "furrow/core/types.h"
+#include "furrow/io/contact_section.h"
+#include "furrow/io/input_text.h"
+#include "furrow/io/units.h"
+#include "furrow/io/yaml_tree.h"
 
 namespace furrow {
 

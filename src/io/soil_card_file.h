@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "material/ground_contact.h"
+#include "furrow/material/ground_contact.h"
 
 namespace furrow {
 

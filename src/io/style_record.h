@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/options.h"
+#include "furrow/core/options.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/summary.h"
+#include "furrow/io/summary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "io/history_file.h"
-#include "io/replace_file.h"
+#include "furrow/core/error.h"
+#include "furrow/io/history_file.h"
+#include "furrow/io/replace_file.h"
 
 namespace furrow {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "io/run_report.h"
-#include "statistics/passes.h"
-#include "statistics/vehicle.h"
+#include "furrow/io/run_report.h"
+#include "furrow/statistics/passes.h"
+#include "furrow/statistics/vehicle.h"
 
 namespace furrow {
 

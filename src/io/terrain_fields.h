@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "mpm/terrain_snapshot.h"
+#include "furrow/mpm/terrain_snapshot.h"
 
 namespace furrow {
 

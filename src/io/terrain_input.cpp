@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/terrain_input.h"
+#include "furrow/io/terrain_input.h"
 
 #include <algorithm>
 #include <charconv>
@@ -9,13 +9,13 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/gravity.h"
-#include "io/heightmap_file.h"
-#include "io/material_file.h"
-#include "io/patch_input.h"
-#include "io/slide_input.h"
-#include "material/plausibility.h"
+#include "furrow/core/error.h"
+#include "furrow/core/gravity.h"
+#include "furrow/io/heightmap_file.h"
+#include "furrow/io/material_file.h"
+#include "furrow/io/patch_input.h"
+#include "furrow/io/slide_input.h"
+#include "furrow/material/plausibility.h"
 
 namespace furrow {
 

@@ -5,9 +5,9 @@
 
 #include <optional>
 
-#include "core/options.h"
-#include "mpm/ground_under_wheel.h"
-#include "mpm/terrain_parameters.h"
+#include "furrow/core/options.h"
+#include "furrow/mpm/ground_under_wheel.h"
+#include "furrow/mpm/terrain_parameters.h"
 
 namespace furrow {
 

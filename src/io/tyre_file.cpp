@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/tyre_file.h"
+#include "furrow/io/tyre_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
-#include "core/types.h"
-#include "io/input_kind.h"
-#include "io/yaml_tree.h"
+#include "furrow/core/error.h"
+#include "furrow/core/types.h"
+#include "furrow/io/input_kind.h"
+#include "furrow/io/yaml_tree.h"
 
 namespace furrow {
 

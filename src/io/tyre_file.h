@@ -10,8 +10,8 @@
 
 #include <string>
 
-#include "io/tyre_sections.h"
-#include "tyre/tyre_parameters.h"
+#include "furrow/io/tyre_sections.h"
+#include "furrow/tyre/tyre_parameters.h"
 
 namespace furrow {
 

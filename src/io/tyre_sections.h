@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/options.h"
-#include "io/yaml_tree.h"
+#include "furrow/core/options.h"
+#include "furrow/io/yaml_tree.h"
 
 namespace furrow {
 

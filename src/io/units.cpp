@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/units.h"
+#include "furrow/io/units.h"
 
 #include <cctype>
 #include <utility>

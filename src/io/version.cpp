@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/version.h"
+#include "furrow/io/version.h"
 
 namespace furrow {
 

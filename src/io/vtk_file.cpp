@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/vtk_file.h"
+#include "furrow/io/vtk_file.h"
 
 #include <fmt/format.h>
 #include <vtkCellArray.h>
@@ -21,10 +21,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "core/error.h"
-#include "io/mesh_file.h"
-#include "io/replace_file.h"
-#include "io/terrain_fields.h"
+#include "furrow/core/error.h"
+#include "furrow/io/mesh_file.h"
+#include "furrow/io/replace_file.h"
+#include "furrow/io/terrain_fields.h"
 
 namespace furrow {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/surface.h"
-#include "io/grains.h"
+#include "furrow/geometry/surface.h"
+#include "furrow/io/grains.h"
 
 namespace furrow {
 

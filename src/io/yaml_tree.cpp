@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/yaml_tree.h"
+#include "furrow/io/yaml_tree.h"
 
 #include <yaml-cpp/yaml.h>
 
@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
-#include "core/nearest_word.h"
-#include "io/input_text.h"
-#include "io/yaml_documents.h"
+#include "furrow/core/error.h"
+#include "furrow/core/nearest_word.h"
+#include "furrow/io/input_text.h"
+#include "furrow/io/yaml_documents.h"
 
 namespace furrow {
 

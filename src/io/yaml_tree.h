@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/options.h"
+#include "furrow/core/options.h"
 
 namespace furrow {
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "core/communicator.h"
-#include "core/types.h"
-#include "mpm/face.h"
-#include "mpm/grid.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/communicator.h"
+#include "furrow/core/types.h"
+#include "furrow/mpm/face.h"
+#include "furrow/mpm/grid.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/boundary_effect.h"
+#include "furrow/mpm/boundary_effect.h"
 
 #include <algorithm>
 #include <array>

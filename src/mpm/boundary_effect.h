@@ -3,7 +3,7 @@
 /// Effect of the sides and the base of ground on the results of a body on it: fits to the runs of
 /// the study inputs/validation/ground_size, which a test compares with its stored rows.
 
-#include "material/material.h"
+#include "furrow/material/material.h"
 
 namespace furrow {
 

@@ -8,7 +8,7 @@
 /// the work of the mean pressure in the nodes' strain is that of the particles' pressure in the
 /// mean strain: the energy that the grid loses is what the material gets.
 
-#include "mpm/transfer.h"
+#include "furrow/mpm/transfer.h"
 
 namespace furrow {
 

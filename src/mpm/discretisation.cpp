@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/discretisation.h"
+#include "furrow/mpm/discretisation.h"
 
 namespace furrow {
 

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "mpm/grid.h"
-#include "mpm/node_exchange.h"
-#include "mpm/particle_group.h"
-#include "mpm/partition.h"
+#include "furrow/mpm/grid.h"
+#include "furrow/mpm/node_exchange.h"
+#include "furrow/mpm/particle_group.h"
+#include "furrow/mpm/partition.h"
 
 namespace furrow {
 

@@ -17,10 +17,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "geometry/thin_parts.h"
-#include "mpm/boundary.h"
-#include "mpm/discretisation.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/geometry/thin_parts.h"
+#include "furrow/mpm/boundary.h"
+#include "furrow/mpm/discretisation.h"
 
 namespace furrow {
 

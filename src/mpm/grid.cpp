@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/grid.h"
+#include "furrow/mpm/grid.h"
 
 #include <algorithm>
 #include <utility>

@@ -12,10 +12,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/rank_numbers.h"
-#include "core/types.h"
-#include "mpm/axis.h"
-#include "mpm/transfer.h"
+#include "furrow/core/rank_numbers.h"
+#include "furrow/core/types.h"
+#include "furrow/mpm/axis.h"
+#include "furrow/mpm/transfer.h"
 
 namespace furrow {
 

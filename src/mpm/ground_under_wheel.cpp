@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/ground_under_wheel.h"
+#include "furrow/mpm/ground_under_wheel.h"
 
 #include <algorithm>
 #include <cmath>

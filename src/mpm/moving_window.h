@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "mpm/boundary.h"
-#include "mpm/discretisation.h"
-#include "mpm/particle_distribution.h"
-#include "mpm/rut_record.h"
-#include "mpm/terrain_energy.h"
-#include "mpm/terrain_fill.h"
-#include "mpm/terrain_parameters.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/mpm/boundary.h"
+#include "furrow/mpm/discretisation.h"
+#include "furrow/mpm/particle_distribution.h"
+#include "furrow/mpm/rut_record.h"
+#include "furrow/mpm/terrain_energy.h"
+#include "furrow/mpm/terrain_fill.h"
+#include "furrow/mpm/terrain_parameters.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/node_exchange.h"
+#include "furrow/mpm/node_exchange.h"
 
 #include <algorithm>
 

@@ -5,10 +5,10 @@
 #include <array>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "core/communicator.h"
-#include "mpm/grid.h"
-#include "mpm/partition.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/communicator.h"
+#include "furrow/mpm/grid.h"
+#include "furrow/mpm/partition.h"
 
 namespace furrow {
 

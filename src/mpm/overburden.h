@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "mpm/terrain_parameters.h"
+#include "furrow/mpm/terrain_parameters.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/particle_distribution.h"
+#include "furrow/mpm/particle_distribution.h"
 
 #include <algorithm>
 #include <numeric>
@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/rank_numbers.h"
+#include "furrow/core/error.h"
+#include "furrow/core/rank_numbers.h"
 
 namespace furrow {
 

@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "core/rank_numbers.h"
-#include "mpm/boundary.h"
-#include "mpm/discretisation.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/rank_numbers.h"
+#include "furrow/mpm/boundary.h"
+#include "furrow/mpm/discretisation.h"
 
 namespace furrow {
 

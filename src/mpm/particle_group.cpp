@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/particle_group.h"
+#include "furrow/mpm/particle_group.h"
 
 #include <vector>
 

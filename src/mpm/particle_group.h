@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "material/material.h"
-#include "mpm/particles.h"
+#include "furrow/material/material.h"
+#include "furrow/mpm/particles.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/particle_refinement.h"
+#include "furrow/mpm/particle_refinement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "mpm/terrain_fill.h"
+#include "furrow/core/error.h"
+#include "furrow/mpm/terrain_fill.h"
 
 namespace furrow {
 

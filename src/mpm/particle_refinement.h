@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "mpm/discretisation.h"
-#include "mpm/terrain_parameters.h"
+#include "furrow/mpm/discretisation.h"
+#include "furrow/mpm/terrain_parameters.h"
 
 namespace furrow {
 

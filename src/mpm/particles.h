@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "material/material.h"
-#include "material/point_block.h"
-#include "mpm/transfer.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/material/material.h"
+#include "furrow/material/point_block.h"
+#include "furrow/mpm/transfer.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/partition.h"
+#include "furrow/mpm/partition.h"
 
 #include <algorithm>
 #include <numeric>

@@ -9,10 +9,10 @@
 #include <array>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "core/communicator.h"
-#include "mpm/block_layout.h"
-#include "mpm/grid.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/communicator.h"
+#include "furrow/mpm/block_layout.h"
+#include "furrow/mpm/grid.h"
 
 namespace furrow {
 

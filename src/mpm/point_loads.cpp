@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/point_loads.h"
+#include "furrow/mpm/point_loads.h"
 
 namespace furrow {
 

@@ -4,11 +4,11 @@
 
 #include <vector>
 
-#include "core/types.h"
-#include "mpm/discretisation.h"
-#include "mpm/remap_control.h"
-#include "mpm/terrain_energy.h"
-#include "mpm/transfer.h"
+#include "furrow/core/types.h"
+#include "furrow/mpm/discretisation.h"
+#include "furrow/mpm/remap_control.h"
+#include "furrow/mpm/terrain_energy.h"
+#include "furrow/mpm/transfer.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/remap_control.h"
+#include "furrow/mpm/remap_control.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 /// Schedule of the remaps of particles and grid: the length of a remap interval, and which of the
 /// two holds the present motion (terrain_step.h explains the scheme).
 
-#include "core/checkpoint.h"
-#include "mpm/discretisation.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/mpm/discretisation.h"
 
 namespace furrow {
 

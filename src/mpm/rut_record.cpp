@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/rut_record.h"
+#include "furrow/mpm/rut_record.h"
 
 namespace furrow {
 

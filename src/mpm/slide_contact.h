@@ -18,9 +18,9 @@
 
 #include <array>
 
-#include "mpm/boundary.h"
-#include "mpm/grid.h"
-#include "mpm/slide_surface.h"
+#include "furrow/mpm/boundary.h"
+#include "furrow/mpm/grid.h"
+#include "furrow/mpm/slide_surface.h"
 
 namespace furrow {
 

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "mpm/boundary.h"
-#include "mpm/discretisation.h"
-#include "mpm/overburden.h"
-#include "mpm/terrain_parameters.h"
-#include "mpm/trough.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/mpm/boundary.h"
+#include "furrow/mpm/discretisation.h"
+#include "furrow/mpm/overburden.h"
+#include "furrow/mpm/terrain_parameters.h"
+#include "furrow/mpm/trough.h"
 
 namespace furrow {
 

@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "core/options.h"
-#include "geometry/ground_relief.h"
-#include "material/ground_contact.h"
-#include "material/material.h"
-#include "mpm/axis.h"
-#include "mpm/block_layout.h"
-#include "mpm/boundary.h"
-#include "mpm/slide_surface.h"
+#include "furrow/core/options.h"
+#include "furrow/geometry/ground_relief.h"
+#include "furrow/material/ground_contact.h"
+#include "furrow/material/material.h"
+#include "furrow/mpm/axis.h"
+#include "furrow/mpm/block_layout.h"
+#include "furrow/mpm/boundary.h"
+#include "furrow/mpm/slide_surface.h"
 
 namespace furrow {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/terrain_size.h"
+#include "furrow/mpm/terrain_size.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/machine.h"
-#include "mpm/grid.h"
+#include "furrow/core/error.h"
+#include "furrow/core/machine.h"
+#include "furrow/mpm/grid.h"
 
 namespace furrow {
 

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "core/communicator.h"
-#include "mpm/terrain_parameters.h"
+#include "furrow/core/communicator.h"
+#include "furrow/mpm/terrain_parameters.h"
 
 namespace furrow {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/terrain_step.h"
+#include "furrow/mpm/terrain_step.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "mpm/cell_average.h"
+#include "furrow/core/error.h"
+#include "furrow/mpm/cell_average.h"
 
 namespace furrow {
 

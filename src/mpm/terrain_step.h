@@ -33,17 +33,17 @@
 #include <array>
 #include <vector>
 
-#include "mpm/active_ground.h"
-#include "mpm/boundary.h"
-#include "mpm/discretisation.h"
-#include "mpm/divided_ground.h"
-#include "mpm/particle_distribution.h"
-#include "mpm/point_loads.h"
-#include "mpm/remap_control.h"
-#include "mpm/slide_contact.h"
-#include "mpm/terrain_energy.h"
-#include "mpm/terrain_parameters.h"
-#include "mpm/transfer.h"
+#include "furrow/mpm/active_ground.h"
+#include "furrow/mpm/boundary.h"
+#include "furrow/mpm/discretisation.h"
+#include "furrow/mpm/divided_ground.h"
+#include "furrow/mpm/particle_distribution.h"
+#include "furrow/mpm/point_loads.h"
+#include "furrow/mpm/remap_control.h"
+#include "furrow/mpm/slide_contact.h"
+#include "furrow/mpm/terrain_energy.h"
+#include "furrow/mpm/terrain_parameters.h"
+#include "furrow/mpm/transfer.h"
 
 namespace furrow {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/transfer.h"
+#include "furrow/mpm/transfer.h"
 
-#include "simd/dispatch.h"
+#include "furrow/simd/dispatch.h"
 
 namespace furrow {
 

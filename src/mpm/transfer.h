@@ -24,8 +24,8 @@
 
 #include <cstddef>
 
-#include "mpm/axis.h"
-#include "simd/instruction_set.h"
+#include "furrow/mpm/axis.h"
+#include "furrow/simd/instruction_set.h"
 
 namespace furrow {
 

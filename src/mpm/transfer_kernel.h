@@ -2,8 +2,8 @@
 #pragma once
 /// The transfers of transfer.h for one instruction set.
 
-#include "mpm/transfer/grid_to_particles.h"
-#include "mpm/transfer/particles_to_grid.h"
+#include "furrow/mpm/transfer/grid_to_particles.h"
+#include "furrow/mpm/transfer/particles_to_grid.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "mpm/axis.h"
-#include "mpm/overburden.h"
-#include "mpm/terrain_parameters.h"
+#include "furrow/mpm/axis.h"
+#include "furrow/mpm/overburden.h"
+#include "furrow/mpm/terrain_parameters.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/arc.h"
+#include "furrow/tyre/arc.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 /// The circular arc of a given length over a given chord.
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/brick_tyre.h"
+#include "furrow/tyre/brick_tyre.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/check_number.h"
+#include "furrow/core/check_number.h"
 
 namespace furrow {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tyre/brick_tyre_mesh.h"
-#include "tyre/nodal_tyre.h"
+#include "furrow/tyre/brick_tyre_mesh.h"
+#include "furrow/tyre/nodal_tyre.h"
 
 namespace furrow {
 

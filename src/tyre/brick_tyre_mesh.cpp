@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/brick_tyre_mesh.h"
+#include "furrow/tyre/brick_tyre_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "tyre/section_curve.h"
+#include "furrow/core/error.h"
+#include "furrow/tyre/section_curve.h"
 
 namespace furrow {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "shell/shell4.h"
-#include "solid/brick8.h"
-#include "tyre/brick_tyre_parameters.h"
-#include "tyre/tread_grid.h"
+#include "furrow/shell/shell4.h"
+#include "furrow/solid/brick8.h"
+#include "furrow/tyre/brick_tyre_parameters.h"
+#include "furrow/tyre/tread_grid.h"
 
 namespace furrow {
 

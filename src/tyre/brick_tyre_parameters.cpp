@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/brick_tyre_parameters.h"
+#include "furrow/tyre/brick_tyre_parameters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "core/check_number.h"
-#include "core/error.h"
-#include "tyre/section_curve.h"
+#include "furrow/core/check_number.h"
+#include "furrow/core/error.h"
+#include "furrow/tyre/section_curve.h"
 
 namespace furrow {
 

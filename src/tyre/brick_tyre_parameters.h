@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "shell/shell_section.h"
-#include "solid/brick8.h"
-#include "tyre/tyre_parameters.h"
+#include "furrow/shell/shell_section.h"
+#include "furrow/solid/brick8.h"
+#include "furrow/tyre/tyre_parameters.h"
 
 namespace furrow {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/darnell_tyre.h"
+#include "furrow/tyre/darnell_tyre.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "core/check_number.h"
-#include "core/error.h"
-#include "tyre/sidewall_direct.h"
+#include "furrow/core/check_number.h"
+#include "furrow/core/error.h"
+#include "furrow/tyre/sidewall_direct.h"
 
 namespace furrow {
 

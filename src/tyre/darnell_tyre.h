@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "shell/shell4.h"
-#include "tyre/nodal_tyre.h"
-#include "tyre/sidewall_ring.h"
-#include "tyre/sidewall_table.h"
-#include "tyre/tread_mesh.h"
-#include "tyre/tyre_surface.h"
+#include "furrow/shell/shell4.h"
+#include "furrow/tyre/nodal_tyre.h"
+#include "furrow/tyre/sidewall_ring.h"
+#include "furrow/tyre/sidewall_table.h"
+#include "furrow/tyre/tread_mesh.h"
+#include "furrow/tyre/tyre_surface.h"
 
 namespace furrow {
 

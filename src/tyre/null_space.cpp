@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/null_space.h"
+#include "furrow/tyre/null_space.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #pragma once
 /// Linear algebra of Newton's method with two equality constraints.
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/quintic_spline.h"
+#include "furrow/tyre/quintic_spline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "simd/dispatch.h"
-#include "tyre/quintic_spline_cell.h"
+#include "furrow/core/error.h"
+#include "furrow/simd/dispatch.h"
+#include "furrow/tyre/quintic_spline_cell.h"
 
 namespace furrow {
 

@@ -3,8 +3,8 @@
 /// A quintic spline of three variables at a point: the six B-splines along axis 2, and the six
 /// coefficients of a row, lie in the lanes.
 
-#include "simd/lanes.h"
-#include "tyre/quintic_spline_cell.h"
+#include "furrow/simd/lanes.h"
+#include "furrow/tyre/quintic_spline_cell.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/section_curve.h"
+#include "furrow/tyre/section_curve.h"
 
 #include <algorithm>
 

@@ -17,7 +17,7 @@
 
 #include <cstddef>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -3,9 +3,9 @@
 /// The equilibrium of a sidewall: a planar chain of inextensible segments with bending springs
 /// under follower pressure.
 
-#include "tyre/null_space.h"
-#include "tyre/sidewall.h"
-#include "tyre/sidewall_chain_energy.h"
+#include "furrow/tyre/null_space.h"
+#include "furrow/tyre/sidewall.h"
+#include "furrow/tyre/sidewall_chain_energy.h"
 
 namespace furrow {
 

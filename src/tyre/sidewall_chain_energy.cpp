@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/sidewall_chain_energy.h"
+#include "furrow/tyre/sidewall_chain_energy.h"
 
 #include <cmath>
 

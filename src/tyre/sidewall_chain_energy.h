@@ -3,7 +3,7 @@
 /// The potential of a chain of segments under follower pressure, at any angles, with its
 /// derivatives.
 
-#include "tyre/tyre_parameters.h"
+#include "furrow/tyre/tyre_parameters.h"
 
 namespace furrow {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tyre/sidewall_chain.h"
+#include "furrow/tyre/sidewall_chain.h"
 
 namespace furrow {
 

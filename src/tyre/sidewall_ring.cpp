@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/sidewall_ring.h"
+#include "furrow/tyre/sidewall_ring.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "tyre/arc.h"
+#include "furrow/core/error.h"
+#include "furrow/tyre/arc.h"
 
 namespace furrow {
 

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "shell/shell_nodes.h"
-#include "tyre/sidewall.h"
-#include "tyre/tyre_parameters.h"
+#include "furrow/shell/shell_nodes.h"
+#include "furrow/tyre/sidewall.h"
+#include "furrow/tyre/tyre_parameters.h"
 
 namespace furrow {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/sidewall_survey.h"
+#include "furrow/tyre/sidewall_survey.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "tyre/sidewall_direct.h"
+#include "furrow/core/error.h"
+#include "furrow/tyre/sidewall_direct.h"
 
 namespace furrow {
 

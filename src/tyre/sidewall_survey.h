@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tyre/sidewall_table.h"
+#include "furrow/tyre/sidewall_table.h"
 
 namespace furrow {
 

@@ -12,8 +12,8 @@
 #include <array>
 #include <vector>
 
-#include "tyre/quintic_spline.h"
-#include "tyre/sidewall_chain.h"
+#include "furrow/tyre/quintic_spline.h"
+#include "furrow/tyre/sidewall_chain.h"
 
 namespace furrow {
 

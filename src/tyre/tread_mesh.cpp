@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/tread_mesh.h"
+#include "furrow/tyre/tread_mesh.h"
 
 #include <cmath>
 

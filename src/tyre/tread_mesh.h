@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "shell/shell4.h"
-#include "tyre/tread_grid.h"
-#include "tyre/tyre_parameters.h"
+#include "furrow/shell/shell4.h"
+#include "furrow/tyre/tread_grid.h"
+#include "furrow/tyre/tyre_parameters.h"
 
 namespace furrow {
 

@@ -10,11 +10,11 @@
 
 #include <optional>
 
-#include "bodies/rigid_plane.h"
-#include "bodies/wheel_hub.h"
-#include "shell/dynamic_relaxation.h"
-#include "shell/natural_modes.h"
-#include "tyre/tread_grid.h"
+#include "furrow/bodies/rigid_plane.h"
+#include "furrow/bodies/wheel_hub.h"
+#include "furrow/shell/dynamic_relaxation.h"
+#include "furrow/shell/natural_modes.h"
+#include "furrow/tyre/tread_grid.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/tyre_surface.h"
+#include "furrow/tyre/tyre_surface.h"
 
 namespace furrow {
 

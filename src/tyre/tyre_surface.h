@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "bodies/wheel_hub.h"
-#include "tyre/sidewall_ring.h"
-#include "tyre/tread_mesh.h"
+#include "furrow/bodies/wheel_hub.h"
+#include "furrow/tyre/sidewall_ring.h"
+#include "furrow/tyre/tread_mesh.h"
 
 namespace furrow {
 

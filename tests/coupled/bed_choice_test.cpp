@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/time_step_check.h"
 #include "tests/support/error_of.h"
 

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/fix_order.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"

@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 
 #include "atom.h"
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/contact/fix_mesh_body.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/box_motion.h"

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling/bodies/fix_wheel_rigid.h"
-#include "io/csv_file.h"
+#include "furrow/io/csv_file.h"
 #include "modify.h"
 #include "tests/coupled/support/sand.h"
 #include "tests/coupled/support/scene.h"

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/material_file.h"
-#include "mpm/boundary_effect.h"
+#include "furrow/io/material_file.h"
+#include "furrow/mpm/boundary_effect.h"
 
 namespace furrow::boundary_effect_test {
 namespace {

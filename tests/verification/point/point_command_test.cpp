@@ -6,11 +6,11 @@
 #include <gmock/gmock.h>
 
 #include "../../unit/io/scratch.h"
-#include "io/csv_file.h"
-#include "io/hdf5_file.h"
-#include "io/point_file.h"
-#include "io/replace_file.h"
-#include "io/version.h"
+#include "furrow/io/csv_file.h"
+#include "furrow/io/hdf5_file.h"
+#include "furrow/io/point_file.h"
+#include "furrow/io/replace_file.h"
+#include "furrow/io/version.h"
 #include "tests/support/program.h"
 
 namespace furrow::point_command_test {
