@@ -24,7 +24,7 @@ constexpr double poured_share = 0.6;     // solid over volume, when nothing else
 constexpr double bytes_of_grain = 3000;  // with its contacts and neighbours, measured
 constexpr double linear_step_limit =
     0.3;  // of half a period; 2 / pi would be the limit of one spring
-constexpr double level_tolerance = 0.5;                         // of the depth
+constexpr double settled_level_tolerance = 0.5;                 // of the depth
 constexpr double many_grains = 3e5, density_of_steel = 8000.0;  // steel [kg/m3]
 
 /// Memory that is available on this machine and to this process [bytes].
@@ -148,7 +148,7 @@ std::vector<std::string> doubts_of_bed(const Options& options) {
 void check_bed(const BedFacts& facts, const BedSurface& surface) {
   if (facts.grains < 1) throw StateError("command bed: no grain is left of the bed");
   const double level = surface.mean();
-  if (!(std::abs(facts.level - level) <= level_tolerance * level))
+  if (!(std::abs(facts.level - level) <= settled_level_tolerance * level))
     throw StateError(
         fmt::format("command bed: the bed has its surface at {:.4g} m and was to have it at {:.4g} "
                     "m; it is not kept. Its grains have flown apart or collapsed: take a shorter "

@@ -15,14 +15,14 @@ namespace furrow {
 namespace {
 
 // Wider than any tyre needs, and narrow enough to find a wrong unit
-const Range length = Range::closed(0.0, 10.0);     // [m]
-const Range stiffness = Range::closed(1.0, 1e10);  // [N/m]
-const Range bending = Range::closed(1e-6, 1e5);    // [N m]
+const Range brick_tyre_length = Range::closed(0.0, 10.0);  // [m]
+const Range stiffness = Range::closed(1.0, 1e10);          // [N/m]
+const Range bending = Range::closed(1e-6, 1e5);            // [N m]
 // [Pa] from the softest gel to rubber as stiff as plastic: kPa and MPa lie below
-const Range modulus = Range::closed(2e4, 1e9);
+const Range rubber_modulus = Range::closed(2e4, 1e9);
 constexpr double usual_bulk_ratio = 50.0;  // K/mu of a Poisson's ratio of 0.49
 
-Schema tyre_schema() {
+Schema brick_tyre_schema() {
   Schema schema("tyre");
   schema.number("pressure", "Pa", Range::closed(0.0, largest_inflation),
                 "inflation pressure above atmospheric pressure");
@@ -31,12 +31,12 @@ Schema tyre_schema() {
 
 Schema carcass_schema() {
   Schema schema("carcass");
-  schema.numbers("axial", 0, "m", length,
+  schema.numbers("axial", 0, "m", brick_tyre_length,
                  "points of the mid-surface's outline, without pressure, from the mid-plane (0) to "
                  "the bead: distance from the mid-plane");
-  schema.numbers("radius", 0, "m", length, "the same points: distance from the axle");
+  schema.numbers("radius", 0, "m", brick_tyre_length, "the same points: distance from the axle");
   schema.numbers(
-      "zone_end", 0, "m", length,
+      "zone_end", 0, "m", brick_tyre_length,
       "where each zone ends, along the outline from the mid-plane; the last at the bead");
   schema.numbers("stretch_along", 0, "N/m", stiffness,
                  "stiffness of each zone against stretching along the circumference, per width");
@@ -55,16 +55,17 @@ Schema carcass_schema() {
 
 Schema cap_schema() {
   Schema schema("cap");
-  schema.numbers("at", 0, "m", length,
+  schema.numbers("at", 0, "m", brick_tyre_length,
                  "places along the carcass's outline, from 0 to where the tread ends");
   schema.numbers(
-      "thickness", 0, "m", length,
+      "thickness", 0, "m", brick_tyre_length,
       "thickness of the rubber there, above the mid-surface of the carcass; 0 at the end");
   schema.integer("layers", Range::closed(1, 10), "layers of bricks below the voids")
       .by_default("1");
   schema.integer("rib_layers", Range::closed(1, 10), "layers of bricks next to the voids")
       .by_default("1");
-  schema.number("C10", "Pa", modulus, "C10 of the neo-Hookean rubber: half its shear modulus");
+  schema.number("C10", "Pa", rubber_modulus,
+                "C10 of the neo-Hookean rubber: half its shear modulus");
   schema
       .number("bulk", "Pa", Range::closed(1e4, 1e11), "bulk modulus; 50 shear moduli if not given")
       .optional();
@@ -74,10 +75,10 @@ Schema cap_schema() {
 
 Schema voids_schema() {
   Schema schema("voids");
-  schema.numbers("from", 0, "m", length,
+  schema.numbers("from", 0, "m", brick_tyre_length,
                  "place along the outline of the carcass where each void begins");
-  schema.numbers("to", 0, "m", length, "place along the outline where each void ends");
-  schema.numbers("depth", 0, "m", length, "depth below the outside of the tread");
+  schema.numbers("to", 0, "m", brick_tyre_length, "place along the outline where each void ends");
+  schema.numbers("depth", 0, "m", brick_tyre_length, "depth below the outside of the tread");
   schema.numbers("pitches", 0, "", Range::closed(0, 1000),
                  "gaps between bars around the tyre; 0: a groove around the tyre");
   schema.optional();
@@ -161,7 +162,7 @@ std::string list(const Items& items, Value value) {
 }  // namespace
 
 TyreSchemas brick_tyre_schemas() {
-  return {{"tyre", tyre_schema()},
+  return {{"tyre", brick_tyre_schema()},
           {"carcass", carcass_schema()},
           {"cap", cap_schema()},
           {"voids", voids_schema()}};
@@ -180,7 +181,8 @@ BrickTyreParameters read_brick_tyre_file(const std::string& path) {
   };
   BrickTyreParameters result;
   result.title = tyre_title(file, path);
-  result.pressure = read(tyre_schema(), "the section 'tyre' with the pressure").number("pressure");
+  result.pressure =
+      read(brick_tyre_schema(), "the section 'tyre' with the pressure").number("pressure");
   result.carcass =
       carcass_of(read(carcass_schema(), "the section 'carcass' with its outline and zones"));
   result.tread = cap_of(read(cap_schema(), "the section 'cap' with the tread's rubber"));

@@ -30,7 +30,7 @@ namespace furrow {
 
 namespace {
 
-constexpr std::uintmax_t largest_file = 400'000'000;  // [bytes]
+constexpr std::uintmax_t largest_heightmap_file = 400'000'000;  // [bytes]
 constexpr double most_nodes = 5e7;
 constexpr double most_gaps = 4.0;           // nodes over points; with more gaps it is no grid
 constexpr double regular = 1e-3;            // of a spacing: by which a coordinate may be off
@@ -50,7 +50,7 @@ double number(const TextLines& lines, std::size_t word) {
 }
 
 std::string read_text(const std::string& path) {
-  std::string bytes = read_input_bytes(path, kind, largest_file);
+  std::string bytes = read_input_bytes(path, kind, largest_heightmap_file);
   const std::string head = bytes.substr(0, 4);
   if (head == std::string("II*\0", 4) || head == std::string("MM\0*", 4) ||
       head == std::string("II+\0", 4) || head == std::string("MM\0+", 4))
@@ -395,7 +395,7 @@ bool has_decimal_commas(const std::string& text) {
 /// Brightness of the pixels, from the height of black to that of white.
 Heightmap read_picture(const std::string& path, const std::string& ending,
                        const std::optional<PictureSize>& size) {
-  read_input_bytes(path, kind, largest_file);  // refuses what is no file
+  read_input_bytes(path, kind, largest_heightmap_file);  // refuses what is no file
   need(size.has_value(), path, "is a picture, which has no lengths",
        "the keyword 'heightmap_picture': length along x, width along y, height of black and of "
        "white, in m",

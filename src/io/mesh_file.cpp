@@ -22,12 +22,12 @@ namespace furrow {
 
 namespace {
 
-constexpr std::uintmax_t largest_file = 200'000'000;  // [bytes]
-constexpr std::size_t most_facets = 300'000;          // which take seconds to check
-constexpr double largest_coordinate = 1e9;            // in any unit
-constexpr const char* kind = "a mesh file, STL, OBJ or VTP";
+constexpr std::uintmax_t largest_mesh_file = 200'000'000;  // [bytes]
+constexpr std::size_t most_facets = 300'000;               // which take seconds to check
+constexpr double largest_mesh_coordinate = 1e9;            // in any unit
+constexpr const char* mesh_kind = "a mesh file, STL, OBJ or VTP";
 
-bool is_coordinate(double x) { return std::abs(x) <= largest_coordinate; }
+bool is_coordinate(double x) { return std::abs(x) <= largest_mesh_coordinate; }
 
 class MeshLines : public TextLines {
  public:
@@ -41,7 +41,7 @@ class MeshLines : public TextLines {
       const std::string_view word = words()[static_cast<std::size_t>(k) + 1];
       if (!parse(word, point[k]) || !is_coordinate(point[k]))
         refuse(fmt::format("has '{}' as a coordinate", short_word(word)),
-               fmt::format("a number up to {:g}", largest_coordinate));
+               fmt::format("a number up to {:g}", largest_mesh_coordinate));
     }
     return point;
   }
@@ -111,7 +111,7 @@ MeshFacets read_binary_stl(const std::string& path, const std::string& bytes) {
       if (!std::all_of(point.begin(), point.end(), is_coordinate))
         throw InputError(fmt::format("{}, facet {}", path, facet + 1),
                          fmt::format("has a corner at {} {} {}", point.x(), point.y(), point.z()),
-                         fmt::format("numbers up to {:g}", largest_coordinate),
+                         fmt::format("numbers up to {:g}", largest_mesh_coordinate),
                          "export the mesh again");
       read.points.push_back(point);
     }
@@ -220,16 +220,16 @@ SolidMesh read_mesh_file(const std::string& path) {
                      "others, such as PLY and DAE");
   MeshFacets read;
   if (ending == ".vtp") {
-    read_input_bytes(path, kind, largest_file);  // refuses what is no file
+    read_input_bytes(path, mesh_kind, largest_mesh_file);  // refuses what is no file
     read = read_vtp(path);
   } else if (ending == ".obj") {
-    read = read_obj(path, read_input_text(path, kind, largest_file));
+    read = read_obj(path, read_input_text(path, mesh_kind, largest_mesh_file));
   } else {
-    std::string bytes = read_input_bytes(path, kind, largest_file);
+    std::string bytes = read_input_bytes(path, mesh_kind, largest_mesh_file);
     if (is_binary_stl(bytes)) {
       read = read_binary_stl(path, bytes);
     } else if (bytes.compare(0, 5, "solid") == 0) {
-      read = read_ascii_stl(path, text_of_bytes(std::move(bytes), path, kind));
+      read = read_ascii_stl(path, text_of_bytes(std::move(bytes), path, mesh_kind));
     } else {
       throw InputError(path, "is no STL file",
                        fmt::format("text that begins with 'solid', or {} bytes and {} for each "

@@ -29,7 +29,7 @@ constexpr double round_off = 1e-6;  // of a length
 constexpr double max_blocks = 1e6;
 constexpr double least_triangles_across = 4.0;  // of a surface mesh that shows a rut
 
-std::vector<std::string> split(const std::string& text, char separator) {
+std::vector<std::string> split_list(const std::string& text, char separator) {
   std::vector<std::string> parts;
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t end = std::min(text.find(separator, start), text.size());
@@ -101,9 +101,9 @@ std::vector<TerrainLayer> read_layers(const Options& options, const std::string&
                                       const std::filesystem::path& folder) {
   std::vector<TerrainLayer> layers;
   const std::string where = options.where(key);
-  const std::vector<std::string> parts = split(text, ',');
+  const std::vector<std::string> parts = split_list(text, ',');
   for (std::size_t n = 0; n < parts.size(); ++n) {
-    const std::vector<std::string> words = split(parts[n], ':');
+    const std::vector<std::string> words = split_list(parts[n], ':');
     const bool last = n + 1 == parts.size();
     double thickness = options.number("depth");
     if (words.size() == 2) {

@@ -30,10 +30,10 @@ bool contains(const std::vector<std::string>& list, const std::string& text) {
 }
 
 // Far above what any file needs, so that no file takes all memory or time
-constexpr std::uintmax_t largest_file = 4u << 20;  // [bytes]
-constexpr int largest_depth = 16;                  // of sections and lists in each other
-constexpr std::size_t longest_text = 4096;         // of a key or value [bytes]
-constexpr std::size_t most_repeated = 100'000;     // values that aliases (*name) stand for
+constexpr std::uintmax_t largest_yaml_file = 4u << 20;  // [bytes]
+constexpr int largest_depth = 16;                       // of sections and lists in each other
+constexpr std::size_t longest_text = 4096;              // of a key or value [bytes]
+constexpr std::size_t most_repeated = 100'000;          // values that aliases (*name) stand for
 
 constexpr char yaml_file[] = "a YAML file of keys and values";
 
@@ -144,7 +144,7 @@ const YamlTree& YamlTree::list(const std::string& key, const std::string& meanin
 }
 
 YamlTree read_yaml(const std::string& path) {
-  const std::string text = read_input_text(path, yaml_file, largest_file);
+  const std::string text = read_input_text(path, yaml_file, largest_yaml_file);
   try {
     YamlTree tree = TreeBuilder(path, text.size()).tree(document_of(path, text));
     if (tree.kind != YamlTree::Kind::map) throw InputError(tree.origin, "is not a map", yaml_file);

@@ -16,13 +16,13 @@ constexpr double round_off = 1e-6;  // of what particles are apart
 constexpr std::size_t min_cells_across = 3, min_cells_of_ground = 2;
 
 /// A length from which and to which particles are counted: what is nearest, and how far it is off.
-struct Nearest {
+struct NearestCount {
   std::size_t count;  // of particles within the length
   double length;      // of as many [m]
   double spacing;     // of particles there [m]
 };
 
-void refuse_between(double length, const Nearest& nearest, double step, const char* what,
+void refuse_between(double length, const NearestCount& nearest, double step, const char* what,
                     const std::string& where) {
   if (std::abs(length - nearest.length) <= round_off * nearest.spacing) return;
   const double other = nearest.length + (length > nearest.length ? step : -step);
@@ -37,10 +37,10 @@ void refuse_between(double length, const Nearest& nearest, double step, const ch
 }
 
 /// Rows on either side of the middle of the ground, up to the trough's half width.
-Nearest rows_beside_middle(const TerrainParameters& parameters, const Axis& y) {
+NearestCount rows_beside_middle(const TerrainParameters& parameters, const Axis& y) {
   const int per_cell = parameters.particles_per_cell[1];
   const double middle = 0.5 * (y.lower() + y.upper()), half = 0.5 * parameters.trough->width;
-  Nearest nearest{0, 0.0, y.shortest() / per_cell};
+  NearestCount nearest{0, 0.0, y.shortest() / per_cell};
   double off = std::abs(y.upper() - middle - half);
   for (int cell = 0; cell < y.cells(); ++cell)
     for (int j = 0; j < per_cell; ++j) {
@@ -53,8 +53,8 @@ Nearest rows_beside_middle(const TerrainParameters& parameters, const Axis& y) {
   return nearest;
 }
 
-Nearest levels_down_to(double depth, const std::vector<ParticleLevel>& levels) {
-  Nearest nearest{0, 0.0, 2.0 * levels.front().half};
+NearestCount levels_down_to(double depth, const std::vector<ParticleLevel>& levels) {
+  NearestCount nearest{0, 0.0, 2.0 * levels.front().half};
   double end = 0.0;
   for (std::size_t n = 0; n < levels.size(); ++n) {
     end += 2.0 * levels[n].half;
@@ -80,7 +80,8 @@ TroughPlace place_trough(const TerrainParameters& parameters, const Axis& y,
   const auto [width, depth] = *parameters.trough;
   const std::array<int, 3>& per_cell = parameters.particles_per_cell;
   const std::size_t rows = static_cast<std::size_t>(y.cells() * per_cell[1]);
-  const Nearest side = rows_beside_middle(parameters, y), bottom = levels_down_to(depth, levels);
+  const NearestCount side = rows_beside_middle(parameters, y),
+                     bottom = levels_down_to(depth, levels);
   const TroughPlace place{side.count, rows - side.count, bottom.count};
   refuse_less(place.to_row - place.from_row, per_cell[1], min_cells_across, "across",
               "make the trough wider, or 'cell' smaller", where);
