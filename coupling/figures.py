@@ -254,7 +254,7 @@ def sidewall(side: int) -> list[Point]:
     return [(side * x, y) for x, y in chain(angles, (0.72, 0.0), 0.135)]
 
 
-@figure("bodies/fix_tyre_darnell", 5.0, 2.9)
+@figure("wheels/fix_tyre_darnell", 5.0, 2.9)
 def darnell(ax: Axes) -> None:
     """Section: shell as tread, chains as sidewalls, rigid rim."""
     right = sidewall(1)
@@ -278,7 +278,7 @@ def darnell(ax: Axes) -> None:
     ax.set_ylim(-0.35, edge[1] + 0.3)
 
 
-@figure("bodies/fix_tyre_brick", 5.0, 2.9)
+@figure("wheels/fix_tyre_brick", 5.0, 2.9)
 def brick(ax: Axes) -> None:
     """Section: shell carcass from bead to bead, bricks as tread, grooves."""
     right = sidewall(1)

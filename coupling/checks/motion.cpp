@@ -17,7 +17,7 @@
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/bed_line.h"
 #include "coupling/base/grain_check.h"
-#include "coupling/bodies/fix_plate_rigid.h"
+#include "coupling/wheels/fix_plate_rigid.h"
 #include "coupling/base/fix_scm.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"

@@ -6,7 +6,7 @@
 /// Each style adds its row in its own source file, as LAMMPS's FixStyle macro does:
 ///
 ///   const StyleRow wheel_rigid_style =
-///       fix_style<FixWheelRigid>("wheel/rigid", "wheel", "bodies/fix_wheel_rigid.md");
+///       fix_style<FixWheelRigid>("wheel/rigid", "wheel", "wheels/fix_wheel_rigid.md");
 ///
 /// The rows are static objects: the table is complete before main() and constant from then on. The
 /// linker must take the object file of every style, so coupling/ is an object library.
@@ -38,7 +38,7 @@ struct Style {
   /// Errors list the styles of a kind, and results files record it. "wheel": a body with a hub,
   /// which a rig can drive; "body": another body; "internal": a fix that Furrow itself makes.
   std::string kind;
-  std::string page;  ///< in coupling/, "bodies/fix_wheel_rigid.md"; empty for internal styles
+  std::string page;  ///< in coupling/, "wheels/fix_wheel_rigid.md"; empty for internal styles
   Schema (*schema)();
   OutputTable (*outputs)();
   // one of these creators; the others are null

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "coupling/bodies/fix_tyre_brick.h"
+#include "coupling/wheels/fix_tyre_brick.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "coupling/bodies/fix_tyre_darnell.h"
+#include "coupling/wheels/fix_tyre_darnell.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "coupling/bodies/fix_wheel_rigid.h"
+#include "coupling/wheels/fix_wheel_rigid.h"
 #include "furrow/io/csv_file.h"
 #include "modify.h"
 #include "tests/coupled/support/sand.h"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/bodies/fix_wheel_mesh.h"
+#include "coupling/wheels/fix_wheel_mesh.h"
 
-#include "coupling/bodies/mesh_of_file.h"
+#include "coupling/wheels/mesh_of_file.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 
 namespace furrow::coupling {
 
 const StyleRow wheel_mesh_style =
-    fix_style<FixWheelMesh>("wheel/mesh", "wheel", "bodies/fix_wheel_mesh.md");
+    fix_style<FixWheelMesh>("wheel/mesh", "wheel", "wheels/fix_wheel_mesh.md");
 
 const Outputs<FixWheelMesh>& FixWheelMesh::outputs() {
   using Fix = FixWheelMesh;

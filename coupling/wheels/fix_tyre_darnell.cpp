@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/bodies/fix_tyre_darnell.h"
+#include "coupling/wheels/fix_tyre_darnell.h"
 
 #include <cmath>
 
@@ -51,7 +51,7 @@ std::unique_ptr<WheelHub> make_darnell_tyre(LAMMPS_NS::LAMMPS& lammps, const Opt
 }  // namespace
 
 const StyleRow tyre_darnell_style =
-    fix_style<FixTyreDarnell>("tyre/darnell", "wheel", "bodies/fix_tyre_darnell.md");
+    fix_style<FixTyreDarnell>("tyre/darnell", "wheel", "wheels/fix_tyre_darnell.md");
 
 Schema FixTyreDarnell::schema() {
   Schema schema("fix tyre/darnell");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/bodies/fix_tyre.h"
+#include "coupling/wheels/fix_tyre.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -3,7 +3,7 @@
 /// fix plate/mesh: a rigid tool from a mesh file that moves at a prescribed velocity. See
 /// fix_plate_mesh.md.
 
-#include "coupling/bodies/fix_plate_rigid.h"
+#include "coupling/wheels/fix_plate_rigid.h"
 
 namespace furrow::coupling {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/bodies/fix_wheel_rigid.h"
+#include "coupling/wheels/fix_wheel_rigid.h"
 
 #include "coupling/liggghts/style_registry.h"
 
 namespace furrow::coupling {
 
 const StyleRow wheel_rigid_style =
-    fix_style<FixWheelRigid>("wheel/rigid", "wheel", "bodies/fix_wheel_rigid.md");
+    fix_style<FixWheelRigid>("wheel/rigid", "wheel", "wheels/fix_wheel_rigid.md");
 
 FixWheelRigid::FixWheelRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixWheelHub(lammps, narg, arg, schema(),

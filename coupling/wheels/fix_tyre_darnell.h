@@ -2,7 +2,7 @@
 #pragma once
 /// fix tyre/darnell: an inflated tyre on a rigid rim. See fix_tyre_darnell.md.
 
-#include "coupling/bodies/fix_tyre.h"
+#include "coupling/wheels/fix_tyre.h"
 #include "furrow/tyre/darnell_tyre.h"
 
 namespace furrow::coupling {

@@ -2,7 +2,7 @@
 #pragma once
 /// fix tyre/brick: a tyre with a tread of rubber on a carcass of shells. See fix_tyre_brick.md.
 
-#include "coupling/bodies/fix_tyre.h"
+#include "coupling/wheels/fix_tyre.h"
 #include "furrow/tyre/brick_tyre.h"
 
 namespace furrow::coupling {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/bodies/fix_tyre_brick.h"
+#include "coupling/wheels/fix_tyre_brick.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ std::unique_ptr<WheelHub> make_brick_tyre(LAMMPS_NS::LAMMPS& lammps, const Optio
 }  // namespace
 
 const StyleRow tyre_brick_style =
-    fix_style<FixTyreBrick>("tyre/brick", "wheel", "bodies/fix_tyre_brick.md");
+    fix_style<FixTyreBrick>("tyre/brick", "wheel", "wheels/fix_tyre_brick.md");
 
 Schema FixTyreBrick::schema() {
   Schema schema("fix tyre/brick");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/bodies/mesh_of_file.h"
+#include "coupling/wheels/mesh_of_file.h"
 
 #include <filesystem>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/bodies/fix_plate_mesh.h"
+#include "coupling/wheels/fix_plate_mesh.h"
 
 #include "furrow/bodies/mesh_bodies.h"
-#include "coupling/bodies/mesh_of_file.h"
+#include "coupling/wheels/mesh_of_file.h"
 #include "coupling/liggghts/style_registry.h"
 
 namespace furrow::coupling {
 
 const StyleRow plate_mesh_style =
-    fix_style<FixPlateMesh>("plate/mesh", "body", "bodies/fix_plate_mesh.md");
+    fix_style<FixPlateMesh>("plate/mesh", "body", "wheels/fix_plate_mesh.md");
 
 Schema FixPlateMesh::schema() {
   Schema schema = mesh_plate_schema("fix plate/mesh");

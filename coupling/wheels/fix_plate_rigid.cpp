@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/bodies/fix_plate_rigid.h"
+#include "coupling/wheels/fix_plate_rigid.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +9,7 @@
 namespace furrow::coupling {
 
 const StyleRow plate_rigid_style =
-    fix_style<FixPlateRigid>("plate/rigid", "body", "bodies/fix_plate_rigid.md");
+    fix_style<FixPlateRigid>("plate/rigid", "body", "wheels/fix_plate_rigid.md");
 
 Schema FixPlateRigid::schema() {
   Schema schema = RigidPlate::schema("fix plate/rigid");
