@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "furrow/core/error.h"
-#include "furrow/core/nearest_word.h"
+#include "furrow/core/options/nearest_word.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/script_variables.h"
 

@@ -20,8 +20,8 @@
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/output/fix_wheel_history.h"
 #include "coupling/run_script.h"
-#include "furrow/io/law_json.h"
-#include "furrow/io/version.h"
+#include "furrow/io/results/law_json.h"
+#include "furrow/io/files/version.h"
 #include "lammps.h"
 
 namespace {

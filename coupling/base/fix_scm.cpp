@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "coupling/liggghts/script.h"
-#include "furrow/core/check_number.h"
-#include "furrow/io/heightmap_file.h"
-#include "furrow/io/patch_input.h"
+#include "furrow/core/options/check_number.h"
+#include "furrow/io/formats/heightmap_file.h"
+#include "furrow/io/inputs/patch_input.h"
 
 namespace furrow::coupling {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "coupling/base/furrow_fix.h"
-#include "furrow/io/soil_card_file.h"
+#include "furrow/io/inputs/soil_card_file.h"
 #include "furrow/scm/height_field.h"
 #include "furrow/scm/soil.h"
 

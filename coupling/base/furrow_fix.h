@@ -19,7 +19,7 @@
 #include "furrow/bodies/body.h"
 #include "furrow/bodies/contact.h"
 #include "furrow/core/checkpoint.h"
-#include "furrow/core/outputs.h"
+#include "furrow/core/options/outputs.h"
 #include "coupling/liggghts/find_fix.h"
 #include "coupling/liggghts/has_options.h"
 #include "coupling/base/keeps_state.h"

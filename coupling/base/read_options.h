@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "coupling/liggghts/script.h"
 
 namespace furrow::coupling {

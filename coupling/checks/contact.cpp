@@ -20,11 +20,11 @@
 #include "coupling/checks/scene_checks.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "domain.h"
-#include "furrow/mpm/boundary_effect.h"
-#include "furrow/mpm/divided_ground.h"
-#include "furrow/mpm/ground_under_wheel.h"
+#include "furrow/mpm/ground/boundary_effect.h"
+#include "furrow/mpm/discontinuities/divided_ground.h"
+#include "furrow/mpm/ground/ground_under_wheel.h"
 #include "primitive_wall.h"
-#include "furrow/tyre/darnell_tyre.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
 
 namespace furrow::coupling {
 

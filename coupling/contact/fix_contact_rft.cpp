@@ -6,7 +6,7 @@
 #include "furrow/bodies/rigid_plate.h"
 #include "furrow/bodies/rigid_wheel.h"
 #include "comm.h"
-#include "furrow/core/check_number.h"
+#include "furrow/core/options/check_number.h"
 #include "coupling/liggghts/style_registry.h"
 
 namespace furrow::coupling {

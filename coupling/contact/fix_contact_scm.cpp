@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "comm.h"
-#include "furrow/core/check_number.h"
+#include "furrow/core/options/check_number.h"
 #include "furrow/core/error.h"
 #include "coupling/contact/ground_contact.h"
 #include "coupling/liggghts/style_registry.h"

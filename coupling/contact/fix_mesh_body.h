@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "furrow/bodies/body.h"
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "coupling/base/fix_order.h"
 #include "coupling/base/keeps_state.h"
 #include "coupling/liggghts/has_options.h"

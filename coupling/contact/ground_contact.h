@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "coupling/base/fix_body.h"
 #include "furrow/material/ground_contact.h"
 

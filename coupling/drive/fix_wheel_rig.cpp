@@ -16,7 +16,7 @@
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/base/fix_terrain.h"
-#include "furrow/io/csv_file.h"
+#include "furrow/io/formats/csv_file.h"
 #include "update.h"
 
 namespace furrow::coupling {

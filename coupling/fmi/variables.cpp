@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "furrow/core/error.h"
-#include "furrow/io/version.h"
+#include "furrow/io/files/version.h"
 
 namespace furrow::coupling::fmi {
 

@@ -22,8 +22,8 @@
 #include "furrow/core/error.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/first_rank.h"
-#include "furrow/io/file_lock.h"
-#include "furrow/io/sealed_file.h"
+#include "furrow/io/files/file_lock.h"
+#include "furrow/io/files/sealed_file.h"
 
 namespace furrow::coupling {
 

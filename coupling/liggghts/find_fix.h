@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "furrow/core/error.h"
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/has_options.h"
 #include "coupling/liggghts/style_registry.h"

@@ -17,8 +17,8 @@
 
 #include <fmt/format.h>
 
-#include "furrow/core/options.h"
-#include "furrow/core/outputs.h"
+#include "furrow/core/options/options.h"
+#include "furrow/core/options/outputs.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/script.h"

@@ -22,7 +22,7 @@
 #include "coupling/base/fix_terrain.h"
 #include "domain.h"
 #include "input.h"
-#include "furrow/io/summary.h"
+#include "furrow/io/results/summary.h"
 #include "update.h"
 
 namespace furrow::coupling {

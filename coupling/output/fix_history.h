@@ -10,9 +10,9 @@
 #include "coupling/base/fix_order.h"
 #include "coupling/base/furrow_fix.h"
 #include "coupling/liggghts/flushes_on_error.h"
-#include "furrow/io/folder_lock.h"
-#include "furrow/io/history_file.h"
-#include "furrow/io/vtk_file.h"
+#include "furrow/io/files/folder_lock.h"
+#include "furrow/io/results/history_file.h"
+#include "furrow/io/formats/vtk_file.h"
 
 namespace furrow::coupling {
 

@@ -3,7 +3,7 @@
 /// fix scm/history: the surface of a height field over time. See fix_scm_history.md.
 
 #include "coupling/output/fix_history.h"
-#include "furrow/io/vtk_file.h"
+#include "furrow/io/formats/vtk_file.h"
 
 namespace furrow::coupling {
 

@@ -3,7 +3,7 @@
 /// fix terrain/history: the results of continuum terrain. See fix_terrain_history.md.
 
 #include "coupling/output/fix_history.h"
-#include "furrow/io/vtk_file.h"
+#include "furrow/io/formats/vtk_file.h"
 
 namespace furrow::coupling {
 

@@ -14,8 +14,8 @@
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/liggghts/vector.h"
 #include "coupling/output/results_folder.h"
-#include "furrow/io/csv_file.h"
-#include "furrow/io/replace_file.h"
+#include "furrow/io/formats/csv_file.h"
+#include "furrow/io/files/replace_file.h"
 #include "update.h"
 
 namespace furrow::coupling {

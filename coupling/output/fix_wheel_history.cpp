@@ -13,7 +13,7 @@
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/output/gather_grains.h"
 #include "coupling/output/grain_virial.h"
-#include "furrow/io/summary.h"
+#include "furrow/io/results/summary.h"
 #include "update.h"
 
 namespace furrow::coupling {

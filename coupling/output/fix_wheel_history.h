@@ -3,7 +3,7 @@
 /// fix wheel/history: the results folder of a wheel run. See fix_wheel_history.md.
 
 #include "coupling/output/fix_history.h"
-#include "furrow/io/vtk_file.h"
+#include "furrow/io/formats/vtk_file.h"
 #include "furrow/rig/ground_losses.h"
 
 namespace furrow {

@@ -22,7 +22,7 @@
 #include "coupling/python/parts.h"
 #include "coupling/session/host_process.h"
 #include "coupling/session/session.h"
-#include "furrow/io/version.h"
+#include "furrow/io/files/version.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "furrow/core/error.h"
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "coupling/base/time_step_check.h"
 #include "coupling/terrain/bed_limits.h"
 

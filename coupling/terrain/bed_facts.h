@@ -2,7 +2,7 @@
 #pragma once
 /// Measured properties of a settled bed of grains.
 
-#include "furrow/core/outputs.h"
+#include "furrow/core/options/outputs.h"
 #include "coupling/terrain/bed_surface.h"
 #include "lammps.h"
 

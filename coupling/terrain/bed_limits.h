@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "coupling/terrain/bed_facts.h"
 #include "coupling/terrain/bed_surface.h"
 

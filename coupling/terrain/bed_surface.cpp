@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "furrow/core/check_number.h"
+#include "furrow/core/options/check_number.h"
 #include "furrow/core/error.h"
 #include "coupling/terrain/bed_limits.h"
 #include "domain.h"
 #include "group.h"
 #include "input.h"
-#include "furrow/io/heightmap_file.h"
+#include "furrow/io/formats/heightmap_file.h"
 
 namespace furrow::coupling {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "furrow/core/types.h"
 #include "furrow/geometry/ground_relief.h"
 #include "lammps.h"

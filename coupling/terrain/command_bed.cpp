@@ -13,10 +13,10 @@
 #include <unistd.h>
 
 #include "comm.h"
-#include "furrow/core/check_number.h"
+#include "furrow/core/options/check_number.h"
 #include "furrow/core/error.h"
 #include "furrow/core/gravity.h"
-#include "furrow/io/contact_section.h"
+#include "furrow/io/inputs/contact_section.h"
 #include "furrow/core/types.h"
 #include "coupling/base/bed_line.h"
 #include "coupling/liggghts/checkpoint_file.h"
@@ -30,9 +30,9 @@
 #include "coupling/terrain/bed_limits.h"
 #include "domain.h"
 #include "input.h"
-#include "furrow/io/cache.h"
-#include "furrow/io/sealed_file.h"
-#include "furrow/io/version.h"
+#include "furrow/io/files/cache.h"
+#include "furrow/io/files/sealed_file.h"
+#include "furrow/io/files/version.h"
 
 namespace furrow::coupling {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/terrain/bed_script.h"
 #include "coupling/terrain/bed_surface.h"

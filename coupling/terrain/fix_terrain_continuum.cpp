@@ -16,8 +16,8 @@
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 #include "domain.h"
-#include "furrow/io/terrain_input.h"
-#include "furrow/mpm/terrain_size.h"
+#include "furrow/io/inputs/terrain_input.h"
+#include "furrow/mpm/ground/terrain_size.h"
 #include "update.h"
 
 namespace furrow::coupling {

@@ -7,7 +7,7 @@
 
 #include "coupling/base/fix_terrain.h"
 #include "coupling/base/motion_controller.h"
-#include "furrow/mpm/ground_under_wheel.h"
+#include "furrow/mpm/ground/ground_under_wheel.h"
 #include "furrow/mpm/terrain_outputs.h"
 
 namespace furrow::coupling {

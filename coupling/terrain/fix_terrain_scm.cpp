@@ -11,7 +11,7 @@
 #include "coupling/liggghts/script.h"
 #include "coupling/base/require_unique.h"
 #include "coupling/liggghts/style_registry.h"
-#include "furrow/io/patch_input.h"
+#include "furrow/io/inputs/patch_input.h"
 #include "modify.h"
 
 namespace furrow::coupling {

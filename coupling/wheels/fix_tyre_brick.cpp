@@ -7,7 +7,7 @@
 #include "furrow/core/communicator.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
-#include "furrow/io/brick_tyre_file.h"
+#include "furrow/io/inputs/brick_tyre_file.h"
 
 namespace furrow::coupling {
 

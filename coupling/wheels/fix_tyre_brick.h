@@ -3,7 +3,7 @@
 /// fix tyre/brick: a tyre with a tread of rubber on a carcass of shells. See fix_tyre_brick.md.
 
 #include "coupling/wheels/fix_tyre.h"
-#include "furrow/tyre/brick_tyre.h"
+#include "furrow/tyre/brick/brick_tyre.h"
 
 namespace furrow::coupling {
 

@@ -7,8 +7,8 @@
 
 #include "furrow/core/error.h"
 #include "coupling/liggghts/style_registry.h"
-#include "furrow/io/sidewall_cache.h"
-#include "furrow/io/tyre_file.h"
+#include "furrow/io/inputs/sidewall_cache.h"
+#include "furrow/io/inputs/tyre_file.h"
 
 namespace furrow::coupling {
 

@@ -3,7 +3,7 @@
 /// fix tyre/darnell: an inflated tyre on a rigid rim. See fix_tyre_darnell.md.
 
 #include "coupling/wheels/fix_tyre.h"
-#include "furrow/tyre/darnell_tyre.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
 
 namespace furrow::coupling {
 

@@ -7,7 +7,7 @@
 
 #include "furrow/core/checksum.h"
 #include "coupling/liggghts/script.h"
-#include "furrow/io/mesh_file.h"
+#include "furrow/io/formats/mesh_file.h"
 
 namespace furrow::coupling {
 

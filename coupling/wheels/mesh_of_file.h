@@ -3,7 +3,7 @@
 /// Common functions of the fixes of bodies from mesh files.
 
 #include "coupling/base/fix_body.h"
-#include "furrow/geometry/solid_mesh.h"
+#include "furrow/geometry/meshes/solid_mesh.h"
 
 namespace furrow::coupling {
 

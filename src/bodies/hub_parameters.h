@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "furrow/core/types.h"
 
 namespace furrow {

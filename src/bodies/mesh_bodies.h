@@ -8,8 +8,8 @@
 
 #include "furrow/bodies/rigid_plate.h"
 #include "furrow/bodies/rigid_wheel.h"
-#include "furrow/core/options.h"
-#include "furrow/geometry/solid_mesh.h"
+#include "furrow/core/options/options.h"
+#include "furrow/geometry/meshes/solid_mesh.h"
 
 namespace furrow {
 

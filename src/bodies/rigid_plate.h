@@ -6,8 +6,8 @@
 #include <string>
 
 #include "furrow/bodies/body.h"
-#include "furrow/core/options.h"
-#include "furrow/geometry/plate_mesh.h"
+#include "furrow/core/options/options.h"
+#include "furrow/geometry/meshes/plate_mesh.h"
 
 namespace furrow {
 

@@ -8,7 +8,7 @@
 
 #include "furrow/core/error.h"
 #include "furrow/geometry/closed_surface.h"
-#include "furrow/geometry/wheel_mesh.h"
+#include "furrow/geometry/meshes/wheel_mesh.h"
 
 namespace furrow {
 

@@ -3,8 +3,8 @@
 /// A rigid wheel on an axle: six degrees of freedom, each free, held or prescribed.
 
 #include "furrow/bodies/wheel_hub.h"
-#include "furrow/core/options.h"
-#include "furrow/geometry/wheel_geometry.h"
+#include "furrow/core/options/options.h"
+#include "furrow/geometry/meshes/wheel_geometry.h"
 
 namespace furrow {
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "furrow/core/check_number.h"
+#include "furrow/core/options/check_number.h"
 #include "furrow/core/checksum.h"
 #include "furrow/core/error.h"
 #include "furrow/geometry/bilinear.h"

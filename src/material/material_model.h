@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "furrow/material/material.h"
 
 namespace furrow {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "furrow/material/elasticity/elasticity.h"
 #include "furrow/material/hardening/hardening.h"
 

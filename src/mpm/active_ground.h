@@ -32,10 +32,10 @@
 #include <vector>
 
 #include "furrow/core/checkpoint.h"
-#include "furrow/mpm/boundary.h"
-#include "furrow/mpm/discretisation.h"
+#include "furrow/mpm/grid/boundary.h"
+#include "furrow/mpm/grid/discretisation.h"
 #include "furrow/mpm/terrain_energy.h"
-#include "furrow/mpm/transfer.h"
+#include "furrow/mpm/transfer/transfer.h"
 
 namespace furrow {
 

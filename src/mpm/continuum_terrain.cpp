@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "furrow/mpm/terrain_size.h"
+#include "furrow/mpm/ground/terrain_size.h"
 
 namespace furrow {
 

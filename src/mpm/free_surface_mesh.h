@@ -7,9 +7,9 @@
 
 #include "furrow/core/communicator.h"
 #include "furrow/geometry/surface.h"
-#include "furrow/mpm/particle_group.h"
-#include "furrow/mpm/point_loads.h"
-#include "furrow/mpm/terrain_fill.h"
+#include "furrow/mpm/particles/particle_group.h"
+#include "furrow/mpm/transfer/point_loads.h"
+#include "furrow/mpm/ground/terrain_fill.h"
 
 namespace furrow {
 

@@ -8,9 +8,9 @@
 #include "furrow/bodies/body.h"
 #include "furrow/core/checkpoint.h"
 #include "furrow/core/communicator.h"
-#include "furrow/mpm/grid.h"
-#include "furrow/mpm/particle_group.h"
-#include "furrow/mpm/transfer.h"
+#include "furrow/mpm/grid/grid.h"
+#include "furrow/mpm/particles/particle_group.h"
+#include "furrow/mpm/transfer/transfer.h"
 
 namespace furrow {
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "furrow/bodies/body.h"
-#include "furrow/core/outputs.h"
+#include "furrow/core/options/outputs.h"
 #include "furrow/mpm/continuum_terrain.h"
 
 namespace furrow {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "furrow/core/error.h"
-#include "furrow/mpm/cell_average.h"
+#include "furrow/mpm/transfer/cell_average.h"
 
 namespace furrow {
 

@@ -34,16 +34,16 @@
 #include <vector>
 
 #include "furrow/mpm/active_ground.h"
-#include "furrow/mpm/boundary.h"
-#include "furrow/mpm/discretisation.h"
-#include "furrow/mpm/divided_ground.h"
-#include "furrow/mpm/particle_distribution.h"
-#include "furrow/mpm/point_loads.h"
-#include "furrow/mpm/remap_control.h"
-#include "furrow/mpm/slide_contact.h"
+#include "furrow/mpm/grid/boundary.h"
+#include "furrow/mpm/grid/discretisation.h"
+#include "furrow/mpm/discontinuities/divided_ground.h"
+#include "furrow/mpm/particles/particle_distribution.h"
+#include "furrow/mpm/transfer/point_loads.h"
+#include "furrow/mpm/transfer/remap_control.h"
+#include "furrow/mpm/discontinuities/slide_contact.h"
 #include "furrow/mpm/terrain_energy.h"
-#include "furrow/mpm/terrain_parameters.h"
-#include "furrow/mpm/transfer.h"
+#include "furrow/mpm/ground/terrain_parameters.h"
+#include "furrow/mpm/transfer/transfer.h"
 
 namespace furrow {
 

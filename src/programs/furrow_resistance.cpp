@@ -12,9 +12,9 @@
 
 #include "furrow/core/error.h"
 #include "end_output.h"
-#include "furrow/io/history_file.h"
-#include "furrow/io/summary.h"
-#include "furrow/io/version.h"
+#include "furrow/io/results/history_file.h"
+#include "furrow/io/results/summary.h"
+#include "furrow/io/files/version.h"
 #include "number_option.h"
 #include "parse_options.h"
 

@@ -10,7 +10,7 @@
 #include <assimp/Importer.hpp>
 
 #include "furrow/core/error.h"
-#include "furrow/io/mesh_file.h"
+#include "furrow/io/formats/mesh_file.h"
 
 namespace furrow {
 

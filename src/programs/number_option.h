@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 
 namespace furrow {
 

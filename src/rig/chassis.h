@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "furrow/core/options.h"
-#include "furrow/core/outputs.h"
+#include "furrow/core/options/options.h"
+#include "furrow/core/options/outputs.h"
 #include "furrow/rig/sprung_body.h"
 #include "furrow/rig/wheel_rig.h"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "furrow/bodies/wheel_hub.h"
-#include "furrow/core/options.h"
-#include "furrow/core/outputs.h"
+#include "furrow/core/options/options.h"
+#include "furrow/core/options/outputs.h"
 #include "furrow/statistics/rig_stage.h"
 #include "furrow/rig/course.h"
 #include "furrow/rig/ground_losses.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "furrow/core/checkpoint.h"
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "furrow/core/types.h"
 #include "furrow/geometry/ground_relief.h"
 #include "furrow/geometry/surface.h"

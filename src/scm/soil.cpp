@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "furrow/core/check_number.h"
+#include "furrow/core/options/check_number.h"
 #include "furrow/core/error.h"
 #include "furrow/core/types.h"
-#include "furrow/core/usual_range.h"
+#include "furrow/core/options/usual_range.h"
 
 namespace furrow {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "furrow/core/checkpoint.h"
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "furrow/core/types.h"
 
 namespace furrow {

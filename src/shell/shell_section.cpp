@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "furrow/core/check_number.h"
+#include "furrow/core/options/check_number.h"
 #include "furrow/core/error.h"
 
 namespace furrow {

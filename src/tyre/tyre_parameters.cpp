@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "furrow/core/check_number.h"
+#include "furrow/core/options/check_number.h"
 #include "furrow/core/error.h"
-#include "furrow/tyre/arc.h"
+#include "furrow/tyre/sidewall/arc.h"
 
 namespace furrow {
 

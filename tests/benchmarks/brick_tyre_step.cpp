@@ -12,8 +12,8 @@
 #include <benchmark/benchmark.h>
 
 #include "furrow/bodies/rigid_plane.h"
-#include "furrow/io/brick_tyre_file.h"
-#include "furrow/tyre/brick_tyre.h"
+#include "furrow/io/inputs/brick_tyre_file.h"
+#include "furrow/tyre/brick/brick_tyre.h"
 
 namespace furrow {
 namespace {

@@ -10,8 +10,8 @@
 #include <benchmark/benchmark.h>
 
 #include "furrow/material/registry.h"
-#include "furrow/mpm/grid.h"
-#include "furrow/mpm/particles.h"
+#include "furrow/mpm/grid/grid.h"
+#include "furrow/mpm/particles/particles.h"
 
 namespace furrow {
 namespace {

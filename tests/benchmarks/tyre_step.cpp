@@ -7,8 +7,8 @@
 #include <benchmark/benchmark.h>
 
 #include "furrow/bodies/rigid_plane.h"
-#include "furrow/io/tyre_file.h"
-#include "furrow/tyre/darnell_tyre.h"
+#include "furrow/io/inputs/tyre_file.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
 
 namespace furrow {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "furrow/io/history_file.h"
+#include "furrow/io/results/history_file.h"
 #include "tests/coupled/support/scene.h"
 
 namespace furrow::test::rescue_test {

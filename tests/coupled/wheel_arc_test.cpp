@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling/wheels/fix_wheel_rigid.h"
-#include "furrow/io/csv_file.h"
+#include "furrow/io/formats/csv_file.h"
 #include "modify.h"
 #include "tests/coupled/support/sand.h"
 #include "tests/coupled/support/scene.h"

@@ -4,9 +4,9 @@
 #include <sstream>
 #include <vector>
 
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "fuzz.h"
-#include "furrow/io/terrain_input.h"
+#include "furrow/io/inputs/terrain_input.h"
 #include "furrow/material/registry.h"
 
 namespace {

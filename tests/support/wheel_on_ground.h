@@ -9,7 +9,7 @@
 
 #include "furrow/bodies/coupled_system.h"
 #include "furrow/bodies/rigid_wheel.h"
-#include "furrow/io/material_file.h"
+#include "furrow/io/inputs/material_file.h"
 #include "furrow/mpm/contact/terrain_contact.h"
 #include "furrow/mpm/continuum_terrain.h"
 #include "furrow/rig/wheel_rig.h"

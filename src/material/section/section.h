@@ -12,7 +12,7 @@
 /// strengths in compression and extension they are the same curve. The sections are convex from K =
 /// 7/9 (abaqus) and K = 1/2 (matsuoka_nakai) on.
 
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "furrow/material/material.h"
 #include "furrow/material/section/section_parameters.h"
 

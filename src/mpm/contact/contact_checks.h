@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "furrow/geometry/surface.h"
-#include "furrow/mpm/grid.h"
-#include "furrow/mpm/particle_group.h"
+#include "furrow/mpm/grid/grid.h"
+#include "furrow/mpm/particles/particle_group.h"
 
 namespace furrow {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 #include "furrow/material/ground_contact.h"
 
 namespace furrow {

@@ -6,7 +6,7 @@
 #include "furrow/geometry/triangle_search.h"
 #include "furrow/mpm/contact/contact_search.h"
 #include "furrow/mpm/contact/particle_contact.h"
-#include "furrow/mpm/particles.h"
+#include "furrow/mpm/particles/particles.h"
 
 namespace furrow {
 

@@ -12,8 +12,8 @@
 #include "furrow/mpm/contact/contact_parameters.h"
 #include "furrow/mpm/contact/friction.h"
 #include "furrow/mpm/contact/particle_contact.h"
-#include "furrow/mpm/particle_group.h"
-#include "furrow/mpm/terrain_parameters.h"
+#include "furrow/mpm/particles/particle_group.h"
+#include "furrow/mpm/ground/terrain_parameters.h"
 
 namespace furrow {
 

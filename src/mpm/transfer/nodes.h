@@ -3,7 +3,7 @@
 /// Interpolation from the 27 nodes of a particle: the four numbers of a node as one vector for a
 /// single particle, one number in a lane for each of several particles of a cell.
 
-#include "furrow/mpm/transfer.h"
+#include "furrow/mpm/transfer/transfer.h"
 #include "furrow/simd/lanes.h"
 
 namespace furrow {

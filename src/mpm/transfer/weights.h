@@ -4,7 +4,7 @@
 /// transfers, found for a batch of particles at once in loops that the compiler vectorises over
 /// particles.
 
-#include "furrow/mpm/transfer.h"
+#include "furrow/mpm/transfer/transfer.h"
 #include "furrow/simd/kernel_units_only.h"
 
 namespace furrow {

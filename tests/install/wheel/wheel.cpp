@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "furrow/bodies/rigid_wheel.h"
-#include "furrow/io/version.h"
+#include "furrow/io/files/version.h"
 
 int main() {
   const std::vector<std::string> words = {"diameter", "0.6", "width",   "0.2",

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "furrow/core/error.h"
-#include "furrow/geometry/wheel_mesh.h"
+#include "furrow/geometry/meshes/wheel_mesh.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"
 #include "tests/support/meshes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/core/options.h"
+#include "furrow/core/options/options.h"
 
 #include <gmock/gmock.h>
 

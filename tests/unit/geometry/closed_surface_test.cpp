@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "furrow/geometry/closed_surface.h"
-#include "furrow/geometry/wheel_mesh.h"
+#include "furrow/geometry/meshes/wheel_mesh.h"
 #include "furrow/geometry/winding_number.h"
 #include "furrow/core/error.h"
 

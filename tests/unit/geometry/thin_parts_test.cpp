@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "furrow/geometry/wheel_mesh.h"
+#include "furrow/geometry/meshes/wheel_mesh.h"
 #include "tests/support/bar.h"
 
 namespace furrow::thin_parts_geometry_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/geometry/wheel_mesh.h"
+#include "furrow/geometry/meshes/wheel_mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/io/hdf5_file.h"
+#include "furrow/io/formats/hdf5_file.h"
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "furrow/core/error.h"
-#include "furrow/io/replace_file.h"
+#include "furrow/io/files/replace_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/io/history_file.h"
+#include "furrow/io/results/history_file.h"
 
 #include <gmock/gmock.h>
 #include <malloc.h>
@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "furrow/core/error.h"
-#include "furrow/io/hdf5_file.h"
+#include "furrow/io/formats/hdf5_file.h"
 #include "furrow/mpm/terrain_snapshot.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/io/point_file.h"
+#include "furrow/io/inputs/point_file.h"
 
 #include <gmock/gmock.h>
 

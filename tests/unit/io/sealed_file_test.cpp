@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Whatever happens to a sealed file is noticed: cut at any length, a bit flipped anywhere, foreign.
-#include "furrow/io/sealed_file.h"
+#include "furrow/io/files/sealed_file.h"
 
 #include <filesystem>
 #include <fstream>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "furrow/core/error.h"
-#include "furrow/io/replace_file.h"
+#include "furrow/io/files/replace_file.h"
 #include "scratch.h"
 #include "size_limit.h"
 #include "tests/support/error_of.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/mpm/axis.h"
+#include "furrow/mpm/grid/axis.h"
 
 #include <cmath>
 

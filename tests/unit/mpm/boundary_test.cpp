@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/mpm/boundary.h"
+#include "furrow/mpm/grid/boundary.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/mpm/cell_average.h"
+#include "furrow/mpm/transfer/cell_average.h"
 
 #include <random>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/mpm/divided_ground.h"
+#include "furrow/mpm/discontinuities/divided_ground.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/mpm/overburden.h"
+#include "furrow/mpm/ground/overburden.h"
 
 #include <gmock/gmock.h>
 

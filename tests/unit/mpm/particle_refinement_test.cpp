@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Ground that follows a body on a graded axis: particles are halved ahead and united behind.
-#include "furrow/mpm/particle_refinement.h"
+#include "furrow/mpm/particles/particle_refinement.h"
 
 #include <random>
 

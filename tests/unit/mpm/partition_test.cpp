@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // On one rank; several ranks: tests/verification/mpm_ranks/ranks_test.cpp.
-#include "furrow/mpm/partition.h"
+#include "furrow/mpm/grid/partition.h"
 
 #include <gtest/gtest.h>
 

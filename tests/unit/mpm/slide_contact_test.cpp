@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/mpm/slide_contact.h"
+#include "furrow/mpm/discontinuities/slide_contact.h"
 
 #include <gmock/gmock.h>
 

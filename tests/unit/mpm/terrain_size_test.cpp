@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/mpm/terrain_size.h"
+#include "furrow/mpm/ground/terrain_size.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/mpm/transfer.h"
+#include "furrow/mpm/transfer/transfer.h"
 
 #include <algorithm>
 #include <cstring>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "furrow/simd/dispatch.h"
-#include "furrow/mpm/grid.h"
+#include "furrow/mpm/grid/grid.h"
 #include "terrain_scene.h"
 #include "tests/support/max_error.h"
 

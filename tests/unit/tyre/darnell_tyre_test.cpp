@@ -2,7 +2,7 @@
 // The tyre as a body: conservation laws in free flight, rest on a plane, half and whole, table and
 // chain, contact on the sidewalls, restarts, refusals.
 
-#include "furrow/tyre/darnell_tyre.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "furrow/tyre/quintic_spline.h"
+#include "furrow/tyre/sidewall/quintic_spline.h"
 
 #include <cmath>
 #include <limits>

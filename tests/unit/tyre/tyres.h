@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "furrow/io/tyre_file.h"
-#include "furrow/tyre/darnell_tyre.h"
-#include "furrow/tyre/sidewall.h"
+#include "furrow/io/inputs/tyre_file.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
+#include "furrow/tyre/sidewall/sidewall.h"
 #include "furrow/tyre/tyre_parameters.h"
 
 namespace furrow {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "furrow/io/csv_file.h"
+#include "furrow/io/formats/csv_file.h"
 #include "tests/support/paths.h"
 
 namespace furrow::norsand_test {

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "furrow/core/error.h"
-#include "furrow/io/material_file.h"
+#include "furrow/io/inputs/material_file.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::point_driver_test {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "furrow/io/csv_file.h"
-#include "furrow/io/material_file.h"
+#include "furrow/io/formats/csv_file.h"
+#include "furrow/io/inputs/material_file.h"
 #include "furrow/material/models/crushable_foam/crushable_foam.h"
 #include "furrow/material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "furrow/material/models/norsand/norsand.h"

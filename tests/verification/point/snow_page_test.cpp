@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "furrow/core/error.h"
-#include "furrow/io/point_file.h"
+#include "furrow/io/inputs/point_file.h"
 #include "furrow/material/point/point_driver.h"
 
 namespace furrow::snow_page_test {

@@ -13,7 +13,7 @@
 #include "../../unit/tyre/tyres.h"
 #include "furrow/core/error.h"
 #include "furrow/tyre/contact_patch.h"
-#include "furrow/tyre/darnell_tyre.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::hard_cases_test {
