@@ -16,7 +16,7 @@
 
 #include "furrow/core/error.h"
 #include "furrow/core/options/nearest_word.h"
-#include "coupling/liggghts/script.h"
+#include "coupling/liggghts/styles/script.h"
 #include "coupling/script_variables.h"
 
 namespace furrow::coupling {

@@ -11,11 +11,11 @@
 
 #include "furrow/core/error.h"
 #include "coupling/base/furrow_fix.h"
-#include "coupling/base/keeps_state.h"
-#include "coupling/liggghts/fixes_of.h"
-#include "coupling/liggghts/global_properties.h"
-#include "coupling/liggghts/has_options.h"
-#include "coupling/liggghts/script.h"
+#include "coupling/base/roles/keeps_state.h"
+#include "coupling/liggghts/styles/fixes_of.h"
+#include "coupling/liggghts/data/global_properties.h"
+#include "coupling/liggghts/styles/has_options.h"
+#include "coupling/liggghts/styles/script.h"
 #include "modify.h"
 
 namespace furrow::coupling {

@@ -20,12 +20,12 @@
 #include "furrow/bodies/contact.h"
 #include "furrow/core/checkpoint.h"
 #include "furrow/core/options/outputs.h"
-#include "coupling/liggghts/find_fix.h"
-#include "coupling/liggghts/has_options.h"
-#include "coupling/base/keeps_state.h"
-#include "coupling/base/motion_controller.h"
-#include "coupling/base/uses_fix.h"
-#include "coupling/liggghts/errors.h"
+#include "coupling/liggghts/styles/find_fix.h"
+#include "coupling/liggghts/styles/has_options.h"
+#include "coupling/base/roles/keeps_state.h"
+#include "coupling/base/roles/motion_controller.h"
+#include "coupling/base/roles/uses_fix.h"
+#include "coupling/liggghts/errors/errors.h"
 #include "fix.h"
 
 namespace furrow::coupling {

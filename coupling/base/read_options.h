@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "furrow/core/options/options.h"
-#include "coupling/liggghts/script.h"
+#include "coupling/liggghts/styles/script.h"
 
 namespace furrow::coupling {
 

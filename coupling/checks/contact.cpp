@@ -12,10 +12,10 @@
 
 #include "atom.h"
 #include "furrow/core/communicator.h"
-#include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/styles/fixes_of.h"
 #include "coupling/wheels/fix_plate_rigid.h"
 #include "coupling/wheels/fix_tyre_brick.h"
-#include "coupling/base/fix_scm.h"
+#include "coupling/base/roles/fix_scm.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
 #include "coupling/drive/fix_wheel_rig.h"

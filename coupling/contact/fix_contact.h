@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "furrow/core/error.h"
-#include "coupling/base/counts_losses.h"
+#include "coupling/base/roles/counts_losses.h"
 #include "coupling/base/fix_body.h"
-#include "coupling/base/high_friction.h"
-#include "coupling/liggghts/script.h"
+#include "coupling/base/checks/high_friction.h"
+#include "coupling/liggghts/styles/script.h"
 
 namespace furrow::coupling {
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "furrow/core/error.h"
-#include "coupling/base/require_unique.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/base/checks/require_unique.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "furrow/tyre/tyre.h"
 #include "update.h"
 

@@ -7,7 +7,7 @@
 #include "furrow/bodies/rigid_wheel.h"
 #include "comm.h"
 #include "furrow/core/options/check_number.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 
 namespace furrow::coupling {
 

@@ -8,8 +8,8 @@
 #include "comm.h"
 #include "furrow/core/options/check_number.h"
 #include "furrow/core/error.h"
-#include "coupling/contact/ground_contact.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/contact/body_material.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "furrow/tyre/tyre.h"
 #include "update.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "coupling/base/motion_controller.h"
+#include "coupling/base/roles/motion_controller.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "furrow/rig/chassis.h"
 

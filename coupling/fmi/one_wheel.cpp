@@ -12,9 +12,9 @@
 
 #include "furrow/core/error.h"
 #include "furrow/core/gravity.h"
-#include "coupling/base/fix_rig.h"
+#include "coupling/base/roles/fix_rig.h"
 #include "coupling/base/fix_wheel_hub.h"
-#include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/styles/fixes_of.h"
 #include "atom.h"
 #include "update.h"
 

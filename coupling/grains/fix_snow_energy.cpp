@@ -3,9 +3,9 @@
 
 #include "furrow/core/communicator.h"
 #include "coupling/base/checkpoint_totals.h"
-#include "coupling/base/require_unique.h"
+#include "coupling/base/checks/require_unique.h"
 #include "coupling/grains/model_snow_bond.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 
 namespace furrow::coupling {
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "furrow/core/communicator.h"
-#include "coupling/liggghts/script.h"
+#include "coupling/liggghts/styles/script.h"
 #include "update.h"
 
 namespace furrow::coupling {

@@ -20,8 +20,8 @@
 #include "comm.h"
 #include "furrow/core/communicator.h"
 #include "furrow/core/error.h"
-#include "coupling/liggghts/access.h"
-#include "coupling/liggghts/first_rank.h"
+#include "coupling/liggghts/data/access.h"
+#include "coupling/liggghts/errors/first_rank.h"
 #include "furrow/io/files/file_lock.h"
 #include "furrow/io/files/sealed_file.h"
 

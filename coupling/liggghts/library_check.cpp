@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "furrow/core/error.h"
-#include "coupling/liggghts/access.h"
+#include "coupling/liggghts/data/access.h"
 #include "domain.h"
 #include "input.h"
 #include "modify.h"

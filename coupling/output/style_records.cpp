@@ -5,10 +5,10 @@
 #include <sstream>
 
 #include "coupling/base/bed_line.h"
-#include "coupling/liggghts/fixes_of.h"
-#include "coupling/liggghts/has_options.h"
-#include "coupling/liggghts/script.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/fixes_of.h"
+#include "coupling/liggghts/styles/has_options.h"
+#include "coupling/liggghts/styles/script.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "group.h"
 
 namespace furrow::coupling {

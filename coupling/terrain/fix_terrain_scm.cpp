@@ -8,9 +8,9 @@
 #include "comm.h"
 #include "furrow/core/error.h"
 #include "furrow/core/gravity.h"
-#include "coupling/liggghts/script.h"
-#include "coupling/base/require_unique.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/script.h"
+#include "coupling/base/checks/require_unique.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "furrow/io/inputs/patch_input.h"
 #include "modify.h"
 

@@ -3,7 +3,7 @@
 
 #include "furrow/bodies/mesh_bodies.h"
 #include "coupling/wheels/mesh_of_file.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 
 namespace furrow::coupling {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 
 namespace furrow::coupling {
 

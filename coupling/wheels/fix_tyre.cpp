@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "furrow/core/error.h"
-#include "coupling/liggghts/script.h"
+#include "coupling/liggghts/styles/script.h"
 #include "furrow/tyre/tyre_parameters.h"
 #include "update.h"
 

@@ -5,8 +5,8 @@
 
 #include "atom.h"
 #include "furrow/core/communicator.h"
-#include "coupling/liggghts/script.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/script.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "furrow/io/inputs/brick_tyre_file.h"
 
 namespace furrow::coupling {

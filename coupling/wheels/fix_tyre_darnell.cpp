@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "furrow/core/error.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "furrow/io/inputs/sidewall_cache.h"
 #include "furrow/io/inputs/tyre_file.h"
 

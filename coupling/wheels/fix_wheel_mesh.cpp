@@ -2,8 +2,8 @@
 #include "coupling/wheels/fix_wheel_mesh.h"
 
 #include "coupling/wheels/mesh_of_file.h"
-#include "coupling/liggghts/script.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/script.h"
+#include "coupling/liggghts/styles/style_registry.h"
 
 namespace furrow::coupling {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/wheels/fix_wheel_rigid.h"
 
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 
 namespace furrow::coupling {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "furrow/core/checksum.h"
-#include "coupling/liggghts/script.h"
+#include "coupling/liggghts/styles/script.h"
 #include "furrow/io/formats/mesh_file.h"
 
 namespace furrow::coupling {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Stiffness and step that command bed chooses, against Hertz's law on a lattice and the Rayleigh
 // time, and what it says where it cannot choose.
-#include "coupling/terrain/bed_choice.h"
+#include "coupling/terrain/bed/bed_choice.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
 #include "furrow/core/error.h"
-#include "coupling/base/time_step_check.h"
+#include "coupling/base/checks/time_step_check.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::coupling::bed_choice_test {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "furrow/core/error.h"
-#include "coupling/base/fix_order.h"
+#include "coupling/base/roles/fix_order.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 #include "tests/support/error_of.h"

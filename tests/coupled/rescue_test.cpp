@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Rows in the memory of rank 0, saved by another thread while the main thread waits in MPI.
 
-#include "coupling/liggghts/rescue.h"
+#include "coupling/liggghts/errors/rescue.h"
 
 #include <filesystem>
 #include <thread>
