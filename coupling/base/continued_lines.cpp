@@ -11,10 +11,10 @@
 
 #include "furrow/core/error.h"
 #include "coupling/base/furrow_fix.h"
-#include "coupling/base/roles/keeps_state.h"
+#include "coupling/base/roles/checkpointed_fix.h"
 #include "coupling/liggghts/styles/fixes_of.h"
 #include "coupling/liggghts/data/global_properties.h"
-#include "coupling/liggghts/styles/has_options.h"
+#include "coupling/liggghts/styles/configured_style.h"
 #include "coupling/liggghts/styles/script.h"
 #include "modify.h"
 
@@ -24,7 +24,7 @@ namespace {
 
 std::string lines_of_restorable_fixes(const LAMMPS_NS::Modify& modify) {
   std::string names;
-  for (const auto* fix : fixes_of<const KeepsState>(modify))
+  for (const auto* fix : fixes_of<const CheckpointedFix>(modify))
     if (fix->must_be_restored()) names += name_of(as_fix(*fix)) + '\n';
   return names;
 }
@@ -64,7 +64,7 @@ void ContinuedLines::check_fixes() const {
   std::set<std::string> kept;
   std::istringstream lines(fixes_);
   for (std::string name; std::getline(lines, name);) kept.insert(name);
-  for (const auto* fix : fixes_of<const KeepsState>(*lammps_.modify)) {
+  for (const auto* fix : fixes_of<const CheckpointedFix>(*lammps_.modify)) {
     if (!fix->must_be_restored()) continue;
     const std::string name = name_of(as_fix(*fix));
     if (fix->restored())

@@ -11,7 +11,7 @@
 #include "coupling/base/roles/fix_order.h"
 #include "coupling/base/checks/grain_check.h"
 #include "coupling/base/restart_record.h"
-#include "coupling/base/roles/uses_fix.h"
+#include "coupling/base/roles/fix_user.h"
 #include "coupling/liggghts/errors/errors.h"
 #include "coupling/liggghts/styles/script.h"
 #include "coupling/liggghts/errors/stream_check.h"

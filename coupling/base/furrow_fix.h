@@ -21,16 +21,19 @@
 #include "furrow/core/checkpoint.h"
 #include "furrow/core/options/outputs.h"
 #include "coupling/liggghts/styles/find_fix.h"
-#include "coupling/liggghts/styles/has_options.h"
-#include "coupling/base/roles/keeps_state.h"
+#include "coupling/liggghts/styles/configured_style.h"
+#include "coupling/base/roles/checkpointed_fix.h"
 #include "coupling/base/roles/motion_controller.h"
-#include "coupling/base/roles/uses_fix.h"
+#include "coupling/base/roles/fix_user.h"
 #include "coupling/liggghts/errors/errors.h"
 #include "fix.h"
 
 namespace furrow::coupling {
 
-class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, public KeepsState {
+class FurrowFix : public LAMMPS_NS::Fix,
+                  public ConfiguredStyle,
+                  public FixUser,
+                  public CheckpointedFix {
  public:
   /// Outputs of the fix: none, unless the derived class has some.
   static const Outputs<FurrowFix>& outputs();

@@ -5,14 +5,14 @@
 #include <fmt/format.h>
 
 #include "furrow/core/error.h"
-#include "coupling/base/roles/counts_losses.h"
+#include "coupling/base/roles/loss_ledger.h"
 #include "coupling/base/fix_body.h"
 #include "coupling/base/checks/high_friction.h"
 #include "coupling/liggghts/styles/script.h"
 
 namespace furrow::coupling {
 
-class FixContact : public FurrowFix, public CountsLosses {
+class FixContact : public FurrowFix, public LossLedger {
  public:
   FixBody& body_fix() const { return body_fix_; }
 

@@ -194,7 +194,7 @@ void FixWheelRig::check_passes() {
         "leave out 'follow' or the window, and make terrain or bed longer");
   };
   if (const auto* window = modify->find_fix_style("bed/window", 0)) refuse(*window);
-  for (const auto* contact : fixes_of<UsesFix>(*modify))
+  for (const auto* contact : fixes_of<FixUser>(*modify))
     for (const auto* terrain : fixes_of<FixTerrain>(*modify))
       if (terrain->moves() && contact->uses(wheel_fix_) && contact->uses(*terrain))
         refuse(*terrain);

@@ -4,7 +4,7 @@
 /// fix_grain_work.md.
 
 #include "coupling/base/furrow_fix.h"
-#include "coupling/base/roles/counts_losses.h"
+#include "coupling/base/roles/loss_ledger.h"
 #include "coupling/base/fix_body.h"
 #include "coupling/liggghts/data/pair_contacts.h"
 
@@ -14,7 +14,7 @@ class FixPropertyGlobal;
 
 namespace furrow::coupling {
 
-class FixGrainWork : public FurrowFix, public CountsLosses {
+class FixGrainWork : public FurrowFix, public LossLedger {
  public:
   FixGrainWork(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();

@@ -4,14 +4,14 @@
 #include <fmt/format.h>
 
 #include "furrow/core/error.h"
-#include "coupling/liggghts/styles/has_options.h"
+#include "coupling/liggghts/styles/configured_style.h"
 
 namespace furrow::coupling {
 
 void check_fix_order(const LAMMPS_NS::Modify& modify, const LAMMPS_NS::Fix& system) {
   for (int i = 0; i < modify.nfix && modify.fix[i] != &system; ++i) {
     const LAMMPS_NS::Fix& fix = *modify.fix[i];
-    const auto* follower = dynamic_cast<const FollowsSystem*>(&fix);
+    const auto* follower = dynamic_cast<const SystemFollower*>(&fix);
     if (follower)
       throw StateError(fmt::format(
           "fix {} '{}' comes before fix {} '{}' in a step, and must come after it: {}; write "

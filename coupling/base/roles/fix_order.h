@@ -12,9 +12,9 @@ namespace furrow::coupling {
 
 /// A fix whose turn must come after that of furrow/system, because it needs the bodies as the step
 /// has moved them.
-class FollowsSystem {
+class SystemFollower {
  public:
-  virtual ~FollowsSystem() = default;
+  virtual ~SystemFollower() = default;
   /// The end of a sentence: "its triangles take the positions of the body's nodes".
   virtual std::string reason_to_follow() const = 0;
 };

@@ -8,9 +8,9 @@
 #include "furrow/bodies/body.h"
 #include "furrow/core/options/options.h"
 #include "coupling/base/roles/fix_order.h"
-#include "coupling/base/roles/keeps_state.h"
-#include "coupling/liggghts/styles/has_options.h"
-#include "coupling/base/roles/uses_fix.h"
+#include "coupling/base/roles/checkpointed_fix.h"
+#include "coupling/liggghts/styles/configured_style.h"
+#include "coupling/base/roles/fix_user.h"
 #include "coupling/liggghts/styles/style_registry.h"
 #include "fix_mesh_surface.h"
 #include "tri_mesh.h"
@@ -70,10 +70,10 @@ class BodyMesh : public LAMMPS_NS::TriMesh {
 
 /// The class is a FixMeshSurface, so not a FurrowFix.
 class FixMeshBody : public LAMMPS_NS::FixMeshSurface,
-                    public HasOptions,
-                    public UsesFix,
-                    public KeepsState,
-                    public FollowsSystem {
+                    public ConfiguredStyle,
+                    public FixUser,
+                    public CheckpointedFix,
+                    public SystemFollower {
  public:
   FixMeshBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();

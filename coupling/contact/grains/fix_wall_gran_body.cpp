@@ -12,7 +12,7 @@
 #include "furrow/core/error.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/styles/fixes_of.h"
-#include "coupling/liggghts/styles/has_options.h"
+#include "coupling/liggghts/styles/configured_style.h"
 #include "coupling/base/checks/settings_check.h"
 #include "coupling/contact/grains/fix_mesh_body.h"
 #include "coupling/liggghts/data/access.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "coupling/base/roles/uses_fix.h"
+#include "coupling/base/roles/fix_user.h"
 #include "coupling/contact/grains/grain_bed_check.h"
 #include "coupling/liggghts/styles/style_registry.h"
 #include "fix_wall_gran.h"
@@ -20,7 +20,7 @@ struct ContactLedger;
 struct GrainContact;
 
 /// The class is a FixWallGran, so not a FurrowFix; its keywords are LIGGGHTS's.
-class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
+class FixWallGranBody : public LAMMPS_NS::FixWallGran, public FixUser {
  public:
   FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema() { return Schema("fix wall/gran/body"); }

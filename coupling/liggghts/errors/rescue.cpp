@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "coupling/liggghts/styles/fixes_of.h"
-#include "coupling/liggghts/errors/flushes_on_error.h"
+#include "coupling/liggghts/errors/result_buffer.h"
 
 namespace furrow::coupling {
 
@@ -41,7 +41,7 @@ ResultsInUse::~ResultsInUse() { results.unlock(); }
 void flush_results(const LAMMPS_NS::LAMMPS& lammps) {
   if (!lammps.modify) return;
   const ResultsInUse in_use;
-  for (FlushesOnError* fix : fixes_of<FlushesOnError>(*lammps.modify)) try {
+  for (ResultBuffer* fix : fixes_of<ResultBuffer>(*lammps.modify)) try {
       fix->flush_results();
     } catch (const std::exception& loss) {
       std::fprintf(stderr, "Results of fix %s are lost: %s\n", as_fix(*fix).id, loss.what());

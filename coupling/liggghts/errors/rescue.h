@@ -25,7 +25,7 @@ class ResultsInUse {
   ResultsInUse& operator=(const ResultsInUse&) = delete;
 };
 
-/// Saves the results that fixes have in memory (FlushesOnError). For rank 0. The run ends with the
+/// Saves the results that fixes have in memory (ResultBuffer). For rank 0. The run ends with the
 /// error that stopped it, also when something cannot be saved.
 void flush_results(const LAMMPS_NS::LAMMPS& lammps);
 

@@ -10,7 +10,7 @@
 #include "furrow/core/error.h"
 #include "furrow/core/options/options.h"
 #include "coupling/liggghts/styles/fixes_of.h"
-#include "coupling/liggghts/styles/has_options.h"
+#include "coupling/liggghts/styles/configured_style.h"
 #include "coupling/liggghts/styles/style_registry.h"
 #include "lammps.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The fixes of a scene by what they are: a class, or a role such as UsesFix.
+/// The fixes of a scene by what they are: a class, or a role such as FixUser.
 
 #include <type_traits>
 #include <vector>

@@ -9,14 +9,14 @@
 
 #include "coupling/base/roles/fix_order.h"
 #include "coupling/base/furrow_fix.h"
-#include "coupling/liggghts/errors/flushes_on_error.h"
+#include "coupling/liggghts/errors/result_buffer.h"
 #include "furrow/io/files/folder_lock.h"
 #include "furrow/io/results/history_file.h"
 #include "furrow/io/formats/vtk_file.h"
 
 namespace furrow::coupling {
 
-class FixHistory : public FurrowFix, public FollowsSystem, public FlushesOnError {
+class FixHistory : public FurrowFix, public SystemFollower, public ResultBuffer {
  public:
   std::string reason_to_follow() const override {
     return "it records what furrow/system has checked";

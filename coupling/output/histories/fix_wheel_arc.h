@@ -13,7 +13,7 @@ namespace furrow::coupling {
 
 class FixWheelHub;
 
-class FixWheelArc : public FurrowFix, public FollowsSystem {
+class FixWheelArc : public FurrowFix, public SystemFollower {
  public:
   FixWheelArc(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   ~FixWheelArc() override;

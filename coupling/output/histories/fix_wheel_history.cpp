@@ -5,7 +5,7 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "coupling/base/roles/counts_losses.h"
+#include "coupling/base/roles/loss_ledger.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/roles/fix_rig.h"
 #include "coupling/liggghts/styles/fixes_of.h"
@@ -108,7 +108,7 @@ void print_verdicts(LAMMPS_NS::LAMMPS& lammps) {
 GroundLosses FixWheelHistory::ground_losses() {
   FixWheelHub& wheel = rig_fix_.wheel_fix();
   GroundLosses losses;
-  for (const auto* part : fixes_of<const CountsLosses>(*modify))
+  for (const auto* part : fixes_of<const LossLedger>(*modify))
     part->add_losses(wheel.hub(), losses);
   const ContactWork& work = FixCoupledSystem::of(*lmp).contact_work(wheel.hub());
   losses.friction += work.friction;

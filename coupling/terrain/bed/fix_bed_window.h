@@ -14,7 +14,7 @@
 
 namespace furrow::coupling {
 
-class FixBedWindow : public FurrowFix, public FollowsSystem {
+class FixBedWindow : public FurrowFix, public SystemFollower {
  public:
   FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A style that can say which options it was given.
+/// Role of a style whose options the script gives.
 
 #include <string>
 
@@ -9,16 +9,16 @@
 
 namespace furrow::coupling {
 
-class HasOptions {
+class ConfiguredStyle {
  public:
-  virtual ~HasOptions() = default;
+  virtual ~ConfiguredStyle() = default;
   virtual const Options& options() const = 0;
 };
 
 /// The style that the script wrote: LIGGGHTS knows a mesh/body as mesh/surface.
 inline std::string style_of(const LAMMPS_NS::Fix& fix) {
-  const auto* described = dynamic_cast<const HasOptions*>(&fix);
-  return described ? described->options().subject().substr(std::string("fix ").size()) : fix.style;
+  const auto* style = dynamic_cast<const ConfiguredStyle*>(&fix);
+  return style ? style->options().subject().substr(std::string("fix ").size()) : fix.style;
 }
 
 /// Name for errors and warnings: "fix wheel/rigid 'wheel'".

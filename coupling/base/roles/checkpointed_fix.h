@@ -4,9 +4,9 @@
 
 namespace furrow::coupling {
 
-class KeepsState {
+class CheckpointedFix {
  public:
-  virtual ~KeepsState() = default;
+  virtual ~CheckpointedFix() = default;
   /// True if a continued run needs the state that a checkpoint keeps of this fix.
   virtual bool must_be_restored() const = 0;
   /// True if the fix has its state from a checkpoint.

@@ -10,9 +10,9 @@
 namespace furrow::coupling {
 
 /// A fix that works with another one as long as it lives.
-class UsesFix {
+class FixUser {
  public:
-  virtual ~UsesFix() = default;
+  virtual ~FixUser() = default;
   virtual bool uses(const LAMMPS_NS::Fix& other) const = 0;
 };
 

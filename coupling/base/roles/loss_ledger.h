@@ -7,9 +7,9 @@
 
 namespace furrow::coupling {
 
-class CountsLosses {
+class LossLedger {
  public:
-  virtual ~CountsLosses() = default;
+  virtual ~LossLedger() = default;
   /// Adds the energies that this fix accounts for since the start of the scene; nothing for the
   /// fixes of other wheels. Collective.
   virtual void add_losses(const Body& wheel, GroundLosses& losses) const = 0;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Fixes that hold results in memory which must reach the disk when an error ends the run.
+/// Role of a fix with results in memory that must reach the disk when an error ends the run.
 
 namespace furrow::coupling {
 
-class FlushesOnError {
+class ResultBuffer {
  public:
-  virtual ~FlushesOnError() = default;
+  virtual ~ResultBuffer() = default;
   /// Called on rank 0 while the run is being stopped, perhaps by another thread than the main one
   /// (rescue.h). May throw.
   virtual void flush_results() = 0;
