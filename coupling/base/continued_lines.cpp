@@ -10,7 +10,6 @@
 #include <fmt/ranges.h>
 
 #include "furrow/core/error.h"
-#include "coupling/base/furrow_fix.h"
 #include "coupling/base/roles/checkpointed_fix.h"
 #include "coupling/liggghts/styles/fixes_of.h"
 #include "coupling/liggghts/data/global_properties.h"
@@ -96,10 +95,10 @@ void ContinuedLines::warn_of_properties() const {
 std::string ContinuedLines::lines_of(const std::vector<std::string>& controllers) const {
   std::string lines;
   for (const std::string& id : controllers) {
-    const auto* fix = dynamic_cast<const FurrowFix*>(lammps_.modify->find_fix_id(id.c_str()));
+    const auto* fix = dynamic_cast<const CheckpointedFix*>(lammps_.modify->find_fix_id(id.c_str()));
     if (!fix || fix->must_be_restored()) continue;
     for (const auto& [key, value] : fix->settings())
-      lines += fmt::format("{}\t{}\t{}\n", fix->name(), key, value);
+      lines += fmt::format("{}\t{}\t{}\n", name_of(as_fix(*fix)), key, value);
   }
   return lines;
 }

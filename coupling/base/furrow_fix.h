@@ -44,9 +44,7 @@ class FurrowFix : public LAMMPS_NS::Fix,
   /// Name for errors and warnings: "fix wheel/rigid 'wheel'".
   std::string name() const { return name_of(*this); }
   bool must_be_restored() const override { return restart_global && state_needs_options(); }
-  /// Keywords with their values, equal for equal numbers, but for those that may change when a run
-  /// is continued. A file that is read may add its contents.
-  virtual std::vector<std::pair<std::string, std::string>> settings() const;
+  std::vector<std::pair<std::string, std::string>> settings() const override;
   bool restored() const override { return restored_; }
 
   int setmask() override { return 0; }
