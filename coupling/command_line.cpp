@@ -14,9 +14,9 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include "core/error.h"
-#include "core/nearest_word.h"
-#include "coupling/liggghts/script.h"
+#include "furrow/core/error.h"
+#include "furrow/core/options/nearest_word.h"
+#include "coupling/liggghts/styles/script.h"
 #include "coupling/script_variables.h"
 
 namespace furrow::coupling {

@@ -209,7 +209,7 @@ def contact(ax: Axes) -> None:
     ax.set_ylim(-1.05, 0.8)
 
 
-@figure("terrain/fix_bed_window", 7.2, 2.4)
+@figure("terrain/bed/fix_bed_window", 7.2, 2.4)
 def window(ax: Axes) -> None:
     """The periodic bed with its slabs, the rut and the slab that is renewed."""
     slabs, pitch, wheel = 12, 0.3, 2.55
@@ -254,7 +254,7 @@ def sidewall(side: int) -> list[Point]:
     return [(side * x, y) for x, y in chain(angles, (0.72, 0.0), 0.135)]
 
 
-@figure("bodies/fix_tyre_darnell", 5.0, 2.9)
+@figure("wheels/fix_tyre_darnell", 5.0, 2.9)
 def darnell(ax: Axes) -> None:
     """Section: shell as tread, chains as sidewalls, rigid rim."""
     right = sidewall(1)
@@ -278,7 +278,7 @@ def darnell(ax: Axes) -> None:
     ax.set_ylim(-0.35, edge[1] + 0.3)
 
 
-@figure("bodies/fix_tyre_brick", 5.0, 2.9)
+@figure("wheels/fix_tyre_brick", 5.0, 2.9)
 def brick(ax: Axes) -> None:
     """Section: shell carcass from bead to bead, bricks as tread, grooves."""
     right = sidewall(1)
@@ -307,7 +307,7 @@ def brick(ax: Axes) -> None:
     ax.set_ylim(-0.35, edge[1] + 0.48)
 
 
-@figure("output/fix_wheel_arc", 4.6, 3.0)
+@figure("output/histories/fix_wheel_arc", 4.6, 3.0)
 def arc(ax: Axes) -> None:
     """The angle, the unit vectors and both stresses on a sector."""
     radius, axle = 1.0, (0.0, 0.75)
@@ -338,7 +338,7 @@ def arc(ax: Axes) -> None:
     ax.set_ylim(-0.65, 1.85)
 
 
-@figure("contact/fix_mesh_body", 7.2, 2.3)
+@figure("contact/grains/fix_mesh_body", 7.2, 2.3)
 def mesh(ax: Axes) -> None:
     """Body, mesh and wall: who moves whom."""
     for x, name, detail in (

@@ -12,16 +12,16 @@
 #include <mpi.h>
 
 #include "coupling/command_line.h"
-#include "coupling/liggghts/first_rank.h"
+#include "coupling/liggghts/errors/first_rank.h"
 #include "coupling/liggghts/initialize_mpi.h"
 #include "coupling/liggghts/library_check.h"
-#include "coupling/liggghts/rescue.h"
-#include "coupling/liggghts/signals.h"
-#include "coupling/liggghts/style_registry.h"
-#include "coupling/output/fix_wheel_history.h"
+#include "coupling/liggghts/errors/rescue.h"
+#include "coupling/liggghts/errors/signals.h"
+#include "coupling/liggghts/styles/style_registry.h"
+#include "coupling/output/histories/fix_wheel_history.h"
 #include "coupling/run_script.h"
-#include "io/law_json.h"
-#include "io/version.h"
+#include "furrow/io/results/law_json.h"
+#include "furrow/io/files/version.h"
 #include "lammps.h"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <new>
 
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/liggghts/error_policy.h"
-#include "coupling/liggghts/script.h"
+#include "coupling/liggghts/errors/error_policy.h"
+#include "coupling/liggghts/styles/script.h"
 #include "input.h"
 
 namespace furrow::coupling {

@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "coupling/liggghts/script.h"
+#include "coupling/liggghts/styles/script.h"
 
 namespace furrow::coupling {
 

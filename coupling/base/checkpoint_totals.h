@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-#include "core/checkpoint.h"
-#include "core/communicator.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/communicator.h"
 
 namespace furrow::coupling {
 

@@ -9,13 +9,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
-#include "coupling/base/furrow_fix.h"
-#include "coupling/base/keeps_state.h"
-#include "coupling/liggghts/fixes_of.h"
-#include "coupling/liggghts/global_properties.h"
-#include "coupling/liggghts/has_options.h"
-#include "coupling/liggghts/script.h"
+#include "furrow/core/error.h"
+#include "coupling/base/roles/checkpointed_fix.h"
+#include "coupling/liggghts/styles/fixes_of.h"
+#include "coupling/liggghts/data/global_properties.h"
+#include "coupling/liggghts/styles/configured_style.h"
+#include "coupling/liggghts/styles/script.h"
 #include "modify.h"
 
 namespace furrow::coupling {
@@ -24,7 +23,7 @@ namespace {
 
 std::string lines_of_restorable_fixes(const LAMMPS_NS::Modify& modify) {
   std::string names;
-  for (const auto* fix : fixes_of<const KeepsState>(modify))
+  for (const auto* fix : fixes_of<const CheckpointedFix>(modify))
     if (fix->must_be_restored()) names += name_of(as_fix(*fix)) + '\n';
   return names;
 }
@@ -64,7 +63,7 @@ void ContinuedLines::check_fixes() const {
   std::set<std::string> kept;
   std::istringstream lines(fixes_);
   for (std::string name; std::getline(lines, name);) kept.insert(name);
-  for (const auto* fix : fixes_of<const KeepsState>(*lammps_.modify)) {
+  for (const auto* fix : fixes_of<const CheckpointedFix>(*lammps_.modify)) {
     if (!fix->must_be_restored()) continue;
     const std::string name = name_of(as_fix(*fix));
     if (fix->restored())
@@ -96,10 +95,10 @@ void ContinuedLines::warn_of_properties() const {
 std::string ContinuedLines::lines_of(const std::vector<std::string>& controllers) const {
   std::string lines;
   for (const std::string& id : controllers) {
-    const auto* fix = dynamic_cast<const FurrowFix*>(lammps_.modify->find_fix_id(id.c_str()));
+    const auto* fix = dynamic_cast<const CheckpointedFix*>(lammps_.modify->find_fix_id(id.c_str()));
     if (!fix || fix->must_be_restored()) continue;
     for (const auto& [key, value] : fix->settings())
-      lines += fmt::format("{}\t{}\t{}\n", fix->name(), key, value);
+      lines += fmt::format("{}\t{}\t{}\n", name_of(as_fix(*fix)), key, value);
   }
   return lines;
 }

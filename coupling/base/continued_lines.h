@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/checkpoint.h"
+#include "furrow/core/checkpoint.h"
 #include "lammps.h"
 
 namespace furrow::coupling {

@@ -16,16 +16,16 @@
 #include <string>
 #include <vector>
 
-#include "bodies/body.h"
-#include "bodies/coupled_system.h"
-#include "core/checkpoint.h"
-#include "core/communicator.h"
+#include "furrow/bodies/body.h"
+#include "furrow/bodies/coupled_system.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/communicator.h"
 #include "coupling/base/continued_lines.h"
-#include "coupling/base/grain_loads.h"
-#include "coupling/base/motion_controller.h"
-#include "coupling/base/restored_forces.h"
-#include "coupling/base/scene_watch.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/base/loads/grain_loads.h"
+#include "coupling/base/roles/motion_controller.h"
+#include "coupling/base/loads/restored_forces.h"
+#include "coupling/base/roles/scene_watch.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "fix.h"
 
 namespace furrow::coupling {

@@ -3,7 +3,7 @@
 /// The base of every fix that makes a wheel or a tyre: a hub that a wheel/rig drives and a
 /// wheel/history records. Its keys are those of bodies/hub_parameters.h beside its own.
 
-#include "bodies/wheel_hub.h"
+#include "furrow/bodies/wheel_hub.h"
 #include "coupling/base/fix_body.h"
 
 namespace furrow::coupling {

@@ -10,7 +10,7 @@
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/read_options.h"
 #include "coupling/base/restart_record.h"
-#include "coupling/base/settings_check.h"
+#include "coupling/base/checks/settings_check.h"
 
 namespace furrow::coupling {
 

@@ -16,21 +16,24 @@
 #include <variant>
 #include <vector>
 
-#include "bodies/body.h"
-#include "bodies/contact.h"
-#include "core/checkpoint.h"
-#include "core/outputs.h"
-#include "coupling/liggghts/find_fix.h"
-#include "coupling/liggghts/has_options.h"
-#include "coupling/base/keeps_state.h"
-#include "coupling/base/motion_controller.h"
-#include "coupling/base/uses_fix.h"
-#include "coupling/liggghts/errors.h"
+#include "furrow/bodies/body.h"
+#include "furrow/bodies/contact.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/options/outputs.h"
+#include "coupling/liggghts/styles/find_fix.h"
+#include "coupling/liggghts/styles/configured_style.h"
+#include "coupling/base/roles/checkpointed_fix.h"
+#include "coupling/base/roles/motion_controller.h"
+#include "coupling/base/roles/fix_user.h"
+#include "coupling/liggghts/errors/errors.h"
 #include "fix.h"
 
 namespace furrow::coupling {
 
-class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, public KeepsState {
+class FurrowFix : public LAMMPS_NS::Fix,
+                  public ConfiguredStyle,
+                  public FixUser,
+                  public CheckpointedFix {
  public:
   /// Outputs of the fix: none, unless the derived class has some.
   static const Outputs<FurrowFix>& outputs();
@@ -41,9 +44,7 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, publ
   /// Name for errors and warnings: "fix wheel/rigid 'wheel'".
   std::string name() const { return name_of(*this); }
   bool must_be_restored() const override { return restart_global && state_needs_options(); }
-  /// Keywords with their values, equal for equal numbers, but for those that may change when a run
-  /// is continued. A file that is read may add its contents.
-  virtual std::vector<std::pair<std::string, std::string>> settings() const;
+  std::vector<std::pair<std::string, std::string>> settings() const override;
   bool restored() const override { return restored_; }
 
   int setmask() override { return 0; }

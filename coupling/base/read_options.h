@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/options.h"
-#include "coupling/liggghts/script.h"
+#include "furrow/core/options/options.h"
+#include "coupling/liggghts/styles/script.h"
 
 namespace furrow::coupling {
 

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "core/checkpoint.h"
-#include "core/error.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/error.h"
 
 namespace furrow::coupling {
 

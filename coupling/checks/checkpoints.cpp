@@ -11,12 +11,12 @@
 
 #include "atom.h"
 #include "atom_vec.h"
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "coupling/checks/scene_checks.h"
-#include "coupling/liggghts/access.h"
+#include "coupling/liggghts/data/access.h"
 #include "coupling/liggghts/checkpoint_file.h"
-#include "coupling/liggghts/fixes_of.h"
-#include "coupling/terrain/fix_bed_window.h"
+#include "coupling/liggghts/styles/fixes_of.h"
+#include "coupling/terrain/bed/fix_bed_window.h"
 
 namespace furrow::coupling {
 

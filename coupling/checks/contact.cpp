@@ -11,20 +11,20 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/communicator.h"
-#include "coupling/liggghts/fixes_of.h"
-#include "coupling/bodies/fix_plate_rigid.h"
-#include "coupling/bodies/fix_tyre_brick.h"
-#include "coupling/base/fix_scm.h"
+#include "furrow/core/communicator.h"
+#include "coupling/liggghts/styles/fixes_of.h"
+#include "coupling/wheels/fix_plate_rigid.h"
+#include "coupling/wheels/fix_tyre_brick.h"
+#include "coupling/base/roles/fix_scm.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "domain.h"
-#include "mpm/boundary_effect.h"
-#include "mpm/divided_ground.h"
-#include "mpm/ground_under_wheel.h"
+#include "furrow/mpm/ground/boundary_effect.h"
+#include "furrow/mpm/discontinuities/divided_ground.h"
+#include "furrow/mpm/ground/ground_under_wheel.h"
 #include "primitive_wall.h"
-#include "tyre/darnell_tyre.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
 
 namespace furrow::coupling {
 

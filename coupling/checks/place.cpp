@@ -12,16 +12,16 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/communicator.h"
-#include "coupling/liggghts/fixes_of.h"
-#include "coupling/base/grain_check.h"
-#include "coupling/base/fix_scm.h"
+#include "furrow/core/communicator.h"
+#include "coupling/liggghts/styles/fixes_of.h"
+#include "coupling/base/checks/grain_check.h"
+#include "coupling/base/roles/fix_scm.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
 #include "coupling/contact/fix_contact_scm.h"
-#include "coupling/terrain/fix_bed_window.h"
+#include "coupling/terrain/bed/fix_bed_window.h"
 #include "domain.h"
-#include "geometry/winding_number.h"
+#include "furrow/geometry/winding_number.h"
 #include "primitive_wall.h"
 
 namespace furrow::coupling {

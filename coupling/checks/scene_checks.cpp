@@ -9,11 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/liggghts/fixes_of.h"
-#include "coupling/base/scene_watch.h"
-#include "coupling/liggghts/script.h"
+#include "coupling/liggghts/styles/fixes_of.h"
+#include "coupling/base/roles/scene_watch.h"
+#include "coupling/liggghts/styles/script.h"
 #include "update.h"
 
 namespace furrow::coupling {

@@ -4,15 +4,15 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "coupling/base/counts_losses.h"
+#include "furrow/core/error.h"
+#include "coupling/base/roles/loss_ledger.h"
 #include "coupling/base/fix_body.h"
-#include "coupling/base/high_friction.h"
-#include "coupling/liggghts/script.h"
+#include "coupling/base/checks/high_friction.h"
+#include "coupling/liggghts/styles/script.h"
 
 namespace furrow::coupling {
 
-class FixContact : public FurrowFix, public CountsLosses {
+class FixContact : public FurrowFix, public LossLedger {
  public:
   FixBody& body_fix() const { return body_fix_; }
 

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "coupling/base/require_unique.h"
-#include "coupling/contact/ground_contact.h"
-#include "coupling/liggghts/style_registry.h"
-#include "coupling/base/fix_terrain.h"
+#include "furrow/core/error.h"
+#include "coupling/base/checks/require_unique.h"
+#include "coupling/contact/body_material.h"
+#include "coupling/liggghts/styles/style_registry.h"
+#include "coupling/base/roles/fix_terrain.h"
 
 namespace furrow::coupling {
 

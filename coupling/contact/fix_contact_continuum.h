@@ -4,7 +4,7 @@
 /// fix_contact_continuum.md.
 
 #include "coupling/contact/fix_contact.h"
-#include "mpm/contact/terrain_contact.h"
+#include "furrow/mpm/contact/terrain_contact.h"
 
 namespace furrow::coupling {
 

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "coupling/base/require_unique.h"
-#include "coupling/liggghts/style_registry.h"
-#include "tyre/tyre.h"
+#include "furrow/core/error.h"
+#include "coupling/base/checks/require_unique.h"
+#include "coupling/liggghts/styles/style_registry.h"
+#include "furrow/tyre/tyre.h"
 #include "update.h"
 
 namespace furrow::coupling {

@@ -2,7 +2,7 @@
 #pragma once
 /// fix contact/plane: a body on a rigid level floor, without grains. See fix_contact_plane.md.
 
-#include "bodies/rigid_plane.h"
+#include "furrow/bodies/rigid_plane.h"
 #include "coupling/contact/fix_contact.h"
 
 namespace furrow::coupling {

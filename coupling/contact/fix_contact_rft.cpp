@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "bodies/rigid_plate.h"
-#include "bodies/rigid_wheel.h"
+#include "furrow/bodies/rigid_plate.h"
+#include "furrow/bodies/rigid_wheel.h"
 #include "comm.h"
-#include "core/check_number.h"
-#include "coupling/liggghts/style_registry.h"
+#include "furrow/core/options/check_number.h"
+#include "coupling/liggghts/styles/style_registry.h"
 
 namespace furrow::coupling {
 

@@ -4,7 +4,7 @@
 /// fix_contact_rft.md.
 
 #include "coupling/contact/fix_field_contact.h"
-#include "scm/rft_contact.h"
+#include "furrow/scm/rft_contact.h"
 
 namespace furrow::coupling {
 

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "comm.h"
-#include "core/check_number.h"
-#include "core/error.h"
-#include "coupling/contact/ground_contact.h"
-#include "coupling/liggghts/style_registry.h"
-#include "tyre/tyre.h"
+#include "furrow/core/options/check_number.h"
+#include "furrow/core/error.h"
+#include "coupling/contact/body_material.h"
+#include "coupling/liggghts/styles/style_registry.h"
+#include "furrow/tyre/tyre.h"
 #include "update.h"
 
 namespace furrow::coupling {

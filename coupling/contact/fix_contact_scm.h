@@ -4,7 +4,7 @@
 /// fix_contact_scm.md.
 
 #include "coupling/contact/fix_field_contact.h"
-#include "scm/scm_contact.h"
+#include "furrow/scm/scm_contact.h"
 
 namespace furrow::coupling {
 

@@ -2,8 +2,8 @@
 #pragma once
 /// The base of every fix that makes a contact of a body with a height field.
 
-#include "coupling/base/fix_scm.h"
-#include "coupling/base/require_unique.h"
+#include "coupling/base/roles/fix_scm.h"
+#include "coupling/base/checks/require_unique.h"
 #include "coupling/contact/fix_contact.h"
 
 namespace furrow::coupling {

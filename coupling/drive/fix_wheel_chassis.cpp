@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "coupling/liggghts/fixes_of.h"
-#include "coupling/liggghts/style_registry.h"
+#include "furrow/core/error.h"
+#include "coupling/liggghts/styles/fixes_of.h"
+#include "coupling/liggghts/styles/style_registry.h"
 
 namespace furrow::coupling {
 

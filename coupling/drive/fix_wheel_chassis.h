@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "coupling/base/motion_controller.h"
+#include "coupling/base/roles/motion_controller.h"
 #include "coupling/drive/fix_wheel_rig.h"
-#include "rig/chassis.h"
+#include "furrow/rig/chassis.h"
 
 namespace furrow::coupling {
 

@@ -8,15 +8,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/checksum.h"
-#include "core/error.h"
+#include "furrow/core/checksum.h"
+#include "furrow/core/error.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/styles/fixes_of.h"
 #include "coupling/drive/tilted_gravity.h"
-#include "coupling/liggghts/script.h"
-#include "coupling/liggghts/style_registry.h"
-#include "coupling/base/fix_terrain.h"
-#include "io/csv_file.h"
+#include "coupling/liggghts/styles/script.h"
+#include "coupling/liggghts/styles/style_registry.h"
+#include "coupling/base/roles/fix_terrain.h"
+#include "furrow/io/formats/csv_file.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -194,7 +194,7 @@ void FixWheelRig::check_passes() {
         "leave out 'follow' or the window, and make terrain or bed longer");
   };
   if (const auto* window = modify->find_fix_style("bed/window", 0)) refuse(*window);
-  for (const auto* contact : fixes_of<UsesFix>(*modify))
+  for (const auto* contact : fixes_of<FixUser>(*modify))
     for (const auto* terrain : fixes_of<FixTerrain>(*modify))
       if (terrain->moves() && contact->uses(wheel_fix_) && contact->uses(*terrain))
         refuse(*terrain);

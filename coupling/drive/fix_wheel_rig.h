@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "coupling/base/fix_rig.h"
-#include "coupling/base/motion_controller.h"
+#include "coupling/base/roles/fix_rig.h"
+#include "coupling/base/roles/motion_controller.h"
 
 namespace furrow::coupling {
 

@@ -2,8 +2,8 @@
 #include "coupling/drive/tilted_gravity.h"
 
 #include "atom.h"
-#include "coupling/liggghts/fixes_of.h"
-#include "coupling/base/fix_terrain.h"
+#include "coupling/liggghts/styles/fixes_of.h"
+#include "coupling/base/roles/fix_terrain.h"
 #include "fix_gravity.h"
 #include "lammps.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 /// A slope: the ground keeps its axes, and the gravity of all that lies on it is turned.
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace LAMMPS_NS {
 class LAMMPS;

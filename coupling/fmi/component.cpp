@@ -11,9 +11,9 @@
 
 #include <mpi.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/fmi/wheel_fmu.h"
-#include "coupling/liggghts/error_policy.h"
+#include "coupling/liggghts/errors/error_policy.h"
 #include "coupling/session/host_process.h"
 #include "coupling/session/session.h"
 

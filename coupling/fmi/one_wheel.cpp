@@ -10,11 +10,11 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/gravity.h"
-#include "coupling/base/fix_rig.h"
+#include "furrow/core/error.h"
+#include "furrow/core/gravity.h"
+#include "coupling/base/roles/fix_rig.h"
 #include "coupling/base/fix_wheel_hub.h"
-#include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/styles/fixes_of.h"
 #include "atom.h"
 #include "update.h"
 

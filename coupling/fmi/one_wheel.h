@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bodies/wheel_hub.h"
+#include "furrow/bodies/wheel_hub.h"
 #include "coupling/fmi/variables.h"
 #include "coupling/session/session.h"
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "io/version.h"
+#include "furrow/core/error.h"
+#include "furrow/io/files/version.h"
 
 namespace furrow::coupling::fmi {
 

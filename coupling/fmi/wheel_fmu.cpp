@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/checksum.h"
-#include "core/error.h"
+#include "furrow/core/checksum.h"
+#include "furrow/core/error.h"
 
 namespace furrow::coupling::fmi {
 

@@ -4,9 +4,9 @@
 /// fix_grain_work.md.
 
 #include "coupling/base/furrow_fix.h"
-#include "coupling/base/counts_losses.h"
+#include "coupling/base/roles/loss_ledger.h"
 #include "coupling/base/fix_body.h"
-#include "coupling/liggghts/pair_contacts.h"
+#include "coupling/liggghts/data/pair_contacts.h"
 
 namespace LAMMPS_NS {
 class FixPropertyGlobal;
@@ -14,7 +14,7 @@ class FixPropertyGlobal;
 
 namespace furrow::coupling {
 
-class FixGrainWork : public FurrowFix, public CountsLosses {
+class FixGrainWork : public FurrowFix, public LossLedger {
  public:
   FixGrainWork(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/grains/fix_snow_energy.h"
 
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "coupling/base/checkpoint_totals.h"
-#include "coupling/base/require_unique.h"
+#include "coupling/base/checks/require_unique.h"
 #include "coupling/grains/model_snow_bond.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 
 namespace furrow::coupling {
 

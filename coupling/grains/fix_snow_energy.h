@@ -4,7 +4,7 @@
 /// fix_snow_energy.md.
 
 #include "coupling/base/furrow_fix.h"
-#include "grains/snow_bond.h"
+#include "furrow/grains/snow_bond.h"
 
 namespace furrow::coupling {
 

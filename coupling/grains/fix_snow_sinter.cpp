@@ -2,9 +2,9 @@
 #include "coupling/grains/fix_snow_sinter.h"
 
 #include "atom.h"
-#include "coupling/base/require_unique.h"
+#include "coupling/base/checks/require_unique.h"
 #include "coupling/grains/model_snow_bond.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 
 namespace furrow::coupling {
 

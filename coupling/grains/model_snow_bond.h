@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/options.h"
+#include "furrow/core/options/options.h"
 #include "lammps.h"
 
 namespace furrow::coupling {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "core/communicator.h"
-#include "coupling/liggghts/script.h"
+#include "furrow/core/communicator.h"
+#include "coupling/liggghts/styles/script.h"
 #include "update.h"
 
 namespace furrow::coupling {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Are clusters of snow pressed so far into one another that no snow is left between them? A
-/// warning, never an error; of bodies and clusters: coupling/contact/grain_bed_check.h.
+/// warning, never an error; of bodies and clusters: coupling/contact/grains/grain_bed_check.h.
 
 #include "atom.h"
 #include "lammps.h"
-#include "material/point_block.h"
+#include "furrow/material/point_block.h"
 
 namespace furrow::coupling {
 

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "coupling/base/furrow_fix.h"
-#include "coupling/liggghts/box_motion.h"
+#include "coupling/liggghts/data/box_motion.h"
 
 namespace furrow::coupling {
 

@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "core/communicator.h"
-#include "core/error.h"
-#include "coupling/liggghts/box_motion.h"
-#include "coupling/liggghts/script.h"
-#include "coupling/liggghts/style_registry.h"
+#include "furrow/core/communicator.h"
+#include "furrow/core/error.h"
+#include "coupling/liggghts/data/box_motion.h"
+#include "coupling/liggghts/styles/script.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "update.h"
 
 namespace furrow::coupling {

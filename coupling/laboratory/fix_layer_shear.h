@@ -6,7 +6,7 @@
 #include <array>
 
 #include "coupling/base/furrow_fix.h"
-#include "rig/ramp.h"
+#include "furrow/rig/ramp.h"
 
 namespace furrow::coupling {
 

@@ -18,12 +18,12 @@
 #include <unistd.h>
 
 #include "comm.h"
-#include "core/communicator.h"
-#include "core/error.h"
-#include "coupling/liggghts/access.h"
-#include "coupling/liggghts/first_rank.h"
-#include "io/file_lock.h"
-#include "io/sealed_file.h"
+#include "furrow/core/communicator.h"
+#include "furrow/core/error.h"
+#include "coupling/liggghts/data/access.h"
+#include "coupling/liggghts/errors/first_rank.h"
+#include "furrow/io/files/file_lock.h"
+#include "furrow/io/files/sealed_file.h"
 
 namespace furrow::coupling {
 

@@ -12,7 +12,7 @@
 #include <memory>
 #include <string>
 
-#include "io/rank_files.h"
+#include "furrow/io/files/rank_files.h"
 #include "lammps.h"
 
 namespace furrow::coupling {

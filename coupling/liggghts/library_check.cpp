@@ -6,8 +6,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "coupling/liggghts/access.h"
+#include "furrow/core/error.h"
+#include "coupling/liggghts/data/access.h"
 #include "domain.h"
 #include "input.h"
 #include "modify.h"

@@ -9,18 +9,18 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
-#include "coupling/liggghts/checked_stream.h"
+#include "coupling/liggghts/errors/checked_stream.h"
 #include "coupling/liggghts/checkpoint_file.h"
 #include "coupling/liggghts/driver.h"
-#include "coupling/liggghts/error_policy.h"
-#include "coupling/liggghts/errors.h"
+#include "coupling/liggghts/errors/error_policy.h"
+#include "coupling/liggghts/errors/errors.h"
 #include "coupling/liggghts/library_check.h"
-#include "coupling/liggghts/script.h"
-#include "coupling/liggghts/signals.h"
-#include "coupling/liggghts/stream_check.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/script.h"
+#include "coupling/liggghts/errors/signals.h"
+#include "coupling/liggghts/errors/stream_check.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "dump.h"
 #include "error.h"
 #include "fix.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "pointers.h"
 
 namespace furrow::coupling {

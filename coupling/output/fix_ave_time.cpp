@@ -13,11 +13,11 @@
 
 #include "comm.h"
 #include "coupling/base/restart_record.h"
-#include "coupling/liggghts/access.h"
-#include "coupling/liggghts/averages.h"
+#include "coupling/liggghts/data/access.h"
+#include "coupling/liggghts/data/averages.h"
 #include "coupling/liggghts/checkpoint_file.h"
-#include "coupling/liggghts/errors.h"
-#include "coupling/liggghts/script.h"
+#include "coupling/liggghts/errors/errors.h"
+#include "coupling/liggghts/styles/script.h"
 #include "modify.h"
 #include "update.h"
 

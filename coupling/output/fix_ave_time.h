@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "fix_ave_time.h"
 
 namespace furrow::coupling {

@@ -13,11 +13,11 @@
 #include "atom.h"
 #include "comm.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/styles/fixes_of.h"
 #include "coupling/base/fix_wheel_hub.h"
-#include "coupling/liggghts/style_registry.h"
-#include "coupling/base/fix_terrain.h"
-#include "tyre/tyre.h"
+#include "coupling/liggghts/styles/style_registry.h"
+#include "coupling/base/roles/fix_terrain.h"
+#include "furrow/tyre/tyre.h"
 #include "update.h"
 
 namespace furrow::coupling {

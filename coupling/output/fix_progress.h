@@ -5,7 +5,7 @@
 #include <chrono>
 #include <string>
 
-#include "core/time_left.h"
+#include "furrow/core/time_left.h"
 #include "coupling/base/furrow_fix.h"
 
 namespace furrow::coupling {

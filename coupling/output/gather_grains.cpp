@@ -2,7 +2,7 @@
 #include "coupling/output/gather_grains.h"
 
 #include "atom.h"
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 #include "domain.h"
 
 namespace furrow::coupling {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "io/grains.h"
+#include "furrow/io/formats/grains.h"
 #include "lammps.h"
 
 namespace furrow::coupling {

@@ -3,7 +3,7 @@
 
 #include "atom.h"
 #include "compute.h"
-#include "coupling/liggghts/script.h"
+#include "coupling/liggghts/styles/script.h"
 #include "modify.h"
 #include "update.h"
 

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 #include "lammps.h"
 
 namespace furrow::coupling {

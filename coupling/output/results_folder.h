@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/options.h"
+#include "furrow/core/error.h"
+#include "furrow/core/options/options.h"
 
 namespace furrow::coupling {
 

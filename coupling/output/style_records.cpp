@@ -5,10 +5,10 @@
 #include <sstream>
 
 #include "coupling/base/bed_line.h"
-#include "coupling/liggghts/fixes_of.h"
-#include "coupling/liggghts/has_options.h"
-#include "coupling/liggghts/script.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/fixes_of.h"
+#include "coupling/liggghts/styles/configured_style.h"
+#include "coupling/liggghts/styles/script.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "group.h"
 
 namespace furrow::coupling {
@@ -21,11 +21,11 @@ std::vector<StyleRecord> style_records(LAMMPS_NS::LAMMPS& lammps) {
     for (const auto& [name, value] : bed) record.options.push_back({name, {typed_value(value)}});
     records.push_back(std::move(record));
   }
-  for (const auto* described : fixes_of<const HasOptions>(*lammps.modify)) {
-    const LAMMPS_NS::Fix& fix = as_fix(*described);
+  for (const auto* configured : fixes_of<const ConfiguredStyle>(*lammps.modify)) {
+    const LAMMPS_NS::Fix& fix = as_fix(*configured);
     if (const Style* style = find_style(style_of(fix)))
       records.push_back({fix.id, lammps.group->names[fix.igroup], style->name, style->kind,
-                         typed_values(described->options())});
+                         typed_values(configured->options())});
   }
   return records;
 }
@@ -37,10 +37,10 @@ std::string effective_input(LAMMPS_NS::LAMMPS& lammps) {
   for (const auto& [name, value] : bed)
     text << (name == "script" ? "bed" : ' ' + name) << ' ' << value;
   if (!bed.empty()) text << '\n';
-  for (const auto* described : fixes_of<const HasOptions>(*lammps.modify)) {
-    const LAMMPS_NS::Fix& fix = as_fix(*described);
+  for (const auto* configured : fixes_of<const ConfiguredStyle>(*lammps.modify)) {
+    const LAMMPS_NS::Fix& fix = as_fix(*configured);
     text << "fix " << fix.id << ' ' << lammps.group->names[fix.igroup] << ' ' << style_of(fix);
-    for (const Entry& entry : described->options().effective()) {
+    for (const Entry& entry : configured->options().effective()) {
       text << ' ' << entry.key;
       for (const std::string& value : entry.values) text << ' ' << value;
     }

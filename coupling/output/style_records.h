@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/style_record.h"
+#include "furrow/io/results/style_record.h"
 #include "lammps.h"
 
 namespace furrow::coupling {

@@ -12,17 +12,17 @@
 #include <unistd.h>
 
 #include "coupling/base/furrow_fix.h"
-#include "coupling/liggghts/error_policy.h"
-#include "coupling/liggghts/first_rank.h"
-#include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/errors/error_policy.h"
+#include "coupling/liggghts/errors/first_rank.h"
+#include "coupling/liggghts/styles/fixes_of.h"
 #include "coupling/liggghts/library_check.h"
-#include "coupling/liggghts/script.h"
-#include "coupling/liggghts/style_registry.h"
-#include "coupling/output/fix_wheel_history.h"
+#include "coupling/liggghts/styles/script.h"
+#include "coupling/liggghts/styles/style_registry.h"
+#include "coupling/output/histories/fix_wheel_history.h"
 #include "coupling/python/parts.h"
 #include "coupling/session/host_process.h"
 #include "coupling/session/session.h"
-#include "io/version.h"
+#include "furrow/io/files/version.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "atom.h"
-#include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/styles/fixes_of.h"
 #include "coupling/python/arrays.h"
 
 namespace furrow::coupling {

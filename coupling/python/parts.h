@@ -12,9 +12,9 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-#include "bodies/wheel_hub.h"
-#include "core/error.h"
-#include "coupling/base/fix_terrain.h"
+#include "furrow/bodies/wheel_hub.h"
+#include "furrow/core/error.h"
+#include "coupling/base/roles/fix_terrain.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/session/session.h"

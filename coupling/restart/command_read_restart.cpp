@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/checkpoint_file.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "coupling/restart/fix_expected_states.h"
 #include "domain.h"
 #include "read_restart.h"

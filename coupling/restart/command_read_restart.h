@@ -2,7 +2,7 @@
 #pragma once
 /// read_restart: LIGGGHTS's own, for checkpoints that are whole. See command_read_restart.md.
 
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "pointers.h"
 
 namespace furrow::coupling {

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/liggghts/access.h"
-#include "coupling/liggghts/errors.h"
-#include "coupling/liggghts/script.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/data/access.h"
+#include "coupling/liggghts/errors/errors.h"
+#include "coupling/liggghts/styles/script.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "modify.h"
 
 namespace furrow::coupling {

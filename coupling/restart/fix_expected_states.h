@@ -3,7 +3,7 @@
 /// fix furrow/expected_states: made by read_restart for a checkpoint with states of Furrow's fixes.
 /// LIGGGHTS forgets, without a word, what no line has claimed when the first run begins.
 
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "fix.h"
 
 namespace furrow::coupling {

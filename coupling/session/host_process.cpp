@@ -6,7 +6,7 @@
 #include <mpi.h>
 #include <unistd.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "coupling/liggghts/initialize_mpi.h"
 
 namespace furrow::coupling {

@@ -7,17 +7,17 @@
 #include <fmt/format.h>
 
 #include "comm.h"
-#include "core/error.h"
-#include "coupling/liggghts/find_fix.h"
+#include "furrow/core/error.h"
+#include "coupling/liggghts/styles/find_fix.h"
 #include "coupling/base/read_options.h"
-#include "coupling/base/require_unique.h"
+#include "coupling/base/checks/require_unique.h"
 #include "coupling/base/fix_wheel_hub.h"
-#include "coupling/base/high_friction.h"
-#include "coupling/liggghts/script.h"
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/base/checks/high_friction.h"
+#include "coupling/liggghts/styles/script.h"
+#include "coupling/liggghts/styles/style_registry.h"
 #include "domain.h"
-#include "io/terrain_input.h"
-#include "mpm/terrain_size.h"
+#include "furrow/io/inputs/terrain_input.h"
+#include "furrow/mpm/ground/terrain_size.h"
 #include "update.h"
 
 namespace furrow::coupling {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "coupling/base/fix_terrain.h"
-#include "coupling/base/motion_controller.h"
-#include "mpm/ground_under_wheel.h"
-#include "mpm/terrain_outputs.h"
+#include "coupling/base/roles/fix_terrain.h"
+#include "coupling/base/roles/motion_controller.h"
+#include "furrow/mpm/ground/ground_under_wheel.h"
+#include "furrow/mpm/terrain_outputs.h"
 
 namespace furrow::coupling {
 

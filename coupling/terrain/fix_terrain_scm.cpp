@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include "comm.h"
-#include "core/error.h"
-#include "core/gravity.h"
-#include "coupling/liggghts/script.h"
-#include "coupling/base/require_unique.h"
-#include "coupling/liggghts/style_registry.h"
-#include "io/patch_input.h"
+#include "furrow/core/error.h"
+#include "furrow/core/gravity.h"
+#include "coupling/liggghts/styles/script.h"
+#include "coupling/base/checks/require_unique.h"
+#include "coupling/liggghts/styles/style_registry.h"
+#include "furrow/io/inputs/patch_input.h"
 #include "modify.h"
 
 namespace furrow::coupling {

@@ -2,7 +2,7 @@
 #pragma once
 /// fix terrain/scm: ground as a height field by the soil contact model. See fix_terrain_scm.md.
 
-#include "coupling/base/fix_scm.h"
+#include "coupling/base/roles/fix_scm.h"
 
 namespace furrow::coupling {
 

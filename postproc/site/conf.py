@@ -69,7 +69,7 @@ CONTENTS = (
                 "postproc/README")),
     ("Look up", ("inputs/guide/which_*", "inputs/guide/glossary", "inputs/guide/*_files", "inputs/scenes/README",
                  "inputs/README", "inputs/environment", "src/programs/*")),
-    ("Styles of the script", ("coupling/README", "coupling/[!l]*/*")),
+    ("Styles of the script", ("coupling/README", "coupling/[!l]*/*", "coupling/[!l]*/*/*")),
     ("Theory", ("src/theory/README", "src/theory/*")),
     ("Accuracy", ("inputs/validation/README", "inputs/validation/report_findings",
                   "inputs/validation/*/README",

@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "bodies/contact_record.h"
-#include "core/checkpoint.h"
-#include "geometry/surface.h"
-#include "core/types.h"
+#include "furrow/bodies/contact_record.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/geometry/surface.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -2,7 +2,7 @@
 #pragma once
 /// Interface for objects that receive each force of a contact in addition to the nodal forces.
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bodies/body.h"
-#include "bodies/contact.h"
+#include "furrow/bodies/body.h"
+#include "furrow/bodies/contact.h"
 
 namespace furrow {
 

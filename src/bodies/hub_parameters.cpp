@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "bodies/hub_parameters.h"
+#include "furrow/bodies/hub_parameters.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/check_number.h"
-#include "core/error.h"
+#include "furrow/core/options/check_number.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

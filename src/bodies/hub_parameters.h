@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "core/options.h"
-#include "core/types.h"
+#include "furrow/core/options/options.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "bodies/mesh_bodies.h"
+#include "furrow/bodies/mesh_bodies.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "bodies/rigid_plate.h"
-#include "bodies/rigid_wheel.h"
-#include "core/options.h"
-#include "geometry/solid_mesh.h"
+#include "furrow/bodies/rigid_plate.h"
+#include "furrow/bodies/rigid_wheel.h"
+#include "furrow/core/options/options.h"
+#include "furrow/geometry/meshes/solid_mesh.h"
 
 namespace furrow {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "bodies/rigid_plane.h"
+#include "furrow/bodies/rigid_plane.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/check_number.h"
+#include "furrow/core/options/check_number.h"
 
 namespace furrow {
 

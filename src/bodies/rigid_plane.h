@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "geometry/surface.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/geometry/surface.h"
 
 namespace furrow {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "bodies/rigid_plate.h"
+#include "furrow/bodies/rigid_plate.h"
 
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "bodies/body.h"
-#include "core/options.h"
-#include "geometry/plate_mesh.h"
+#include "furrow/bodies/body.h"
+#include "furrow/core/options/options.h"
+#include "furrow/geometry/meshes/plate_mesh.h"
 
 namespace furrow {
 

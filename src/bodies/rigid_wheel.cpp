@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "bodies/rigid_wheel.h"
+#include "furrow/bodies/rigid_wheel.h"
 
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "geometry/closed_surface.h"
-#include "geometry/wheel_mesh.h"
+#include "furrow/core/error.h"
+#include "furrow/geometry/closed_surface.h"
+#include "furrow/geometry/meshes/wheel_mesh.h"
 
 namespace furrow {
 

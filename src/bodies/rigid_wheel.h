@@ -2,9 +2,9 @@
 #pragma once
 /// A rigid wheel on an axle: six degrees of freedom, each free, held or prescribed.
 
-#include "bodies/wheel_hub.h"
-#include "core/options.h"
-#include "geometry/wheel_geometry.h"
+#include "furrow/bodies/wheel_hub.h"
+#include "furrow/core/options/options.h"
+#include "furrow/geometry/meshes/wheel_geometry.h"
 
 namespace furrow {
 

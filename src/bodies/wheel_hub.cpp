@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "bodies/wheel_hub.h"
+#include "furrow/bodies/wheel_hub.h"
 
 #include <cmath>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

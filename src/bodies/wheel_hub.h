@@ -6,8 +6,8 @@
 #include <array>
 #include <string>
 
-#include "bodies/body.h"
-#include "bodies/hub_parameters.h"
+#include "furrow/bodies/body.h"
+#include "furrow/bodies/hub_parameters.h"
 
 namespace furrow {
 

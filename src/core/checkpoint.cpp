@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/checkpoint.h"
+#include "furrow/core/checkpoint.h"
 
 #include <cstring>
 
 #include <fmt/format.h>
 
-#include "core/checksum.h"
-#include "core/error.h"
+#include "furrow/core/checksum.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

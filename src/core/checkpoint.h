@@ -17,7 +17,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/communicator.h"
+#include "furrow/core/communicator.h"
 
 #include <algorithm>
 #include <numeric>

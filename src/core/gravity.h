@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "core/options.h"
+#include "furrow/core/options/options.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/machine.h"
+#include "furrow/core/machine.h"
 
 #include <algorithm>
 #include <fstream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

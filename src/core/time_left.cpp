@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/time_left.h"
+#include "furrow/core/time_left.h"
 
 namespace furrow {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

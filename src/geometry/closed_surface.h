@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "geometry/surface.h"
+#include "furrow/geometry/surface.h"
 
 namespace furrow {
 

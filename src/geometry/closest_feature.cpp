@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/closest_feature.h"
+#include "furrow/geometry/closest_feature.h"
 
 namespace furrow {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

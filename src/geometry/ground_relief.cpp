@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/ground_relief.h"
+#include "furrow/geometry/ground_relief.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "core/check_number.h"
-#include "core/checksum.h"
-#include "core/error.h"
-#include "geometry/bilinear.h"
+#include "furrow/core/options/check_number.h"
+#include "furrow/core/checksum.h"
+#include "furrow/core/error.h"
+#include "furrow/geometry/bilinear.h"
 
 namespace furrow {
 

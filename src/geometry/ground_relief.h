@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "core/options.h"
-#include "core/types.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/options/options.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/surface.h"
+#include "furrow/geometry/surface.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "geometry/closed_surface.h"
-#include "core/error.h"
+#include "furrow/geometry/closed_surface.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/thin_parts.h"
+#include "furrow/geometry/thin_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "geometry/closest_feature.h"
-#include "geometry/triangle_search.h"
+#include "furrow/geometry/closest_feature.h"
+#include "furrow/geometry/triangle_search.h"
 
 namespace furrow {
 

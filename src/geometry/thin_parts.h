@@ -12,7 +12,7 @@
 #include <array>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "furrow/geometry/surface.h"
 
 namespace furrow {
 

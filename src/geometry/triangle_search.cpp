@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/triangle_search.h"
+#include "furrow/geometry/triangle_search.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "geometry/surface.h"
+#include "furrow/geometry/surface.h"
 
 namespace furrow {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/winding_number.h"
+#include "furrow/geometry/winding_number.h"
 
 #include <cmath>
 

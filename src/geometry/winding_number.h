@@ -2,7 +2,7 @@
 #pragma once
 /// Winding number of a surface about a point.
 
-#include "geometry/surface.h"
+#include "furrow/geometry/surface.h"
 
 namespace furrow {
 

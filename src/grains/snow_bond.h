@@ -41,9 +41,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "grains/snow_bond_law.h"
-#include "grains/snow_bond_step.h"
-#include "grains/snow_bond_trial.h"
+#include "furrow/grains/snow_bond_law.h"
+#include "furrow/grains/snow_bond_step.h"
+#include "furrow/grains/snow_bond_trial.h"
 
 namespace furrow {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "grains/snow_bond_state.h"
+#include "furrow/grains/snow_bond_state.h"
 
 namespace furrow {
 

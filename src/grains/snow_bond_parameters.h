@@ -2,7 +2,7 @@
 #pragma once
 /// The parameters of the contact law of sintered snow clusters (snow_bond.h), and their keys.
 
-#include "core/options.h"
+#include "furrow/core/options/options.h"
 
 namespace furrow {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/types.h"
-#include "grains/snow_bond_parameters.h"
-#include "grains/two_vectors.h"
+#include "furrow/core/types.h"
+#include "furrow/grains/snow_bond_parameters.h"
+#include "furrow/grains/two_vectors.h"
 
 namespace furrow {
 

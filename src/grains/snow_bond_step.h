@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grains/snow_bond_trial.h"
+#include "furrow/grains/snow_bond_trial.h"
 
 namespace furrow {
 

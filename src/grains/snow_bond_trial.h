@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grains/snow_bond_law.h"
+#include "furrow/grains/snow_bond_law.h"
 
 namespace furrow {
 

@@ -3,7 +3,7 @@
 /// Two vectors that obey the same equations, component by component, so that one instruction of the
 /// processor does both.
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

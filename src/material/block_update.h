@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "material/kinematics.h"
-#include "material/point_block.h"
+#include "furrow/material/kinematics.h"
+#include "furrow/material/point_block.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -17,8 +17,8 @@
 /// compression: psi = pi - 3 theta_tr remains, and sin(psi/3) >= (2/3) sin(psi/2). Because q never
 /// exceeds q_tr cos(theta - theta_tr), no step releases energy.
 
-#include "material/section/section_kernel.h"
-#include "simd/tensors.h"
+#include "furrow/material/section/section_kernel.h"
+#include "furrow/simd/tensors.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -2,9 +2,9 @@
 #pragma once
 /// The end of a step of a law that hardens by compaction.
 
-#include "material/block_update.h"
-#include "material/elasticity/elasticity_kernel.h"
-#include "material/hardening/hardening_kernel.h"
+#include "furrow/material/block_update.h"
+#include "furrow/material/elasticity/elasticity_kernel.h"
+#include "furrow/material/hardening/hardening_kernel.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "material/elasticity/elasticity.h"
-#include "simd/dispatch.h"
+#include "furrow/material/elasticity/elasticity.h"
+#include "furrow/simd/dispatch.h"
 
 namespace furrow {
 

@@ -25,8 +25,8 @@
 ///   ln U = Z (I + Y/3 + Y^2/5 + ...)
 ///   U^-1 = (I - Z)(I + Y/2 + 3 Y^2/8 + ...)
 
-#include "material/large_stretch.h"
-#include "simd/tensors.h"
+#include "furrow/material/large_stretch.h"
+#include "furrow/simd/tensors.h"
 
 namespace furrow {
 

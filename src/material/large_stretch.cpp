@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/large_stretch.h"
+#include "furrow/material/large_stretch.h"
 
 #include <Eigen/Eigenvalues>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

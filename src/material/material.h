@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "core/types.h"
-#include "material/point_block.h"
+#include "furrow/core/error.h"
+#include "furrow/core/types.h"
+#include "furrow/material/point_block.h"
 
 namespace furrow {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/plausibility.h"
+#include "furrow/material/plausibility.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/options.h"
-#include "material/elasticity/elasticity.h"
-#include "material/hardening/hardening.h"
+#include "furrow/core/options/options.h"
+#include "furrow/material/elasticity/elasticity.h"
+#include "furrow/material/hardening/hardening.h"
 
 namespace furrow {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "material/material.h"
-#include "material/material_model.h"
+#include "furrow/material/material.h"
+#include "furrow/material/material_model.h"
 
 namespace furrow {
 

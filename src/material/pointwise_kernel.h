@@ -3,8 +3,8 @@
 /// Kernel of pointwise laws: kinematics, rotation, energies and checks as for every law, with one
 /// call of the law for each point between them.
 
-#include "material/block_update.h"
-#include "material/pointwise_parameters.h"
+#include "furrow/material/block_update.h"
+#include "furrow/material/pointwise_parameters.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/pointwise_material.h"
+#include "furrow/material/pointwise_material.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "material/pointwise_parameters.h"
-#include "simd/dispatch.h"
+#include "furrow/core/error.h"
+#include "furrow/material/pointwise_parameters.h"
+#include "furrow/simd/dispatch.h"
 
 namespace furrow {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "material/material.h"
+#include "furrow/material/material.h"
 
 namespace furrow {
 

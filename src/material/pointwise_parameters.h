@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-#include "material/point_block.h"
-#include "simd/instruction_set.h"
+#include "furrow/material/point_block.h"
+#include "furrow/simd/instruction_set.h"
 
 namespace furrow {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "material/material_model.h"
+#include "furrow/material/material_model.h"
 
 namespace furrow {
 

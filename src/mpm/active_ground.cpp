@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/active_ground.h"
+#include "furrow/mpm/active_ground.h"
 
 #include <algorithm>
 #include <cmath>

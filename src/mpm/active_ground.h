@@ -31,11 +31,11 @@
 #include <array>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "mpm/boundary.h"
-#include "mpm/discretisation.h"
-#include "mpm/terrain_energy.h"
-#include "mpm/transfer.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/mpm/grid/boundary.h"
+#include "furrow/mpm/grid/discretisation.h"
+#include "furrow/mpm/terrain_energy.h"
+#include "furrow/mpm/transfer/transfer.h"
 
 namespace furrow {
 

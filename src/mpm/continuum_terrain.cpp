@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/continuum_terrain.h"
+#include "furrow/mpm/continuum_terrain.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "mpm/terrain_size.h"
+#include "furrow/mpm/ground/terrain_size.h"
 
 namespace furrow {
 

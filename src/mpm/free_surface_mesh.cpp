@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/free_surface_mesh.h"
+#include "furrow/mpm/free_surface_mesh.h"
 
 #include <algorithm>
 

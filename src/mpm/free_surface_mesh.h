@@ -5,11 +5,11 @@
 
 #include <vector>
 
-#include "core/communicator.h"
-#include "geometry/surface.h"
-#include "mpm/particle_group.h"
-#include "mpm/point_loads.h"
-#include "mpm/terrain_fill.h"
+#include "furrow/core/communicator.h"
+#include "furrow/geometry/surface.h"
+#include "furrow/mpm/particles/particle_group.h"
+#include "furrow/mpm/transfer/point_loads.h"
+#include "furrow/mpm/ground/terrain_fill.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/multirate.h"
+#include "furrow/mpm/multirate.h"
 
 #include <algorithm>
 #include <cmath>

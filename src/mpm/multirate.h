@@ -3,8 +3,8 @@
 /// Multiple time stepping: the terrain takes one step while the grains on its surface mesh take N
 /// (theory: step, eqs. 6 and 7).
 
-#include "core/checkpoint.h"
-#include "geometry/surface.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/geometry/surface.h"
 
 namespace furrow {
 

@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "bodies/body.h"
-#include "core/checkpoint.h"
-#include "core/communicator.h"
-#include "mpm/grid.h"
-#include "mpm/particle_group.h"
-#include "mpm/transfer.h"
+#include "furrow/bodies/body.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/communicator.h"
+#include "furrow/mpm/grid/grid.h"
+#include "furrow/mpm/particles/particle_group.h"
+#include "furrow/mpm/transfer/transfer.h"
 
 namespace furrow {
 

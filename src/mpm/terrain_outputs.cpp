@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/terrain_outputs.h"
+#include "furrow/mpm/terrain_outputs.h"
 
 namespace furrow {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "bodies/body.h"
-#include "core/outputs.h"
-#include "mpm/continuum_terrain.h"
+#include "furrow/bodies/body.h"
+#include "furrow/core/options/outputs.h"
+#include "furrow/mpm/continuum_terrain.h"
 
 namespace furrow {
 

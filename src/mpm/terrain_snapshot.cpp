@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/terrain_snapshot.h"
+#include "furrow/mpm/terrain_snapshot.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/types.h"
-#include "mpm/continuum_terrain.h"
+#include "furrow/core/types.h"
+#include "furrow/mpm/continuum_terrain.h"
 
 namespace furrow {
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/terrain_step.h"
+#include "furrow/mpm/terrain_step.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "mpm/cell_average.h"
+#include "furrow/core/error.h"
+#include "furrow/mpm/transfer/cell_average.h"
 
 namespace furrow {
 
 namespace {
 
 // particles between grid and material: gradients and weights stay in the second-level cache
-constexpr std::size_t chunk = 256;
+constexpr std::size_t step_chunk = 256;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ TerrainStep::TerrainStep(Discretisation& discretisation, Boundary& boundary,
       active_(active),
       divided_(divided),
       kernels_(transfer_kernels()) {
-  allocate(chunk);
+  allocate(step_chunk);
 }
 
 /// Buffers of a chunk.
@@ -54,7 +54,7 @@ void TerrainStep::for_chunks(ParticleGroup& group, Visit&& visit) {
   const double* cell = group.particles.data(column::cell);
   group.for_awake([&](std::size_t from, std::size_t to) {
     for (std::size_t first = from, end; first < to; first = end) {
-      end = std::min(first + chunk, to);
+      end = std::min(first + step_chunk, to);
       while (end < to && cell[end] == cell[end - 1]) ++end;
       allocate(end - first);
       visit(first, end - first);

@@ -33,17 +33,17 @@
 #include <array>
 #include <vector>
 
-#include "mpm/active_ground.h"
-#include "mpm/boundary.h"
-#include "mpm/discretisation.h"
-#include "mpm/divided_ground.h"
-#include "mpm/particle_distribution.h"
-#include "mpm/point_loads.h"
-#include "mpm/remap_control.h"
-#include "mpm/slide_contact.h"
-#include "mpm/terrain_energy.h"
-#include "mpm/terrain_parameters.h"
-#include "mpm/transfer.h"
+#include "furrow/mpm/active_ground.h"
+#include "furrow/mpm/grid/boundary.h"
+#include "furrow/mpm/grid/discretisation.h"
+#include "furrow/mpm/discontinuities/divided_ground.h"
+#include "furrow/mpm/particles/particle_distribution.h"
+#include "furrow/mpm/transfer/point_loads.h"
+#include "furrow/mpm/transfer/remap_control.h"
+#include "furrow/mpm/discontinuities/slide_contact.h"
+#include "furrow/mpm/terrain_energy.h"
+#include "furrow/mpm/ground/terrain_parameters.h"
+#include "furrow/mpm/transfer/transfer.h"
 
 namespace furrow {
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

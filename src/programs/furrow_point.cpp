@@ -17,15 +17,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "end_output.h"
 #include "figure.h"
-#include "io/csv_file.h"
-#include "io/law_json.h"
-#include "io/point_file.h"
-#include "io/point_results.h"
-#include "io/version.h"
-#include "material/registry.h"
+#include "furrow/io/formats/csv_file.h"
+#include "furrow/io/results/law_json.h"
+#include "furrow/io/inputs/point_file.h"
+#include "furrow/io/results/point_results.h"
+#include "furrow/io/files/version.h"
+#include "furrow/material/registry.h"
 #include "parse_options.h"
 
 namespace {

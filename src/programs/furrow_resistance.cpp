@@ -10,11 +10,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "end_output.h"
-#include "io/history_file.h"
-#include "io/summary.h"
-#include "io/version.h"
+#include "furrow/io/results/history_file.h"
+#include "furrow/io/results/summary.h"
+#include "furrow/io/files/version.h"
 #include "number_option.h"
 #include "parse_options.h"
 

@@ -10,13 +10,13 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "end_output.h"
 #include "figure.h"
-#include "io/sidewall_cache.h"
-#include "io/sidewall_results.h"
-#include "io/tyre_file.h"
-#include "io/version.h"
+#include "furrow/io/inputs/sidewall_cache.h"
+#include "furrow/io/results/sidewall_results.h"
+#include "furrow/io/inputs/tyre_file.h"
+#include "furrow/io/files/version.h"
 #include "number_option.h"
 #include "parse_options.h"
 

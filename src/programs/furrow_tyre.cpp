@@ -13,21 +13,21 @@
 #include <fmt/format.h>
 #include <fmt/os.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "end_output.h"
 #include "figure.h"
-#include "io/brick_tyre_file.h"
-#include "io/make_folder.h"
-#include "io/mode_results.h"
-#include "io/tyre_file.h"
-#include "io/version.h"
-#include "io/vtk_file.h"
+#include "furrow/io/inputs/brick_tyre_file.h"
+#include "furrow/io/files/make_folder.h"
+#include "furrow/io/results/mode_results.h"
+#include "furrow/io/inputs/tyre_file.h"
+#include "furrow/io/files/version.h"
+#include "furrow/io/formats/vtk_file.h"
 #include "mesh_command.h"
 #include "number_option.h"
 #include "parse_options.h"
-#include "tyre/brick_tyre.h"
-#include "tyre/contact_patch.h"
-#include "tyre/darnell_tyre.h"
+#include "furrow/tyre/brick/brick_tyre.h"
+#include "furrow/tyre/contact_patch.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
 
 namespace {
 

@@ -10,12 +10,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bodies/mesh_bodies.h"
-#include "core/error.h"
+#include "furrow/bodies/mesh_bodies.h"
+#include "furrow/core/error.h"
 #include "end_output.h"
-#include "geometry/solid_mesh.h"
-#include "io/mesh_file.h"
-#include "io/replace_file.h"
+#include "furrow/geometry/meshes/solid_mesh.h"
+#include "furrow/io/formats/mesh_file.h"
+#include "furrow/io/files/replace_file.h"
 #include "mesh_import.h"
 #include "mesh_repair.h"
 #include "number_option.h"

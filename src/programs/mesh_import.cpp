@@ -9,8 +9,8 @@
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
-#include "core/error.h"
-#include "io/mesh_file.h"
+#include "furrow/core/error.h"
+#include "furrow/io/formats/mesh_file.h"
 
 namespace furrow {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "geometry/solid_mesh.h"
+#include "furrow/geometry/meshes/solid_mesh.h"
 
 namespace furrow {
 

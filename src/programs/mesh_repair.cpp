@@ -29,9 +29,9 @@
 #include <CGAL/boost/graph/copy_face_graph.h>
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "geometry/weld.h"
-#include "geometry/winding_number.h"
+#include "furrow/core/error.h"
+#include "furrow/geometry/weld.h"
+#include "furrow/geometry/winding_number.h"
 
 namespace furrow {
 

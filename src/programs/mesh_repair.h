@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "furrow/geometry/surface.h"
 
 namespace furrow {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "number_option.h"
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

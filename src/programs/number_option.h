@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "core/options.h"
+#include "furrow/core/options/options.h"
 
 namespace furrow {
 

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "core/options.h"
-#include "core/outputs.h"
-#include "rig/sprung_body.h"
-#include "rig/wheel_rig.h"
+#include "furrow/core/options/options.h"
+#include "furrow/core/options/outputs.h"
+#include "furrow/rig/sprung_body.h"
+#include "furrow/rig/wheel_rig.h"
 
 namespace furrow {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "bodies/contact_record.h"
-#include "bodies/wheel_hub.h"
+#include "furrow/bodies/contact_record.h"
+#include "furrow/bodies/wheel_hub.h"
 
 namespace furrow {
 

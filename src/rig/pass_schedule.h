@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rig/ramp.h"
+#include "furrow/rig/ramp.h"
 
 namespace furrow {
 

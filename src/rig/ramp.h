@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/smooth_step.h"
+#include "furrow/core/smooth_step.h"
 
 namespace furrow {
 

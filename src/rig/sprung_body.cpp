@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rig/sprung_body.h"
+#include "furrow/rig/sprung_body.h"
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

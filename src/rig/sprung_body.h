@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "core/types.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -2,7 +2,7 @@
 #pragma once
 /// Spring and damper between the axle of a wheel and the mass that it carries: a quarter car.
 
-#include "core/checkpoint.h"
+#include "furrow/core/checkpoint.h"
 
 namespace furrow {
 

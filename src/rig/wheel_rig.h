@@ -6,17 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "bodies/wheel_hub.h"
-#include "core/options.h"
-#include "core/outputs.h"
-#include "statistics/rig_stage.h"
-#include "rig/course.h"
-#include "rig/ground_losses.h"
-#include "rig/pass_schedule.h"
-#include "rig/ramp.h"
-#include "rig/slip.h"
-#include "rig/sprung_body.h"
-#include "rig/suspension.h"
+#include "furrow/bodies/wheel_hub.h"
+#include "furrow/core/options/options.h"
+#include "furrow/core/options/outputs.h"
+#include "furrow/statistics/rig_stage.h"
+#include "furrow/rig/course.h"
+#include "furrow/rig/ground_losses.h"
+#include "furrow/rig/pass_schedule.h"
+#include "furrow/rig/ramp.h"
+#include "furrow/rig/slip.h"
+#include "furrow/rig/sprung_body.h"
+#include "furrow/rig/suspension.h"
 
 namespace furrow {
 

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/gravity.h"
-#include "rig/wheel_rig.h"
+#include "furrow/core/error.h"
+#include "furrow/core/gravity.h"
+#include "furrow/rig/wheel_rig.h"
 
 namespace furrow {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "rig/wheel_rig.h"
+#include "furrow/rig/wheel_rig.h"
 
 namespace furrow {
 

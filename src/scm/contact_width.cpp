@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "scm/contact_width.h"
+#include "furrow/scm/contact_width.h"
 
 #include <algorithm>
 

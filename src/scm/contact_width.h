@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "scm/footprint.h"
+#include "furrow/scm/footprint.h"
 
 #include <algorithm>
 #include <array>

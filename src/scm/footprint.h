@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "geometry/surface.h"
-#include "scm/height_field.h"
+#include "furrow/geometry/surface.h"
+#include "furrow/scm/height_field.h"
 
 namespace furrow {
 

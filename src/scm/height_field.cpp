@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "scm/height_field.h"
+#include "furrow/scm/height_field.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/check_number.h"
-#include "core/error.h"
-#include "geometry/bilinear.h"
+#include "furrow/core/options/check_number.h"
+#include "furrow/core/error.h"
+#include "furrow/geometry/bilinear.h"
 
 namespace furrow {
 

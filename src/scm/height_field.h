@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "core/options.h"
-#include "core/types.h"
-#include "geometry/ground_relief.h"
-#include "geometry/surface.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/options/options.h"
+#include "furrow/core/types.h"
+#include "furrow/geometry/ground_relief.h"
+#include "furrow/geometry/surface.h"
 
 namespace furrow {
 

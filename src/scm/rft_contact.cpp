@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "scm/rft_contact.h"
+#include "furrow/scm/rft_contact.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "scm/rft_law.h"
+#include "furrow/scm/rft_law.h"
 
 namespace furrow {
 

@@ -2,9 +2,9 @@
 #pragma once
 /// Contact of a rigid body with sand by three-dimensional resistive force theory (theory: rft).
 
-#include "bodies/body.h"
-#include "bodies/contact.h"
-#include "scm/height_field.h"
+#include "furrow/bodies/body.h"
+#include "furrow/bodies/contact.h"
+#include "furrow/scm/height_field.h"
 
 namespace furrow {
 

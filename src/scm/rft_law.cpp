@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "scm/rft_law.h"
+#include "furrow/scm/rft_law.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 /// Resistance of sand to a face of a body, by three-dimensional resistive force theory
 /// [Agarwal2023] (theory: rft).
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

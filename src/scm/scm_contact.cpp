@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "scm/scm_contact.h"
+#include "furrow/scm/scm_contact.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "scm/contact_width.h"
+#include "furrow/scm/contact_width.h"
 
 namespace furrow {
 

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "bodies/body.h"
-#include "bodies/contact.h"
-#include "scm/footprint.h"
-#include "scm/height_field.h"
-#include "scm/soil.h"
+#include "furrow/bodies/body.h"
+#include "furrow/bodies/contact.h"
+#include "furrow/scm/footprint.h"
+#include "furrow/scm/height_field.h"
+#include "furrow/scm/soil.h"
 
 namespace furrow {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "scm/soil.h"
+#include "furrow/scm/soil.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/check_number.h"
-#include "core/error.h"
-#include "core/types.h"
-#include "core/usual_range.h"
+#include "furrow/core/options/check_number.h"
+#include "furrow/core/error.h"
+#include "furrow/core/types.h"
+#include "furrow/core/options/usual_range.h"
 
 namespace furrow {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shell/dynamic_relaxation.h"
+#include "furrow/shell/dynamic_relaxation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "core/smooth_step.h"
+#include "furrow/core/smooth_step.h"
 
 namespace furrow {
 

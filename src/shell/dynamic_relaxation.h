@@ -13,7 +13,7 @@
 
 #include <cstddef>
 
-#include "shell/shell_nodes.h"
+#include "furrow/shell/shell_nodes.h"
 
 namespace furrow {
 

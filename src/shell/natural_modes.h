@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "shell/tangent_stiffness.h"
+#include "furrow/shell/tangent_stiffness.h"
 
 namespace furrow {
 

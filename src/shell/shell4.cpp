@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shell/shell4.h"
+#include "furrow/shell/shell4.h"
 
 #include <algorithm>
 #include <array>
@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/symmetric_eigenvalues.h"
-#include "shell/shell4_block.h"
-#include "simd/dispatch.h"
+#include "furrow/core/error.h"
+#include "furrow/core/symmetric_eigenvalues.h"
+#include "furrow/shell/shell4_block.h"
+#include "furrow/simd/dispatch.h"
 
 namespace furrow {
 

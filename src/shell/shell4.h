@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "shell/shell4_stiffness.h"
-#include "shell/shell_nodes.h"
+#include "furrow/shell/shell4_stiffness.h"
+#include "furrow/shell/shell_nodes.h"
 
 namespace furrow {
 

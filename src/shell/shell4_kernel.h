@@ -21,9 +21,9 @@
 ///   pressure     a follower load on the bilinear surface through the nodes
 ///   scatter      to the nodes, one element after the other
 
-#include "shell/shell4_block.h"
-#include "simd/records.h"
-#include "simd/turn.h"
+#include "furrow/shell/shell4_block.h"
+#include "furrow/simd/records.h"
+#include "furrow/simd/turn.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

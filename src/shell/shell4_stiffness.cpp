@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shell/shell4_stiffness.h"
+#include "furrow/shell/shell4_stiffness.h"
 
 #include <array>
 #include <cmath>
 
 #include <Eigen/LU>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

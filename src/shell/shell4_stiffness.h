@@ -2,8 +2,8 @@
 #pragma once
 /// Stiffness of a four-node shell element about its stress-free shape.
 
-#include "shell/shell4_shape.h"
-#include "shell/shell_section.h"
+#include "furrow/shell/shell4_shape.h"
+#include "furrow/shell/shell_section.h"
 
 namespace furrow {
 

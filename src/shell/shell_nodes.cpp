@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shell/shell_nodes.h"
+#include "furrow/shell/shell_nodes.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/half_turn.h"
+#include "furrow/core/half_turn.h"
 
 namespace furrow {
 

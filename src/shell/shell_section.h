@@ -3,7 +3,7 @@
 /// Stiffness of a shell per unit of its width. An element integrates it over its area instead of a
 /// material over the thickness.
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -7,8 +7,8 @@
 
 #include <Eigen/SparseCore>
 
-#include "shell/dynamic_relaxation.h"
-#include "shell/shell4.h"
+#include "furrow/shell/dynamic_relaxation.h"
+#include "furrow/shell/shell4.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simd/dispatch.h"
+#include "furrow/simd/dispatch.h"
 
 #ifdef FURROW_X86_KERNELS
 #include <cpuid.h>
@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "simd/instruction_set.h"
+#include "furrow/simd/instruction_set.h"
 
 namespace furrow {
 

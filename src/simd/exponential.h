@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "simd/lanes.h"
+#include "furrow/simd/lanes.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -2,7 +2,7 @@
 #pragma once
 /// x^(-1/3) of several numbers at once, without a division in the iteration.
 
-#include "simd/lanes.h"
+#include "furrow/simd/lanes.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -17,7 +17,7 @@
 #include <immintrin.h>
 #endif
 
-#include "simd/kernel_units_only.h"
+#include "furrow/simd/kernel_units_only.h"
 
 /// Lanes stay in registers only if a call is inlined, which gcc 12 does too rarely without the
 /// attribute.

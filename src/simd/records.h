@@ -3,7 +3,7 @@
 /// Transposes four numbers of each of several points, stored point by point, into lanes and back.
 /// This needs fewer loads and shuffles than gathering single numbers.
 
-#include "simd/lanes.h"
+#include "furrow/simd/lanes.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

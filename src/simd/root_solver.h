@@ -2,7 +2,7 @@
 #pragma once
 /// Scalar equations of several points at once, each kept inside its bracket.
 
-#include "simd/lanes.h"
+#include "furrow/simd/lanes.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -2,7 +2,7 @@
 #pragma once
 /// Tensors of several points at once.
 
-#include "simd/lanes.h"
+#include "furrow/simd/lanes.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -2,7 +2,7 @@
 #pragma once
 /// Vectors of several elements at once.
 
-#include "simd/lanes.h"
+#include "furrow/simd/lanes.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

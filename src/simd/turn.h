@@ -2,7 +2,7 @@
 #pragma once
 /// Rotations of several elements at once, as unit quaternions.
 
-#include "simd/triple.h"
+#include "furrow/simd/triple.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "solid/brick8.h"
+#include "furrow/solid/brick8.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "core/check_number.h"
-#include "core/error.h"
-#include "core/symmetric_eigenvalues.h"
-#include "simd/dispatch.h"
-#include "solid/brick8_block.h"
+#include "furrow/core/options/check_number.h"
+#include "furrow/core/error.h"
+#include "furrow/core/symmetric_eigenvalues.h"
+#include "furrow/simd/dispatch.h"
+#include "furrow/solid/brick8_block.h"
 
 namespace furrow {
 

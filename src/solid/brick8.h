@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "core/types.h"
-#include "solid/brick8_shape.h"
-#include "material/models/neo_hookean/neo_hookean_parameters.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/types.h"
+#include "furrow/solid/brick8_shape.h"
+#include "furrow/material/models/neo_hookean/neo_hookean_parameters.h"
 
 namespace furrow {
 

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "simd/instruction_set.h"
+#include "furrow/simd/instruction_set.h"
 
 namespace furrow {
 

@@ -11,10 +11,10 @@
 ///
 /// Forces are the exact gradient -dW/dx, so momentum, moment of momentum and energy are kept.
 
-#include "simd/exponential.h"
-#include "simd/inverse_cube_root.h"
-#include "simd/triple.h"
-#include "solid/brick8_block.h"
+#include "furrow/simd/exponential.h"
+#include "furrow/simd/inverse_cube_root.h"
+#include "furrow/simd/triple.h"
+#include "furrow/solid/brick8_block.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

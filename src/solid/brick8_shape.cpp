@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "solid/brick8_shape.h"
+#include "furrow/solid/brick8_shape.h"
 
 #include <cmath>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "statistics/free_travel.h"
+#include "furrow/statistics/free_travel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "statistics/rig_stage.h"
-#include "statistics/steady_state.h"
+#include "furrow/statistics/rig_stage.h"
+#include "furrow/statistics/steady_state.h"
 
 namespace furrow {
 

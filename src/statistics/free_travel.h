@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "statistics/history.h"
+#include "furrow/statistics/history.h"
 
 namespace furrow {
 

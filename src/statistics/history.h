@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/outputs.h"
+#include "furrow/core/options/outputs.h"
 
 namespace furrow {
 

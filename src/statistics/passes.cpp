@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "statistics/passes.h"
+#include "furrow/statistics/passes.h"
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "statistics/rig_stage.h"
+#include "furrow/core/error.h"
+#include "furrow/statistics/rig_stage.h"
 
 namespace furrow {
 

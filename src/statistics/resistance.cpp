@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "statistics/resistance.h"
+#include "furrow/statistics/resistance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "statistics/free_travel.h"
-#include "statistics/rig_stage.h"
+#include "furrow/core/error.h"
+#include "furrow/statistics/free_travel.h"
+#include "furrow/statistics/rig_stage.h"
 
 namespace furrow {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "statistics/resistance_parts.h"
-#include "statistics/steady_state.h"
+#include "furrow/statistics/resistance_parts.h"
+#include "furrow/statistics/steady_state.h"
 
 namespace furrow {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "statistics/resistance_parts.h"
+#include "furrow/statistics/resistance_parts.h"
 
 #include <cmath>
 #include <functional>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "statistics/steady_state.h"
+#include "furrow/statistics/steady_state.h"
 
 namespace furrow {
 

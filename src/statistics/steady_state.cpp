@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "statistics/steady_state.h"
+#include "furrow/statistics/steady_state.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "statistics/rig_stage.h"
+#include "furrow/core/error.h"
+#include "furrow/statistics/rig_stage.h"
 
 namespace furrow {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "statistics/history.h"
+#include "furrow/statistics/history.h"
 
 namespace furrow {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "statistics/resistance.h"
+#include "furrow/statistics/resistance.h"
 
 namespace furrow {
 

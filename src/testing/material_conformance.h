@@ -19,10 +19,10 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "material/registry.h"
-#include "testing/material_text.h"
-#include "testing/stretch.h"
+#include "furrow/core/error.h"
+#include "furrow/material/registry.h"
+#include "furrow/testing/material_text.h"
+#include "furrow/testing/stretch.h"
 
 namespace furrow {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "material/registry.h"
+#include "furrow/material/registry.h"
 
 namespace furrow {
 

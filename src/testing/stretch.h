@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "material/material.h"
+#include "furrow/material/material.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/contact_patch.h"
+#include "furrow/tyre/contact_patch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #pragma once
 /// The footprint of a tyre on a rigid plane.
 
-#include "bodies/rigid_plane.h"
-#include "tyre/tyre.h"
+#include "furrow/bodies/rigid_plane.h"
+#include "furrow/tyre/tyre.h"
 
 namespace furrow {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/mode_kind.h"
+#include "furrow/tyre/mode_kind.h"
 
 #include <cmath>
 

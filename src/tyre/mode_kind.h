@@ -2,7 +2,7 @@
 #pragma once
 /// Classification of a mode of a tyre: number of waves around the tread and direction of motion.
 
-#include "tyre/tyre.h"
+#include "furrow/tyre/tyre.h"
 
 namespace furrow {
 

@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "shell/shell_nodes.h"
-#include "tyre/node_step.h"
-#include "tyre/tyre.h"
+#include "furrow/shell/shell_nodes.h"
+#include "furrow/tyre/node_step.h"
+#include "furrow/tyre/tyre.h"
 
 namespace furrow {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tyre/nodal_tyre.h"
+#include "furrow/tyre/nodal_tyre.h"
 
 namespace furrow {
 

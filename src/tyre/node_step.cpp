@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/node_step.h"
+#include "furrow/tyre/node_step.h"
 
-#include "simd/dispatch.h"
-#include "tyre/node_step_block.h"
+#include "furrow/simd/dispatch.h"
+#include "furrow/tyre/node_step_block.h"
 
 namespace furrow {
 

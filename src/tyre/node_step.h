@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "bodies/wheel_hub.h"
-#include "shell/shell_nodes.h"
+#include "furrow/bodies/wheel_hub.h"
+#include "furrow/shell/shell_nodes.h"
 
 namespace furrow {
 

@@ -3,10 +3,10 @@
 /// A step of a tyre's nodes, several at once: damping, kick and drift in one pass. Included by
 /// kernel units only (simd/lanes.h explains why).
 
-#include "core/half_turn.h"
-#include "simd/records.h"
-#include "simd/turn.h"
-#include "tyre/node_step_block.h"
+#include "furrow/core/half_turn.h"
+#include "furrow/simd/records.h"
+#include "furrow/simd/turn.h"
+#include "furrow/tyre/node_step_block.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -3,18 +3,18 @@
 /// Interface of tyres for fixes, rigs and programs, independent of their construction.
 ///
 /// Another kind of tyre needs three parts: a class that derives from Tyre or NodalTyre
-/// (nodal_tyre.h), a reader of its files (as io/tyre_file.h), and a fix style that derives from
-/// coupling/bodies/fix_tyre.h. The parts in this folder that do not depend on the kind: sidewalls
-/// (sidewall_ring.h), surface and contact hand-over (tyre_surface.h), damping (node_step.h),
-/// footprint (contact_patch.h), and shell/dynamic_relaxation.h.
+/// (nodal_tyre.h), a reader of its files (as io/inputs/tyre_file.h), and a fix style that derives
+/// from coupling/wheels/fix_tyre.h. The parts in this folder that do not depend on the kind:
+/// sidewalls (sidewall_ring.h), surface and contact hand-over (tyre_surface.h), damping
+/// (node_step.h), footprint (contact_patch.h), and shell/dynamic_relaxation.h.
 
 #include <optional>
 
-#include "bodies/rigid_plane.h"
-#include "bodies/wheel_hub.h"
-#include "shell/dynamic_relaxation.h"
-#include "shell/natural_modes.h"
-#include "tyre/tread_grid.h"
+#include "furrow/bodies/rigid_plane.h"
+#include "furrow/bodies/wheel_hub.h"
+#include "furrow/shell/dynamic_relaxation.h"
+#include "furrow/shell/natural_modes.h"
+#include "furrow/tyre/tread_grid.h"
 
 namespace furrow {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/tyre_parameters.h"
+#include "furrow/tyre/tyre_parameters.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/check_number.h"
-#include "core/error.h"
-#include "tyre/arc.h"
+#include "furrow/core/options/check_number.h"
+#include "furrow/core/error.h"
+#include "furrow/tyre/sidewall/arc.h"
 
 namespace furrow {
 

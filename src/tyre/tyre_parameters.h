@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Parameters of a tyre: rim, tread band, sidewalls. Tyre files (io/tyre_file.h) are read into
-/// these.
+/// Parameters of a tyre: rim, tread band, sidewalls. Tyre files (io/inputs/tyre_file.h) are read
+/// into these.
 ///
 /// Section of the tyre: A is the axial coordinate, outwards from the mid-plane, and R the radius
 /// about the axle. Both sidewalls are alike. A sidewall runs from its bead (A = bead_spacing/2, R =
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

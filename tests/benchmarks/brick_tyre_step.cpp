@@ -11,9 +11,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "bodies/rigid_plane.h"
-#include "io/brick_tyre_file.h"
-#include "tyre/brick_tyre.h"
+#include "furrow/bodies/rigid_plane.h"
+#include "furrow/io/inputs/brick_tyre_file.h"
+#include "furrow/tyre/brick/brick_tyre.h"
 
 namespace furrow {
 namespace {

@@ -112,7 +112,7 @@ class Track:
         }
 
     def layout(self, ranks: int) -> tuple[Axis, Axis]:
-        """As choose_layout() of src/mpm/block_layout.cpp."""
+        """As choose_layout() of src/mpm/grid/block_layout.cpp."""
         layouts = [
             (Axis(self.x_cells, x), Axis(self.y_cells, ranks // x)) for x in range(ranks, 0, -1) if ranks % x == 0
         ]

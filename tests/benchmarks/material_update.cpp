@@ -10,9 +10,9 @@
 #include <benchmark/benchmark.h>
 
 #include "../unit/material/plain_elastic.h"
-#include "material/registry.h"
-#include "simd/dispatch.h"
-#include "testing/material_text.h"
+#include "furrow/material/registry.h"
+#include "furrow/simd/dispatch.h"
+#include "furrow/testing/material_text.h"
 
 namespace furrow {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "bodies/coupled_system.h"
-#include "bodies/rigid_wheel.h"
-#include "scm/rft_contact.h"
-#include "scm/scm_contact.h"
+#include "furrow/bodies/coupled_system.h"
+#include "furrow/bodies/rigid_wheel.h"
+#include "furrow/scm/rft_contact.h"
+#include "furrow/scm/scm_contact.h"
 
 namespace furrow {
 namespace {

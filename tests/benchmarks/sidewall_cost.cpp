@@ -11,9 +11,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "io/tyre_file.h"
-#include "tyre/sidewall_direct.h"
-#include "tyre/sidewall_table.h"
+#include "furrow/io/inputs/tyre_file.h"
+#include "furrow/tyre/sidewall/sidewall_direct.h"
+#include "furrow/tyre/sidewall/sidewall_table.h"
 
 namespace furrow {
 namespace {

@@ -9,9 +9,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "material/registry.h"
-#include "mpm/grid.h"
-#include "mpm/particles.h"
+#include "furrow/material/registry.h"
+#include "furrow/mpm/grid/grid.h"
+#include "furrow/mpm/particles/particles.h"
 
 namespace furrow {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "bodies/rigid_plane.h"
-#include "io/tyre_file.h"
-#include "tyre/darnell_tyre.h"
+#include "furrow/bodies/rigid_plane.h"
+#include "furrow/io/inputs/tyre_file.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
 
 namespace furrow {
 namespace {

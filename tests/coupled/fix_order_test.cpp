@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "coupling/base/fix_order.h"
+#include "furrow/core/error.h"
+#include "coupling/base/roles/fix_order.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 #include "tests/support/error_of.h"

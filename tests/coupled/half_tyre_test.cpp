@@ -9,7 +9,7 @@
 
 #include "coupling/contact/fix_contact_continuum.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
-#include "coupling/bodies/fix_tyre_darnell.h"
+#include "coupling/wheels/fix_tyre_darnell.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "atom.h"
-#include "coupling/bodies/fix_wheel_rigid.h"
+#include "coupling/wheels/fix_wheel_rigid.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 

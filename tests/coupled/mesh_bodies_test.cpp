@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "geometry/wheel_mesh.h"
+#include "furrow/geometry/meshes/wheel_mesh.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 #include "tests/support/meshes.h"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Rows in the memory of rank 0, saved by another thread while the main thread waits in MPI.
 
-#include "coupling/liggghts/rescue.h"
+#include "coupling/liggghts/errors/rescue.h"
 
 #include <filesystem>
 #include <thread>
 
 #include <gtest/gtest.h>
 
-#include "io/history_file.h"
+#include "furrow/io/results/history_file.h"
 #include "tests/coupled/support/scene.h"
 
 namespace furrow::test::rescue_test {

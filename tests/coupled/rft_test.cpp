@@ -10,7 +10,7 @@
 #include "coupling/drive/fix_wheel_rig.h"
 #include "fix.h"
 #include "modify.h"
-#include "statistics/history.h"
+#include "furrow/statistics/history.h"
 #include "tests/coupled/support/scene.h"
 
 namespace furrow::test::rft_test {

@@ -11,7 +11,7 @@
 #include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "modify.h"
-#include "statistics/history.h"
+#include "furrow/statistics/history.h"
 #include "tests/coupled/support/scene.h"
 
 namespace furrow::test::slope_test {

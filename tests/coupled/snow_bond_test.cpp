@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The contact model snow/bond in LIGGGHTS against the law driven alone, and its conservation laws.
 
-#include "grains/snow_bond.h"
+#include "furrow/grains/snow_bond.h"
 
 #include <array>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "atom.h"
-#include "coupling/bodies/fix_wheel_rigid.h"
+#include "coupling/wheels/fix_wheel_rigid.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 #include "tests/coupled/support/snow.h"

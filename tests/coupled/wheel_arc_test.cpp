@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "coupling/bodies/fix_wheel_rigid.h"
-#include "io/csv_file.h"
+#include "coupling/wheels/fix_wheel_rigid.h"
+#include "furrow/io/formats/csv_file.h"
 #include "modify.h"
 #include "tests/coupled/support/sand.h"
 #include "tests/coupled/support/scene.h"

@@ -41,8 +41,8 @@ def asked_for(include, components):
     for pattern, target in PACKAGES.items():
         if re.match(pattern, include):
             return target
-    if "/" in include and component_of(include) in components:
-        return "furrow_" + component_of(include)
+    if include.startswith("furrow/") and component_of(include[len("furrow/"):]) in components:
+        return "furrow_" + component_of(include[len("furrow/"):])
     return None
 
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/checkpoint.h"
+#include "furrow/core/checkpoint.h"
 #include "fuzz.h"
 
 namespace {

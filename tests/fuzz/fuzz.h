@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow::fuzz {
 

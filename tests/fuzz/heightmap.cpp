@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fuzz.h"
-#include "io/heightmap_file.h"
+#include "furrow/io/formats/heightmap_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const furrow::fuzz::InputFolder folder;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fuzz.h"
-#include "io/hdf5_file.h"
-#include "io/history_file.h"
+#include "furrow/io/formats/hdf5_file.h"
+#include "furrow/io/results/history_file.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fuzz.h"
-#include "io/soil_card_file.h"
+#include "furrow/io/inputs/soil_card_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const furrow::fuzz::InputFolder folder;

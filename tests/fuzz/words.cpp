@@ -4,10 +4,10 @@
 #include <sstream>
 #include <vector>
 
-#include "core/options.h"
+#include "furrow/core/options/options.h"
 #include "fuzz.h"
-#include "io/terrain_input.h"
-#include "material/registry.h"
+#include "furrow/io/inputs/terrain_input.h"
+#include "furrow/material/registry.h"
 
 namespace {
 

@@ -224,7 +224,7 @@ def declared(listing: str) -> list[tuple[str, str]]:
 
 def check_keys(session: Session) -> None:
     """The tables of keys have the keys and units of the programs, and no others."""
-    brick = (session.source / "src/io/brick_tyre_file.cpp").read_text(encoding="utf-8")
+    brick = (session.source / "src/io/inputs/brick_tyre_file.cpp").read_text(encoding="utf-8")
     of_brick = re.findall(r"(?:number|numbers|flag|integer)\(\s*\"(\w+)\",(?: 0,)?(?: \"([^\"]*)\",)?", brick)
     for page, found in (
         ("soil_files", declared(session.run("furrow-point laws"))),

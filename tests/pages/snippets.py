@@ -36,7 +36,7 @@ def main(source: Path, build: Path, scratch: Path) -> None:
     scenes.mkdir(parents=True)
     for name in ("beds", "materials", "meshes", "tyres"):
         (scratch / "inputs" / name).symlink_to(source / "inputs" / name)
-    pages = sorted(p for p in (source / "coupling").glob("*/*.md") if p.name != "README.md")
+    pages = sorted(p for p in (source / "coupling").rglob("*.md") if p.name != "README.md")
     assert len(pages) >= 20, f"only {len(pages)} pages were found"
     for page in pages:
         style = re.sub(r"^(fix|command|model)_", "", page.stem).replace("_", "[/_]")

@@ -2,7 +2,7 @@
 #pragma once
 /// A closed box as a surface.
 
-#include "geometry/surface.h"
+#include "furrow/geometry/surface.h"
 
 namespace furrow::test {
 

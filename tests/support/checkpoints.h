@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/checkpoint.h"
-#include "core/rank_numbers.h"
+#include "furrow/core/checkpoint.h"
+#include "furrow/core/rank_numbers.h"
 
 namespace furrow::test {
 

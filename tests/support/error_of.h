@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow::test {
 

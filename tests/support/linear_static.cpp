@@ -3,7 +3,7 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow::test {
 

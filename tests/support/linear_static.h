@@ -7,7 +7,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "shell/shell4.h"
+#include "furrow/shell/shell4.h"
 
 namespace furrow::test {
 

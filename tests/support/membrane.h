@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "bodies/body.h"
+#include "furrow/bodies/body.h"
 
 namespace furrow {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/solid_mesh.h"
+#include "furrow/geometry/meshes/solid_mesh.h"
 
 namespace furrow::test {
 

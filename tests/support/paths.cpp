@@ -7,7 +7,7 @@
 
 #include <Eigen/LU>
 
-#include "material/models/norsand/norsand.h"
+#include "furrow/material/models/norsand/norsand.h"
 
 namespace furrow::testing_paths {
 

@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "material/registry.h"
-#include "testing/material_text.h"
-#include "testing/stretch.h"
+#include "furrow/material/registry.h"
+#include "furrow/testing/material_text.h"
+#include "furrow/testing/stretch.h"
 
 namespace furrow::testing_paths {
 

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "bodies/coupled_system.h"
-#include "bodies/rigid_wheel.h"
-#include "io/material_file.h"
-#include "mpm/contact/terrain_contact.h"
-#include "mpm/continuum_terrain.h"
-#include "rig/wheel_rig.h"
+#include "furrow/bodies/coupled_system.h"
+#include "furrow/bodies/rigid_wheel.h"
+#include "furrow/io/inputs/material_file.h"
+#include "furrow/mpm/contact/terrain_contact.h"
+#include "furrow/mpm/continuum_terrain.h"
+#include "furrow/rig/wheel_rig.h"
 
 namespace furrow {
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Reading history.h5, the results file of a run (its layout: src/io/history_file.h), with the styles of the run.
+"""Reading history.h5, the results file of a run (its layout: src/io/results/history_file.h), with the styles of the run.
 
 The dataset /run/styles is JSON, an array in the order of the script: {"id", "group", "style", "kind", "options"}; the
-page coupling/output/fix_wheel_history.md has the kinds. Options are lists of numbers, booleans or texts, with defaults
+page coupling/output/histories/fix_wheel_history.md has the kinds. Options are lists of numbers, booleans or texts, with defaults
 filled in.
 """
 

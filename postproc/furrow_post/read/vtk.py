@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Reading the frames of a run: .pvd collections and .vtp files as src/io/vtk_file.h writes them.
+"""Reading the frames of a run: .pvd collections and .vtp files as src/io/formats/vtk_file.h writes them.
 
 Python's VTK would read any .vtp; this needs numpy alone, and reads what Furrow writes: appended raw
 data in blocks of zlib.

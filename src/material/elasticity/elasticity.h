@@ -11,8 +11,8 @@
 
 #include <string>
 
-#include "material/elasticity/elasticity_parameters.h"
-#include "material/material_model.h"
+#include "furrow/material/elasticity/elasticity_parameters.h"
+#include "furrow/material/material_model.h"
 
 namespace furrow {
 

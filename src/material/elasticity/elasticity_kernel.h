@@ -2,9 +2,9 @@
 #pragma once
 /// Elastic response to a strain increment: linear or porous (elasticity.h has the equations).
 
-#include "material/elasticity/elasticity_parameters.h"
-#include "simd/exponential.h"
-#include "simd/tensors.h"
+#include "furrow/material/elasticity/elasticity_parameters.h"
+#include "furrow/simd/exponential.h"
+#include "furrow/simd/tensors.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/hardening/hardening.h"
+#include "furrow/material/hardening/hardening.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

@@ -14,8 +14,8 @@
 /// eps = 0. Beyond the last row the chosen rule applies: extrapolate the last segment, or stop the
 /// run.
 
-#include "material/hardening/hardening_parameters.h"
-#include "material/material_model.h"
+#include "furrow/material/hardening/hardening_parameters.h"
+#include "furrow/material/material_model.h"
 
 namespace furrow {
 

@@ -2,8 +2,8 @@
 #pragma once
 /// Strength and its slope at given volumetric plastic strains (hardening.h has the equations).
 
-#include "material/hardening/hardening_parameters.h"
-#include "simd/exponential.h"
+#include "furrow/material/hardening/hardening_parameters.h"
+#include "furrow/simd/exponential.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "material/material.h"
-#include "material/point/point_path.h"
+#include "furrow/material/material.h"
+#include "furrow/material/point/point_path.h"
 
 namespace furrow {
 

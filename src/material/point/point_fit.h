@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "material/point/point_driver.h"
-#include "material/point/point_path.h"
-#include "material/registry.h"
+#include "furrow/material/point/point_driver.h"
+#include "furrow/material/point/point_path.h"
+#include "furrow/material/registry.h"
 
 namespace furrow {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/point/point_path.h"
+#include "furrow/material/point/point_path.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 
 namespace furrow {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/options.h"
-#include "material/material.h"
+#include "furrow/core/options/options.h"
+#include "furrow/material/material.h"
 
 namespace furrow {
 

@@ -12,9 +12,9 @@
 /// strengths in compression and extension they are the same curve. The sections are convex from K =
 /// 7/9 (abaqus) and K = 1/2 (matsuoka_nakai) on.
 
-#include "core/options.h"
-#include "material/material.h"
-#include "material/section/section_parameters.h"
+#include "furrow/core/options/options.h"
+#include "furrow/material/material.h"
+#include "furrow/material/section/section_parameters.h"
 
 namespace furrow {
 

@@ -2,8 +2,8 @@
 #pragma once
 /// g(c) and its derivatives for several points (section.h has the equations).
 
-#include "material/section/section_parameters.h"
-#include "simd/lanes.h"
+#include "furrow/material/section/section_parameters.h"
+#include "furrow/simd/lanes.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

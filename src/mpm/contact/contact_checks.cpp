@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/contact/contact_checks.h"
+#include "furrow/mpm/contact/contact_checks.h"
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "geometry/triangle_search.h"
+#include "furrow/core/error.h"
+#include "furrow/geometry/triangle_search.h"
 
 namespace furrow {
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "geometry/surface.h"
-#include "mpm/grid.h"
-#include "mpm/particle_group.h"
+#include "furrow/geometry/surface.h"
+#include "furrow/mpm/grid/grid.h"
+#include "furrow/mpm/particles/particle_group.h"
 
 namespace furrow {
 

@@ -17,9 +17,9 @@
 #include <variant>
 #include <vector>
 
-#include "mpm/contact/contact_parameters.h"
-#include "mpm/contact/impulse_law.h"
-#include "mpm/contact/penalty_law.h"
+#include "furrow/mpm/contact/contact_parameters.h"
+#include "furrow/mpm/contact/impulse_law.h"
+#include "furrow/mpm/contact/penalty_law.h"
 
 namespace furrow {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/contact/contact_parameters.h"
+#include "furrow/mpm/contact/contact_parameters.h"
 
 #include <limits>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "mpm/contact/contact_law.h"
+#include "furrow/core/error.h"
+#include "furrow/mpm/contact/contact_law.h"
 
 namespace furrow {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "core/options.h"
-#include "material/ground_contact.h"
+#include "furrow/core/options/options.h"
+#include "furrow/material/ground_contact.h"
 
 namespace furrow {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/contact/contact_search.h"
+#include "furrow/mpm/contact/contact_search.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "geometry/closest_feature.h"
-#include "geometry/triangle_search.h"
+#include "furrow/geometry/closest_feature.h"
+#include "furrow/geometry/triangle_search.h"
 
 namespace furrow {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "bodies/body.h"
-#include "mpm/continuum_terrain.h"
+#include "furrow/bodies/body.h"
+#include "furrow/mpm/continuum_terrain.h"
 
 namespace furrow {
 

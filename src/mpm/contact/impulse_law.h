@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <string>
 
-#include "mpm/contact/contact_parameters.h"
-#include "mpm/contact/friction.h"
-#include "mpm/contact/particle_contact.h"
-#include "mpm/particle_group.h"
-#include "mpm/terrain_parameters.h"
+#include "furrow/mpm/contact/contact_parameters.h"
+#include "furrow/mpm/contact/friction.h"
+#include "furrow/mpm/contact/particle_contact.h"
+#include "furrow/mpm/particles/particle_group.h"
+#include "furrow/mpm/ground/terrain_parameters.h"
 
 namespace furrow {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/contact/narrow_phase.h"
+#include "furrow/mpm/contact/narrow_phase.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "geometry/closest_feature.h"
+#include "furrow/geometry/closest_feature.h"
 
 namespace furrow {
 

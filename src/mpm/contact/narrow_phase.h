@@ -2,11 +2,11 @@
 #pragma once
 /// Narrow phase of a contact: whether a particle touches a surface, where, and by how much.
 
-#include "bodies/body.h"
-#include "geometry/triangle_search.h"
-#include "mpm/contact/contact_search.h"
-#include "mpm/contact/particle_contact.h"
-#include "mpm/particles.h"
+#include "furrow/bodies/body.h"
+#include "furrow/geometry/triangle_search.h"
+#include "furrow/mpm/contact/contact_search.h"
+#include "furrow/mpm/contact/particle_contact.h"
+#include "furrow/mpm/particles/particles.h"
 
 namespace furrow {
 

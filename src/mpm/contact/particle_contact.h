@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow {
 

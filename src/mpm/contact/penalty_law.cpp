@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/contact/penalty_law.h"
+#include "furrow/mpm/contact/penalty_law.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "material/material.h"
+#include "furrow/core/error.h"
+#include "furrow/material/material.h"
 
 namespace furrow {
 

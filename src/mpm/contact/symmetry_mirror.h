@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/types.h"
-#include "geometry/surface.h"
+#include "furrow/core/types.h"
+#include "furrow/geometry/surface.h"
 
 namespace furrow {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/contact/terrain_contact.h"
+#include "furrow/mpm/contact/terrain_contact.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "mpm/contact/contact_checks.h"
+#include "furrow/core/error.h"
+#include "furrow/mpm/contact/contact_checks.h"
 
 namespace furrow {
 

@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "bodies/body.h"
-#include "bodies/contact.h"
-#include "geometry/thin_parts.h"
-#include "mpm/contact/contact_law.h"
-#include "mpm/contact/contact_parameters.h"
-#include "mpm/contact/contact_search.h"
-#include "mpm/contact/narrow_phase.h"
-#include "mpm/contact/symmetry_mirror.h"
-#include "mpm/continuum_terrain.h"
+#include "furrow/bodies/body.h"
+#include "furrow/bodies/contact.h"
+#include "furrow/geometry/thin_parts.h"
+#include "furrow/mpm/contact/contact_law.h"
+#include "furrow/mpm/contact/contact_parameters.h"
+#include "furrow/mpm/contact/contact_search.h"
+#include "furrow/mpm/contact/narrow_phase.h"
+#include "furrow/mpm/contact/symmetry_mirror.h"
+#include "furrow/mpm/continuum_terrain.h"
 
 namespace furrow {
 

@@ -2,7 +2,7 @@
 #pragma once
 /// Sums of particles to the 27 nodes of their cell, with the four numbers of a node as one vector.
 
-#include "mpm/transfer/nodes.h"
+#include "furrow/mpm/transfer/nodes.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

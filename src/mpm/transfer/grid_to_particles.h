@@ -2,8 +2,8 @@
 #pragma once
 /// Grid to particles: strain and its work, motion, and the motion at single points.
 
-#include "mpm/transfer/nodes.h"
-#include "mpm/transfer/weights.h"
+#include "furrow/mpm/transfer/nodes.h"
+#include "furrow/mpm/transfer/weights.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

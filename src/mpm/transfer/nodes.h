@@ -3,8 +3,8 @@
 /// Interpolation from the 27 nodes of a particle: the four numbers of a node as one vector for a
 /// single particle, one number in a lane for each of several particles of a cell.
 
-#include "mpm/transfer.h"
-#include "simd/lanes.h"
+#include "furrow/mpm/transfer/transfer.h"
+#include "furrow/simd/lanes.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -2,8 +2,8 @@
 #pragma once
 /// Particles to grid: mass and momentum, the force of the stress, forces at points.
 
-#include "mpm/transfer/cell_sum.h"
-#include "mpm/transfer/weights.h"
+#include "furrow/mpm/transfer/cell_sum.h"
+#include "furrow/mpm/transfer/weights.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

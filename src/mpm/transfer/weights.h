@@ -4,8 +4,8 @@
 /// transfers, found for a batch of particles at once in loops that the compiler vectorises over
 /// particles.
 
-#include "mpm/transfer.h"
-#include "simd/kernel_units_only.h"
+#include "furrow/mpm/transfer/transfer.h"
+#include "furrow/simd/kernel_units_only.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -16,7 +16,7 @@
 #include <mpi.h>
 
 #include "atom.h"
-#include "coupling/bodies/fix_tyre_darnell.h"
+#include "coupling/wheels/fix_tyre_darnell.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 

@@ -19,7 +19,7 @@
 #include <mpi.h>
 
 #include "atom.h"
-#include "geometry/wheel_mesh.h"
+#include "furrow/geometry/meshes/wheel_mesh.h"
 #include "tests/coupled/support/scene.h"
 
 namespace {

@@ -11,7 +11,7 @@
 
 #include "atom.h"
 #include "coupling/base/fix_body.h"
-#include "coupling/liggghts/access.h"
+#include "coupling/liggghts/data/access.h"
 #include "input.h"
 #include "modify.h"
 

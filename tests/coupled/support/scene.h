@@ -12,7 +12,7 @@
 
 #include <mpi.h>
 
-#include "bodies/body.h"
+#include "furrow/bodies/body.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "lammps.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 /// Clusters of snow (contact model snow/bond) in a scene.
 
-#include "grains/snow_bond_parameters.h"
+#include "furrow/grains/snow_bond_parameters.h"
 #include "tests/coupled/support/scene.h"
 
 namespace furrow::test {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "standard_linear_solid.h"
-#include "testing/material_conformance.h"
+#include "furrow/testing/material_conformance.h"
 
 namespace lab {
 namespace {

@@ -8,8 +8,8 @@
 /// (R. L. Taylor, K. S. Pister, G. L. Goudreau, Int. J. Numer. Meth. Eng. 2 (1970) 45). Energies:
 /// the springs store, the dashpot turns the rest of the work into heat.
 
-#include "material/material_model.h"
-#include "material/pointwise_material.h"
+#include "furrow/material/material_model.h"
+#include "furrow/material/pointwise_material.h"
 
 namespace lab {
 

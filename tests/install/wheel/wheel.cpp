@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bodies/rigid_wheel.h"
-#include "io/version.h"
+#include "furrow/bodies/rigid_wheel.h"
+#include "furrow/io/files/version.h"
 
 int main() {
   const std::vector<std::string> words = {"diameter", "0.6", "width",   "0.2",

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "bodies/coupled_system.h"
+#include "furrow/bodies/coupled_system.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "tests/support/max_error.h"
 #include "tests/support/error_of.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "bodies/mesh_bodies.h"
+#include "furrow/bodies/mesh_bodies.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "geometry/wheel_mesh.h"
+#include "furrow/core/error.h"
+#include "furrow/geometry/meshes/wheel_mesh.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"
 #include "tests/support/meshes.h"

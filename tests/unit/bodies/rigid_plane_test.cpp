@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The rigid floor: pressure by penetration, sticking and sliding by Coulomb's law, continuation.
 
-#include "bodies/rigid_plane.h"
+#include "furrow/bodies/rigid_plane.h"
 
 #include <gmock/gmock.h>
 
-#include "bodies/rigid_plate.h"
-#include "core/error.h"
+#include "furrow/bodies/rigid_plate.h"
+#include "furrow/core/error.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "bodies/rigid_wheel.h"
+#include "furrow/bodies/rigid_wheel.h"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"
 #include "tests/support/words.h"

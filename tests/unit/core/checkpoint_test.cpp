@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A checkpoint returns what was saved, bit for bit; a damaged, foreign or unsuitable one is
 // refused.
-#include "core/checkpoint.h"
+#include "furrow/core/checkpoint.h"
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::checkpoint_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/nearest_word.h"
+#include "furrow/core/options/nearest_word.h"
 
 #include <gtest/gtest.h>
 

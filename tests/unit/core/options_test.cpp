@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/options.h"
+#include "furrow/core/options/options.h"
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "tests/support/error_of.h"
 #include "tests/support/words.h"
 

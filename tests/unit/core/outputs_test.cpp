@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/outputs.h"
+#include "furrow/core/options/outputs.h"
 
 #include <gtest/gtest.h>
 

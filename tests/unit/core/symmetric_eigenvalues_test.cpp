@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/symmetric_eigenvalues.h"
+#include "furrow/core/symmetric_eigenvalues.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The time left against simulated histories of cost, whose end is known.
 
-#include "core/time_left.h"
+#include "furrow/core/time_left.h"
 
 #include <cmath>
 #include <functional>

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/closed_surface.h"
-#include "geometry/wheel_mesh.h"
-#include "geometry/winding_number.h"
-#include "core/error.h"
+#include "furrow/geometry/closed_surface.h"
+#include "furrow/geometry/meshes/wheel_mesh.h"
+#include "furrow/geometry/winding_number.h"
+#include "furrow/core/error.h"
 
 namespace furrow::closed_surface_test {
 namespace {

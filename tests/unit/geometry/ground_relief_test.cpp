@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Surfaces that are not flat: the shapes, and the spectrum of a random profile.
-#include "geometry/ground_relief.h"
+#include "furrow/geometry/ground_relief.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "tests/support/error_of.h"
 #include "tests/support/words.h"
 

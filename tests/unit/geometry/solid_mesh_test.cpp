@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/solid_mesh.h"
+#include "furrow/geometry/meshes/solid_mesh.h"
 
 #include <cmath>
 #include <functional>
@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "geometry/wheel_mesh.h"
+#include "furrow/core/error.h"
+#include "furrow/geometry/meshes/wheel_mesh.h"
 #include "tests/support/error_of.h"
 #include "tests/support/meshes.h"
 

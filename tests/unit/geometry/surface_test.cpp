@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/surface.h"
+#include "furrow/geometry/surface.h"
 
 #include <limits>
 #include <random>
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::surface_test {

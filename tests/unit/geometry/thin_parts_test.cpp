@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/thin_parts.h"
+#include "furrow/geometry/thin_parts.h"
 
 #include <array>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "geometry/wheel_mesh.h"
+#include "furrow/geometry/meshes/wheel_mesh.h"
 #include "tests/support/bar.h"
 
 namespace furrow::thin_parts_geometry_test {

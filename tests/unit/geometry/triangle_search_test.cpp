@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/triangle_search.h"
+#include "furrow/geometry/triangle_search.h"
 
 #include <algorithm>
 #include <random>
@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/closest_feature.h"
-#include "bodies/rigid_plate.h"
+#include "furrow/geometry/closest_feature.h"
+#include "furrow/bodies/rigid_plate.h"
 
 namespace furrow::triangle_search_test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry/weld.h"
+#include "furrow/geometry/weld.h"
 
 #include <gtest/gtest.h>
 

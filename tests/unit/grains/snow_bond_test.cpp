@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The contact law of snow against its own surfaces, closed forms and balances.
 
-#include "grains/snow_bond.h"
+#include "furrow/grains/snow_bond.h"
 
 #include <random>
 #include <utility>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/brick_tyre_file.h"
+#include "furrow/io/inputs/brick_tyre_file.h"
 
 #include <gmock/gmock.h>
 
-#include "io/replace_file.h"
-#include "io/tyre_file.h"
+#include "furrow/io/files/replace_file.h"
+#include "furrow/io/inputs/tyre_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/grains.h"
+#include "furrow/io/formats/grains.h"
 
 #include <gmock/gmock.h>
 

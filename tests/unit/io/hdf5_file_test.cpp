@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/hdf5_file.h"
+#include "furrow/io/formats/hdf5_file.h"
 
 #include <gmock/gmock.h>
 
@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/error.h"
-#include "io/replace_file.h"
+#include "furrow/core/error.h"
+#include "furrow/io/files/replace_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 

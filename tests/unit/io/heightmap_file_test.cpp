@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Heightmaps: both formats give the same surface, and faulty files are refused with their line.
-#include "io/heightmap_file.h"
+#include "furrow/io/formats/heightmap_file.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 

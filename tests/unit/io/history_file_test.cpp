@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/history_file.h"
+#include "furrow/io/results/history_file.h"
 
 #include <gmock/gmock.h>
 #include <malloc.h>
@@ -11,9 +11,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "io/hdf5_file.h"
-#include "mpm/terrain_snapshot.h"
+#include "furrow/core/error.h"
+#include "furrow/io/formats/hdf5_file.h"
+#include "furrow/mpm/terrain_snapshot.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 

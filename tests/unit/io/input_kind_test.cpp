@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Each reader is given the files of the others.
-#include "io/input_kind.h"
+#include "furrow/io/inputs/input_kind.h"
 
 #include <gmock/gmock.h>
 
 #include <functional>
 
-#include "io/point_file.h"
-#include "io/tyre_file.h"
+#include "furrow/io/inputs/point_file.h"
+#include "furrow/io/inputs/tyre_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/input_text.h"
+#include "furrow/io/formats/input_text.h"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include "io/replace_file.h"
+#include "furrow/io/files/replace_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/material_file.h"
+#include "furrow/io/inputs/material_file.h"
 
 #include <gmock/gmock.h>
 
-#include "io/contact_section.h"
-#include "io/csv_file.h"
-#include "io/replace_file.h"
-#include "io/yaml_tree.h"
+#include "furrow/io/inputs/contact_section.h"
+#include "furrow/io/formats/csv_file.h"
+#include "furrow/io/files/replace_file.h"
+#include "furrow/io/formats/yaml_tree.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 

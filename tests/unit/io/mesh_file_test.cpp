@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/mesh_file.h"
+#include "furrow/io/formats/mesh_file.h"
 
 #include <cstring>
 #include <limits>
@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "io/replace_file.h"
-#include "io/vtk_file.h"
+#include "furrow/io/files/replace_file.h"
+#include "furrow/io/formats/vtk_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 #include "tests/support/meshes.h"

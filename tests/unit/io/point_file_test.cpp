@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/point_file.h"
+#include "furrow/io/inputs/point_file.h"
 
 #include <gmock/gmock.h>
 
-#include "material/point/point_driver.h"
+#include "furrow/material/point/point_driver.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Files of the ranks: whole, or refused by name.
-#include "io/rank_files.h"
+#include "furrow/io/files/rank_files.h"
 
 #include <filesystem>
 #include <numeric>
@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "io/replace_file.h"
+#include "furrow/core/error.h"
+#include "furrow/io/files/replace_file.h"
 #include "scratch.h"
 #include "size_limit.h"
 #include "tests/support/error_of.h"

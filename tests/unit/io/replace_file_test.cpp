@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/replace_file.h"
+#include "furrow/io/files/replace_file.h"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <functional>
 
-#include "io/hdf5_file.h"
-#include "io/history_file.h"
-#include "io/vtk_file.h"
+#include "furrow/io/formats/hdf5_file.h"
+#include "furrow/io/results/history_file.h"
+#include "furrow/io/formats/vtk_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/replace_file.h"
+#include "furrow/io/files/replace_file.h"
 
 namespace furrow {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Whatever happens to a sealed file is noticed: cut at any length, a bit flipped anywhere, foreign.
-#include "io/sealed_file.h"
+#include "furrow/io/files/sealed_file.h"
 
 #include <filesystem>
 #include <fstream>
@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "io/replace_file.h"
+#include "furrow/core/error.h"
+#include "furrow/io/files/replace_file.h"
 #include "scratch.h"
 #include "size_limit.h"
 #include "tests/support/error_of.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/sidewall_cache.h"
+#include "furrow/io/inputs/sidewall_cache.h"
 
 #include <cstdlib>
 
 #include <gmock/gmock.h>
 
-#include "io/cache.h"
-#include "io/replace_file.h"
-#include "io/tyre_file.h"
+#include "furrow/io/files/cache.h"
+#include "furrow/io/files/replace_file.h"
+#include "furrow/io/inputs/tyre_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A soil card as furrow-post card writes it, and cards with missing or impossible values.
 
-#include "io/soil_card_file.h"
+#include "furrow/io/inputs/soil_card_file.h"
 
 #include <cmath>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/style_record.h"
+#include "furrow/io/results/style_record.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/summary.h"
+#include "furrow/io/results/summary.h"
 
 #include <sstream>
 

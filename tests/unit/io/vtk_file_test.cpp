@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/vtk_file.h"
+#include "furrow/io/formats/vtk_file.h"
 
 #include <gmock/gmock.h>
 #include <vtkCellArray.h>
@@ -11,7 +11,7 @@
 
 #include <filesystem>
 
-#include "io/replace_file.h"
+#include "furrow/io/files/replace_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 

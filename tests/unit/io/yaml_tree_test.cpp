@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/yaml_tree.h"
+#include "furrow/io/formats/yaml_tree.h"
 
 #include <gmock/gmock.h>
 

@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "material/models/cohesive_cam_clay/cohesive_cam_clay.h"
+#include "furrow/core/error.h"
+#include "furrow/material/models/cohesive_cam_clay/cohesive_cam_clay.h"
 #include "sound_steps.h"
 #include "tests/support/error_of.h"
 

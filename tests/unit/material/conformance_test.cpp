@@ -2,7 +2,7 @@
 // Every law of this library, and one written point by point, does what every law must do
 // (testing/material_conformance.h), with every example that it gives.
 
-#include "testing/material_conformance.h"
+#include "furrow/testing/material_conformance.h"
 
 #include "plain_elastic.h"
 

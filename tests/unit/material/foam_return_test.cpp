@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "material/models/crushable_foam/crushable_foam.h"
+#include "furrow/material/models/crushable_foam/crushable_foam.h"
 #include "tests/support/paths.h"
 
 namespace furrow::foam_return_test {

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "material/models/drucker_prager_cap/drucker_prager_cap.h"
+#include "furrow/core/error.h"
+#include "furrow/material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "sound_steps.h"
 #include "tests/support/error_of.h"
 

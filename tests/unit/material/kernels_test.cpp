@@ -8,15 +8,15 @@
 #include <Eigen/SVD>
 #include <gtest/gtest.h>
 
-#include "material/models/cohesive_cam_clay/cohesive_cam_clay.h"
-#include "material/models/cohesive_cap/cohesive_cap.h"
-#include "material/models/crushable_foam/crushable_foam.h"
-#include "material/models/drucker_prager/drucker_prager.h"
-#include "material/models/drucker_prager_cap/drucker_prager_cap.h"
-#include "material/models/neo_hookean/neo_hookean_parameters.h"
-#include "material/models/norsand/norsand.h"
-#include "material/models/undrained_clay/undrained_clay.h"
-#include "simd/dispatch.h"
+#include "furrow/material/models/cohesive_cam_clay/cohesive_cam_clay.h"
+#include "furrow/material/models/cohesive_cap/cohesive_cap.h"
+#include "furrow/material/models/crushable_foam/crushable_foam.h"
+#include "furrow/material/models/drucker_prager/drucker_prager.h"
+#include "furrow/material/models/drucker_prager_cap/drucker_prager_cap.h"
+#include "furrow/material/models/neo_hookean/neo_hookean_parameters.h"
+#include "furrow/material/models/norsand/norsand.h"
+#include "furrow/material/models/undrained_clay/undrained_clay.h"
+#include "furrow/simd/dispatch.h"
 #include "tests/support/paths.h"
 
 namespace furrow::kernels_test {

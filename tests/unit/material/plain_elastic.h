@@ -5,9 +5,9 @@
 #include <cmath>
 #include <memory>
 
-#include "core/error.h"
-#include "material/elasticity/elasticity.h"
-#include "material/pointwise_material.h"
+#include "furrow/core/error.h"
+#include "furrow/material/elasticity/elasticity.h"
+#include "furrow/material/pointwise_material.h"
 
 namespace furrow {
 

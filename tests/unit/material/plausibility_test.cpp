@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/plausibility.h"
+#include "furrow/material/plausibility.h"
 
 #include <gmock/gmock.h>
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A law written in plain doubles gives what kernels of the same equations give.
 
-#include "material/pointwise_material.h"
+#include "furrow/material/pointwise_material.h"
 
 #include <random>
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "material/pointwise_parameters.h"
+#include "furrow/core/error.h"
+#include "furrow/material/pointwise_parameters.h"
 #include "plain_elastic.h"
-#include "testing/material_text.h"
+#include "furrow/testing/material_text.h"
 
 namespace furrow::pointwise_material_test {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Bad parameters, each with its message; the two ways to write a law; what the listing offers.
 
-#include "material/registry.h"
+#include "furrow/material/registry.h"
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "tests/support/error_of.h"
 #include "tests/support/paths.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Ground at rest that is left out of the steps: statics, waves, energies and restarts.
-#include "mpm/active_ground.h"
+#include "furrow/mpm/active_ground.h"
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"

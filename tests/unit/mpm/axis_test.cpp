@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/axis.h"
+#include "furrow/mpm/grid/axis.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::axis_test {

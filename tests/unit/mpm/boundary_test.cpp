@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/boundary.h"
+#include "furrow/mpm/grid/boundary.h"
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "terrain_scene.h"
 
 namespace furrow::boundary_test {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/cell_average.h"
+#include "furrow/mpm/transfer/cell_average.h"
 
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow::cell_average_test {
 namespace {

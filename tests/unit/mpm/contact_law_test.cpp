@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/contact/contact_law.h"
+#include "furrow/mpm/contact/contact_law.h"
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "mpm/contact/narrow_phase.h"
+#include "furrow/core/error.h"
+#include "furrow/mpm/contact/narrow_phase.h"
 #include "terrain_scene.h"
 #include "tests/support/error_of.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/divided_ground.h"
+#include "furrow/mpm/discontinuities/divided_ground.h"
 
 #include <gmock/gmock.h>
 
 #include <random>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "terrain_scene.h"
 #include "tests/support/bar.h"
 #include "tests/support/checkpoints.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Ground that follows a body on a graded axis: particles are halved ahead and united behind.
-#include "mpm/particle_refinement.h"
+#include "furrow/mpm/particles/particle_refinement.h"
 
 #include <random>
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"

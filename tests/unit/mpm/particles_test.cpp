@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/particles.h"
+#include "furrow/mpm/particles/particles.h"
 
 #include <malloc.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // On one rank; several ranks: tests/verification/mpm_ranks/ranks_test.cpp.
-#include "mpm/partition.h"
+#include "furrow/mpm/grid/partition.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "terrain_scene.h"
 
 namespace furrow::partition_test {

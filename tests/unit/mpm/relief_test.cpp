@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"

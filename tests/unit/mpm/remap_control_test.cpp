@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/remap_control.h"
+#include "furrow/mpm/transfer/remap_control.h"
 
 #include <gtest/gtest.h>
 

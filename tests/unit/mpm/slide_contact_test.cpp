@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/slide_contact.h"
+#include "furrow/mpm/discontinuities/slide_contact.h"
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "terrain_scene.h"
 #include "tests/support/error_of.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/contact/terrain_contact.h"
+#include "furrow/mpm/contact/terrain_contact.h"
 
 #include <cmath>
 #include <limits>
@@ -7,8 +7,8 @@
 
 #include <gmock/gmock.h>
 
-#include "bodies/rigid_plate.h"
-#include "core/error.h"
+#include "furrow/bodies/rigid_plate.h"
+#include "furrow/core/error.h"
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"

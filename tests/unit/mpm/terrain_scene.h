@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "bodies/coupled_system.h"
-#include "bodies/rigid_plate.h"
-#include "mpm/contact/terrain_contact.h"
-#include "mpm/continuum_terrain.h"
+#include "furrow/bodies/coupled_system.h"
+#include "furrow/bodies/rigid_plate.h"
+#include "furrow/mpm/contact/terrain_contact.h"
+#include "furrow/mpm/continuum_terrain.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/paths.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/terrain_size.h"
+#include "furrow/mpm/ground/terrain_size.h"
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "mpm/continuum_terrain.h"
+#include "furrow/core/error.h"
+#include "furrow/mpm/continuum_terrain.h"
 #include "terrain_scene.h"
 #include "tests/support/error_of.h"
 

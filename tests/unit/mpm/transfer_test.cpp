@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "mpm/transfer.h"
+#include "furrow/mpm/transfer/transfer.h"
 
 #include <algorithm>
 #include <cstring>
@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "simd/dispatch.h"
-#include "mpm/grid.h"
+#include "furrow/simd/dispatch.h"
+#include "furrow/mpm/grid/grid.h"
 #include "terrain_scene.h"
 #include "tests/support/max_error.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Ground with a trough that grains fill: what fills it up to its faces, what lies on them, and that
 // it stays at rest under what grains would press with.
-#include "mpm/trough.h"
+#include "furrow/mpm/ground/trough.h"
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "mpm/terrain_size.h"
+#include "furrow/core/error.h"
+#include "furrow/mpm/ground/terrain_size.h"
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"

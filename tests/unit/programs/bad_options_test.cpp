@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 
 #include "../io/scratch.h"
-#include "io/history_file.h"
-#include "io/replace_file.h"
+#include "furrow/io/results/history_file.h"
+#include "furrow/io/files/replace_file.h"
 #include "tests/support/program.h"
 
 namespace furrow::bad_options_test {

@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 
 #include "../io/scratch.h"
-#include "geometry/solid_mesh.h"
-#include "io/mesh_file.h"
+#include "furrow/geometry/meshes/solid_mesh.h"
+#include "furrow/io/formats/mesh_file.h"
 #include "tests/support/meshes.h"
 #include "tests/support/program.h"
 

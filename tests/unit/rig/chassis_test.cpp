@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rig/chassis.h"
+#include "furrow/rig/chassis.h"
 
 #include <cmath>
 #include <memory>
@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "tests/support/error_of.h"
 #include "wheel_on_floor.h"
 

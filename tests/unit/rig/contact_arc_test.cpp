@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rig/contact_arc.h"
+#include "furrow/rig/contact_arc.h"
 
 #include <cmath>
 

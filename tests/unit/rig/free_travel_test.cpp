@@ -2,7 +2,7 @@
 // A wheel that is free along x, on an inclined plane: Newton's and Coulomb's closed forms; and what
 // the evaluation makes of wheels that get nowhere.
 
-#include "statistics/free_travel.h"
+#include "furrow/statistics/free_travel.h"
 
 #include <cmath>
 #include <numeric>
@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "statistics/resistance.h"
+#include "furrow/core/error.h"
+#include "furrow/statistics/resistance.h"
 #include "made_again.h"
 #include "tests/support/error_of.h"
 #include "wheel_on_floor.h"

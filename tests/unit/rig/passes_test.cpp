@@ -2,13 +2,13 @@
 // A wheel that rolls three times over the same floor: the way back is exact, the passes are alike,
 // and energy closes over all of them.
 
-#include "statistics/passes.h"
+#include "furrow/statistics/passes.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "made_again.h"
 #include "tests/support/error_of.h"
 #include "wheel_on_floor.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rig/ramp.h"
+#include "furrow/rig/ramp.h"
 
 #include <gtest/gtest.h>
 

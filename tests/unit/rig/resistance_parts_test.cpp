@@ -2,7 +2,7 @@
 // On a rigid plane the resistance of a sliding wheel is friction alone: mu N |u - v|/v, u the speed
 // of the rim, v that of the axle.
 
-#include "statistics/resistance_parts.h"
+#include "furrow/statistics/resistance_parts.h"
 
 #include <cmath>
 #include <map>
@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "bodies/rigid_plane.h"
+#include "furrow/bodies/rigid_plane.h"
 #include "wheel_on_floor.h"
 
 namespace furrow::resistance_parts_test {

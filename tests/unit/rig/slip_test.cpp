@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rig/slip.h"
+#include "furrow/rig/slip.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::slip_test {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rig/suspension.h"
+#include "furrow/rig/suspension.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "core/types.h"
+#include "furrow/core/types.h"
 
 namespace furrow::suspension_test {
 namespace {

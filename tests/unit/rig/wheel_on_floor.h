@@ -8,8 +8,8 @@
 #include <functional>
 #include <vector>
 
-#include "bodies/rigid_wheel.h"
-#include "rig/wheel_rig.h"
+#include "furrow/bodies/rigid_wheel.h"
+#include "furrow/rig/wheel_rig.h"
 #include "tests/support/words.h"
 
 namespace furrow {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rig/wheel_rig.h"
-#include "statistics/history.h"
+#include "furrow/rig/wheel_rig.h"
+#include "furrow/statistics/history.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "made_again.h"
 #include "wheel_on_floor.h"
 #include "tests/support/error_of.h"

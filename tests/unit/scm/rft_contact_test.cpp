@@ -2,7 +2,7 @@
 // Bodies in sand by resistive force theory: plates, blades and spheres against closed forms, wheels
 // as their faces become smaller, energy, restart.
 
-#include "scm/rft_contact.h"
+#include "furrow/scm/rft_contact.h"
 
 #include <algorithm>
 #include <array>
@@ -11,11 +11,11 @@
 
 #include <gtest/gtest.h>
 
-#include "bodies/coupled_system.h"
-#include "bodies/rigid_plate.h"
-#include "bodies/rigid_wheel.h"
-#include "core/error.h"
-#include "scm/rft_law.h"
+#include "furrow/bodies/coupled_system.h"
+#include "furrow/bodies/rigid_plate.h"
+#include "furrow/bodies/rigid_wheel.h"
+#include "furrow/core/error.h"
+#include "furrow/scm/rft_law.h"
 #include "tests/support/checkpoints.h"
 
 namespace furrow::rft_contact_test {

@@ -2,7 +2,7 @@
 // The stress of resistive force theory on a face, against the angles of its paper, and the sense of
 // its signs.
 
-#include "scm/rft_law.h"
+#include "furrow/scm/rft_law.h"
 
 #include <array>
 #include <cmath>

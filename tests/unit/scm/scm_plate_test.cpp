@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A plate on a height field: Bekker's pressure, elastic unloading, energy, soil that flows aside.
 
-#include "scm/scm_contact.h"
+#include "furrow/scm/scm_contact.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "bodies/rigid_plate.h"
-#include "core/error.h"
-#include "scm/contact_width.h"
+#include "furrow/bodies/rigid_plate.h"
+#include "furrow/core/error.h"
+#include "furrow/scm/contact_width.h"
 #include "tests/support/checkpoints.h"
 
 namespace furrow::scm_plate_test {

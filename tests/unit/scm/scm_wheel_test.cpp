@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bodies/coupled_system.h"
-#include "bodies/rigid_wheel.h"
-#include "scm/scm_contact.h"
+#include "furrow/bodies/coupled_system.h"
+#include "furrow/bodies/rigid_wheel.h"
+#include "furrow/scm/scm_contact.h"
 
 namespace furrow::scm_wheel_test {
 namespace {

@@ -10,10 +10,10 @@
 
 #include <gmock/gmock.h>
 
-#include "bodies/coupled_system.h"
-#include "bodies/rigid_wheel.h"
-#include "rig/wheel_rig.h"
-#include "scm/scm_contact.h"
+#include "furrow/bodies/coupled_system.h"
+#include "furrow/bodies/rigid_wheel.h"
+#include "furrow/rig/wheel_rig.h"
+#include "furrow/scm/scm_contact.h"
 
 namespace furrow::washboard_test {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "statistics/history.h"
+#include "furrow/statistics/history.h"
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::history_test {

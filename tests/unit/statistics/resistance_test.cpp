@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "statistics/resistance.h"
+#include "furrow/statistics/resistance.h"
 
 #include <cmath>
 #include <map>
@@ -7,8 +7,8 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "rig/wheel_rig.h"
+#include "furrow/core/error.h"
+#include "furrow/rig/wheel_rig.h"
 #include "tests/unit/rig/wheel_on_floor.h"
 #include "tests/support/error_of.h"
 

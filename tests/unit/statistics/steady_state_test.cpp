@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "statistics/steady_state.h"
+#include "furrow/statistics/steady_state.h"
 
 #include <cmath>
 #include <random>
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "core/types.h"
-#include "statistics/rig_stage.h"
+#include "furrow/core/error.h"
+#include "furrow/core/types.h"
+#include "furrow/statistics/rig_stage.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::steady_state_test {

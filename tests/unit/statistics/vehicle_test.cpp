@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Two wheels on one continuum, whose energies grow by known amounts for each metre.
 
-#include "statistics/vehicle.h"
+#include "furrow/statistics/vehicle.h"
 
 #include <map>
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "rig/wheel_rig.h"
+#include "furrow/core/error.h"
+#include "furrow/rig/wheel_rig.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::vehicle_test {

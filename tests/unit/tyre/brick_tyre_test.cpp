@@ -2,7 +2,7 @@
 // The tyre with a tread of bricks as a body: its mesh, conservation laws in free flight, rest on a
 // plane, half and whole, area of contact, restarts, refusals.
 
-#include "tyre/brick_tyre.h"
+#include "furrow/tyre/brick/brick_tyre.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "io/brick_tyre_file.h"
+#include "furrow/core/error.h"
+#include "furrow/io/inputs/brick_tyre_file.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"
-#include "tyre/contact_patch.h"
-#include "tyre/section_curve.h"
+#include "furrow/tyre/contact_patch.h"
+#include "furrow/tyre/brick/section_curve.h"
 
 namespace furrow::brick_tyre_test {
 namespace {

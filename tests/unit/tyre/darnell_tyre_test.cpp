@@ -2,7 +2,7 @@
 // The tyre as a body: conservation laws in free flight, rest on a plane, half and whole, table and
 // chain, contact on the sidewalls, restarts, refusals.
 
-#include "tyre/darnell_tyre.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
 
 #include <cmath>
 #include <limits>
@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "tyre/contact_patch.h"
+#include "furrow/core/error.h"
+#include "furrow/tyre/contact_patch.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/max_error.h"
 #include "tests/support/error_of.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/quintic_spline.h"
+#include "furrow/tyre/sidewall/quintic_spline.h"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "furrow/core/error.h"
 #include "tests/support/max_error.h"
 
 namespace furrow::quintic_spline_test {

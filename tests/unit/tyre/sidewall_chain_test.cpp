@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/sidewall_chain.h"
+#include "furrow/tyre/sidewall/sidewall_chain.h"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tyre/sidewall_direct.h"
+#include "furrow/tyre/sidewall/sidewall_direct.h"
 #include "tyres.h"
 #include "tests/support/error_of.h"
 

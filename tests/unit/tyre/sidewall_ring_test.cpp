@@ -2,11 +2,11 @@
 // A ring of sidewalls: its forces on the tread are the gradient of its potential, and with the
 // rim's reaction they balance.
 
-#include "tyre/sidewall_ring.h"
+#include "furrow/tyre/sidewall/sidewall_ring.h"
 
 #include <gtest/gtest.h>
 
-#include "tyre/sidewall_direct.h"
+#include "furrow/tyre/sidewall/sidewall_direct.h"
 #include "tyres.h"
 
 namespace furrow::sidewall_ring_test {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "tyre/sidewall_table.h"
+#include "furrow/tyre/sidewall/sidewall_table.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>
 
-#include "tyre/sidewall_direct.h"
+#include "furrow/tyre/sidewall/sidewall_direct.h"
 #include "tyres.h"
 #include "tests/support/error_of.h"
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "io/tyre_file.h"
-#include "tyre/darnell_tyre.h"
-#include "tyre/sidewall.h"
-#include "tyre/tyre_parameters.h"
+#include "furrow/io/inputs/tyre_file.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
+#include "furrow/tyre/sidewall/sidewall.h"
+#include "furrow/tyre/tyre_parameters.h"
 
 namespace furrow {
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "material/models/crushable_foam/crushable_foam.h"
-#include "material/models/drucker_prager_cap/drucker_prager_cap.h"
+#include "furrow/material/models/crushable_foam/crushable_foam.h"
+#include "furrow/material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "tests/support/paths.h"
 
 namespace furrow::closed_forms_test {

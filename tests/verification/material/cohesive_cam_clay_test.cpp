@@ -2,7 +2,7 @@
 // The cohesive Cam clay against closed forms of its equations (cohesive_cam_clay.h) and against an
 // explicit integration of them.
 
-#include "material/models/cohesive_cam_clay/cohesive_cam_clay.h"
+#include "furrow/material/models/cohesive_cam_clay/cohesive_cam_clay.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

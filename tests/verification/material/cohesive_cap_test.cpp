@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The cohesive cap law against closed forms of its equations (cohesive_cap.h).
 
-#include "material/models/cohesive_cap/cohesive_cap.h"
+#include "furrow/material/models/cohesive_cap/cohesive_cap.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -7,8 +7,8 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "material/models/drucker_prager_cap/drucker_prager_cap.h"
-#include "material/section/section.h"
+#include "furrow/material/models/drucker_prager_cap/drucker_prager_cap.h"
+#include "furrow/material/section/section.h"
 #include "tests/support/paths.h"
 
 namespace furrow::deviatoric_section_test {

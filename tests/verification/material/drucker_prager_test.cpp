@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "material/material.h"
+#include "furrow/material/material.h"
 #include "tests/support/paths.h"
 
 namespace furrow::drucker_prager_test {

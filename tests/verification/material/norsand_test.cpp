@@ -2,12 +2,12 @@
 // NorSand against closed forms of its equations (norsand.h) and against an integration of its rate
 // equations by SciPy (norsand_reference.py).
 
-#include "material/models/norsand/norsand.h"
+#include "furrow/material/models/norsand/norsand.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/csv_file.h"
+#include "furrow/io/formats/csv_file.h"
 #include "tests/support/paths.h"
 
 namespace furrow::norsand_test {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "material/material.h"
+#include "furrow/material/material.h"
 #include "tests/support/paths.h"
 
 namespace furrow::undrained_clay_test {

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/material_file.h"
-#include "mpm/boundary_effect.h"
+#include "furrow/io/inputs/material_file.h"
+#include "furrow/mpm/ground/boundary_effect.h"
 
 namespace furrow::boundary_effect_test {
 namespace {

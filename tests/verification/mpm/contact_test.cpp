@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "../../unit/mpm/terrain_scene.h"
-#include "bodies/rigid_plate.h"
+#include "furrow/bodies/rigid_plate.h"
 #include "tests/support/max_error.h"
 
 namespace furrow::contact_test {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../../unit/mpm/terrain_scene.h"
-#include "bodies/rigid_plate.h"
+#include "furrow/bodies/rigid_plate.h"
 
 namespace furrow::footing_test {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "mpm/ground_under_wheel.h"
+#include "furrow/mpm/ground/ground_under_wheel.h"
 #include "tests/support/wheel_on_ground.h"
 
 namespace furrow::ground_under_wheel_test {

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 
 #include "../../unit/mpm/terrain_scene.h"
-#include "bodies/rigid_plate.h"
-#include "bodies/rigid_wheel.h"
-#include "core/error.h"
+#include "furrow/bodies/rigid_plate.h"
+#include "furrow/bodies/rigid_wheel.h"
+#include "furrow/core/error.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::hard_cases_test {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../../unit/mpm/terrain_scene.h"
-#include "bodies/rigid_plate.h"
+#include "furrow/bodies/rigid_plate.h"
 #include "tests/support/bar.h"
 
 namespace furrow::thin_parts_test {

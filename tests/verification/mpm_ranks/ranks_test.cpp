@@ -11,8 +11,8 @@
 #include <numeric>
 
 #include "../../unit/mpm/terrain_scene.h"
-#include "bodies/rigid_plate.h"
-#include "core/error.h"
+#include "furrow/bodies/rigid_plate.h"
+#include "furrow/core/error.h"
 #include "tests/support/bar.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/max_error.h"

@@ -6,11 +6,11 @@
 #include <gmock/gmock.h>
 
 #include "../../unit/io/scratch.h"
-#include "io/csv_file.h"
-#include "io/hdf5_file.h"
-#include "io/point_file.h"
-#include "io/replace_file.h"
-#include "io/version.h"
+#include "furrow/io/formats/csv_file.h"
+#include "furrow/io/formats/hdf5_file.h"
+#include "furrow/io/inputs/point_file.h"
+#include "furrow/io/files/replace_file.h"
+#include "furrow/io/files/version.h"
 #include "tests/support/program.h"
 
 namespace furrow::point_command_test {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/point/point_driver.h"
+#include "furrow/material/point/point_driver.h"
 
 #include <cmath>
 
 #include <Eigen/LU>
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "io/material_file.h"
+#include "furrow/core/error.h"
+#include "furrow/io/inputs/material_file.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::point_driver_test {

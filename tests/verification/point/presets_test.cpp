@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "io/csv_file.h"
-#include "io/material_file.h"
-#include "material/models/crushable_foam/crushable_foam.h"
-#include "material/models/drucker_prager_cap/drucker_prager_cap.h"
-#include "material/models/norsand/norsand.h"
-#include "material/point/point_driver.h"
+#include "furrow/io/formats/csv_file.h"
+#include "furrow/io/inputs/material_file.h"
+#include "furrow/material/models/crushable_foam/crushable_foam.h"
+#include "furrow/material/models/drucker_prager_cap/drucker_prager_cap.h"
+#include "furrow/material/models/norsand/norsand.h"
+#include "furrow/material/point/point_driver.h"
 
 namespace furrow::presets_test {
 namespace {

@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "io/point_file.h"
-#include "material/point/point_driver.h"
+#include "furrow/core/error.h"
+#include "furrow/io/inputs/point_file.h"
+#include "furrow/material/point/point_driver.h"
 
 namespace furrow::snow_page_test {
 namespace {

@@ -2,7 +2,7 @@
 // Natural modes against closed forms: a cantilever, and an inflated ring on an elastic foundation,
 // which is the classical model of a tyre.
 
-#include "shell/natural_modes.h"
+#include "furrow/shell/natural_modes.h"
 
 #include <cmath>
 #include <functional>

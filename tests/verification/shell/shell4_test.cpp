@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "core/error.h"
-#include "core/symmetric_eigenvalues.h"
+#include "furrow/core/error.h"
+#include "furrow/core/symmetric_eigenvalues.h"
 #include "shell_model.h"
 #include "tests/support/max_error.h"
 #include "tests/support/error_of.h"

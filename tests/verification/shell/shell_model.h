@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "tests/support/linear_static.h"
-#include "shell/shell4.h"
+#include "furrow/shell/shell4.h"
 
 namespace furrow::test {
 

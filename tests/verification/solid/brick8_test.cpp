@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "brick_model.h"
-#include "core/error.h"
-#include "core/symmetric_eigenvalues.h"
+#include "furrow/core/error.h"
+#include "furrow/core/symmetric_eigenvalues.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::test::brick8_test {

@@ -9,7 +9,7 @@
 #include <Eigen/SparseCholesky>
 #include <gtest/gtest.h>
 
-#include "solid/brick8.h"
+#include "furrow/solid/brick8.h"
 
 namespace furrow::test {
 

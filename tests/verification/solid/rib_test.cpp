@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "brick_model.h"
-#include "core/symmetric_eigenvalues.h"
+#include "furrow/core/symmetric_eigenvalues.h"
 
 namespace furrow::test::rib_test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "../../unit/mpm/terrain_scene.h"
 #include "../../unit/tyre/tyres.h"
-#include "tyre/darnell_tyre.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
 
 namespace furrow::half_on_ground_test {
 namespace {

@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "../../unit/tyre/tyres.h"
-#include "core/error.h"
-#include "tyre/contact_patch.h"
-#include "tyre/darnell_tyre.h"
+#include "furrow/core/error.h"
+#include "furrow/tyre/contact_patch.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::hard_cases_test {

@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "../../unit/tyre/tyres.h"
-#include "io/brick_tyre_file.h"
+#include "furrow/io/inputs/brick_tyre_file.h"
 #include "tests/support/error_of.h"
-#include "tyre/brick_tyre.h"
-#include "tyre/darnell_tyre.h"
-#include "tyre/mode_kind.h"
+#include "furrow/tyre/brick/brick_tyre.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
+#include "furrow/tyre/mode_kind.h"
 
 namespace furrow::test::natural_modes_test {
 namespace {

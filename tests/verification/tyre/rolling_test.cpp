@@ -9,12 +9,12 @@
 #include <gtest/gtest.h>
 
 #include "../../unit/tyre/tyres.h"
-#include "io/brick_tyre_file.h"
-#include "rig/wheel_rig.h"
+#include "furrow/io/inputs/brick_tyre_file.h"
+#include "furrow/rig/wheel_rig.h"
 #include "tests/support/max_error.h"
 #include "tests/support/words.h"
-#include "tyre/brick_tyre.h"
-#include "tyre/darnell_tyre.h"
+#include "furrow/tyre/brick/brick_tyre.h"
+#include "furrow/tyre/darnell/darnell_tyre.h"
 
 namespace furrow::rolling_test {
 namespace {

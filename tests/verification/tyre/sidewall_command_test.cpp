@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 
 #include "../../unit/io/scratch.h"
-#include "io/csv_file.h"
-#include "io/hdf5_file.h"
-#include "io/replace_file.h"
-#include "io/tyre_file.h"
+#include "furrow/io/formats/csv_file.h"
+#include "furrow/io/formats/hdf5_file.h"
+#include "furrow/io/files/replace_file.h"
+#include "furrow/io/inputs/tyre_file.h"
 #include "tests/support/program.h"
 
 namespace furrow::sidewall_command_test {

@@ -13,9 +13,9 @@
 
 #include "../../unit/tyre/tyres.h"
 #include "tests/support/max_error.h"
-#include "tyre/sidewall_chain.h"
-#include "tyre/sidewall_direct.h"
-#include "tyre/sidewall_table.h"
+#include "furrow/tyre/sidewall/sidewall_chain.h"
+#include "furrow/tyre/sidewall/sidewall_direct.h"
+#include "furrow/tyre/sidewall/sidewall_table.h"
 
 namespace furrow::sidewall_test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "coupling/liggghts/style_registry.h"
+#include "coupling/liggghts/styles/style_registry.h"
 
 namespace furrow::coupling {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/models/von_mises/von_mises.h"
+#include "furrow/material/models/von_mises/von_mises.h"
 
 #include <algorithm>
 #include <cmath>

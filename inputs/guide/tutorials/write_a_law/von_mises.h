@@ -7,8 +7,8 @@
 /// The trial stress is elastic. The radial return scales its deviator s to the strength. c_u is the
 /// undrained shear strength [Pa]: half the deviator stress in triaxial compression.
 
-#include "material/material_model.h"
-#include "material/pointwise_material.h"
+#include "furrow/material/material_model.h"
+#include "furrow/material/pointwise_material.h"
 
 namespace furrow {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The law of the tutorial: the conformance suite, and closed forms.
-#include "material/models/von_mises/von_mises.h"
+#include "furrow/material/models/von_mises/von_mises.h"
 
 #include <gtest/gtest.h>
 
-#include "testing/material_conformance.h"
-#include "testing/material_text.h"
+#include "furrow/testing/material_conformance.h"
+#include "furrow/testing/material_text.h"
 
 namespace furrow::test {
 namespace {

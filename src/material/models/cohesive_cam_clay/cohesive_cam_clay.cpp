@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/models/cohesive_cam_clay/cohesive_cam_clay.h"
+#include "furrow/material/models/cohesive_cam_clay/cohesive_cam_clay.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "material/hardening/hardening.h"
+#include "furrow/core/error.h"
+#include "furrow/material/hardening/hardening.h"
 
 namespace furrow {
 

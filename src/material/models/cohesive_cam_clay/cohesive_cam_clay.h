@@ -20,8 +20,8 @@
 /// Frozen energy (theory: laws, eq. 19): back stress c; the dissipation is Lambda' (f + a) >= 0.
 /// beta <= 1 keeps c >= 0. src/material/snow.md shows what the law does with snow.
 
-#include "material/kernel_law.h"
-#include "material/models/cohesive_cam_clay/cohesive_cam_clay_parameters.h"
+#include "furrow/material/kernel_law.h"
+#include "furrow/material/models/cohesive_cam_clay/cohesive_cam_clay_parameters.h"
 
 namespace furrow {
 

@@ -15,12 +15,12 @@
 /// several where p0 softens more steeply than the point is stiff. The search then ends at one of
 /// them.
 
-#include "material/block_update.h"
-#include "material/elasticity/elasticity_kernel.h"
-#include "material/hardening/hardening_kernel.h"
-#include "material/hardening_step.h"
-#include "material/models/cohesive_cam_clay/cohesive_cam_clay_parameters.h"
-#include "simd/root_solver.h"
+#include "furrow/material/block_update.h"
+#include "furrow/material/elasticity/elasticity_kernel.h"
+#include "furrow/material/hardening/hardening_kernel.h"
+#include "furrow/material/hardening_step.h"
+#include "furrow/material/models/cohesive_cam_clay/cohesive_cam_clay_parameters.h"
+#include "furrow/simd/root_solver.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -19,8 +19,8 @@
 ///
 /// With a relaxation time the stress may be beyond the surfaces for a time (eq. 7).
 
-#include "material/kernel_law.h"
-#include "material/models/cohesive_cap/cohesive_cap_parameters.h"
+#include "furrow/material/kernel_law.h"
+#include "furrow/material/models/cohesive_cap/cohesive_cap_parameters.h"
 
 namespace furrow {
 

@@ -15,12 +15,12 @@
 /// Either f is negative at the y where p = 0, so the root is bracketed. Shear alone leaves p and
 /// cuts q.
 
-#include "material/block_update.h"
-#include "material/elasticity/elasticity_kernel.h"
-#include "material/hardening/hardening_kernel.h"
-#include "material/hardening_step.h"
-#include "material/models/cohesive_cap/cohesive_cap_parameters.h"
-#include "simd/root_solver.h"
+#include "furrow/material/block_update.h"
+#include "furrow/material/elasticity/elasticity_kernel.h"
+#include "furrow/material/hardening/hardening_kernel.h"
+#include "furrow/material/hardening_step.h"
+#include "furrow/material/models/cohesive_cap/cohesive_cap_parameters.h"
+#include "furrow/simd/root_solver.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/models/crushable_foam/crushable_foam.h"
+#include "furrow/material/models/crushable_foam/crushable_foam.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "material/hardening/hardening.h"
-#include "material/section/section.h"
+#include "furrow/core/error.h"
+#include "furrow/material/hardening/hardening.h"
+#include "furrow/material/section/section.h"
 
 namespace furrow {
 

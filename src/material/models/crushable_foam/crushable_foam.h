@@ -11,8 +11,8 @@
 /// Table 1 of [Shoop2001] can be read as pc0 or as pc0 + pt: the key pc0_reading chooses. All
 /// plastic work is dissipated.
 
-#include "material/kernel_law.h"
-#include "material/models/crushable_foam/crushable_foam_parameters.h"
+#include "furrow/material/kernel_law.h"
+#include "furrow/material/models/crushable_foam/crushable_foam_parameters.h"
 
 namespace furrow {
 

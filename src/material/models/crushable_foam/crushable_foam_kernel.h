@@ -8,13 +8,13 @@
 /// and p keeps the sign of the trial. The unknown |De| runs from 0 to the value at which p and q
 /// are 0. That point is inside the ellipse because pt > 0 and pc > 0, so the root is bracketed.
 
-#include "material/block_update.h"
-#include "material/deviatoric_return.h"
-#include "material/elasticity/elasticity_kernel.h"
-#include "material/hardening/hardening_kernel.h"
-#include "material/hardening_step.h"
-#include "material/models/crushable_foam/crushable_foam_parameters.h"
-#include "simd/root_solver.h"
+#include "furrow/material/block_update.h"
+#include "furrow/material/deviatoric_return.h"
+#include "furrow/material/elasticity/elasticity_kernel.h"
+#include "furrow/material/hardening/hardening_kernel.h"
+#include "furrow/material/hardening_step.h"
+#include "furrow/material/models/crushable_foam/crushable_foam_parameters.h"
+#include "furrow/simd/root_solver.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -2,11 +2,11 @@
 #pragma once
 /// Constants and kernels of the crushable foam law, as plain data.
 
-#include "material/elasticity/elasticity_parameters.h"
-#include "material/hardening/hardening_parameters.h"
-#include "material/point_block.h"
-#include "material/section/section_parameters.h"
-#include "simd/instruction_set.h"
+#include "furrow/material/elasticity/elasticity_parameters.h"
+#include "furrow/material/hardening/hardening_parameters.h"
+#include "furrow/material/point_block.h"
+#include "furrow/material/section/section_parameters.h"
+#include "furrow/simd/instruction_set.h"
 
 namespace furrow {
 

@@ -8,8 +8,8 @@
 /// Flow is associated with psi = beta and keeps the volume with psi = 0. With beta = 0 the law is
 /// that of von Mises. Tension ends at the apex p = -d/tan(beta). Theory: laws, eqs. 12, 21, 22.
 
-#include "material/kernel_law.h"
-#include "material/models/drucker_prager/drucker_prager_parameters.h"
+#include "furrow/material/kernel_law.h"
+#include "furrow/material/models/drucker_prager/drucker_prager_parameters.h"
 
 namespace furrow {
 

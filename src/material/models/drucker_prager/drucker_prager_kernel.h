@@ -8,9 +8,9 @@
 ///   q = q_tr - 3 G y,  p = p_tr + K tan(psi) y.
 /// A state that would pass the apex of the cone returns to the apex.
 
-#include "material/block_update.h"
-#include "material/elasticity/elasticity_kernel.h"
-#include "material/models/drucker_prager/drucker_prager_parameters.h"
+#include "furrow/material/block_update.h"
+#include "furrow/material/elasticity/elasticity_kernel.h"
+#include "furrow/material/models/drucker_prager/drucker_prager_parameters.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -9,8 +9,8 @@
 /// frozen energy pa d(eps_vol_pl) is never negative, because both potentials grow away from (pa, 0)
 /// [Collins2005].
 
-#include "material/kernel_law.h"
-#include "material/models/drucker_prager_cap/drucker_prager_cap_parameters.h"
+#include "furrow/material/kernel_law.h"
+#include "furrow/material/models/drucker_prager_cap/drucker_prager_cap_parameters.h"
 
 namespace furrow {
 

@@ -3,9 +3,9 @@
 /// Kernel of the Drucker-Prager cap law: trial, return mapping (drucker_prager_cap_return.h),
 /// energies and the new state.
 
-#include "material/block_update.h"
-#include "material/deviatoric_return.h"
-#include "material/models/drucker_prager_cap/drucker_prager_cap_return.h"
+#include "furrow/material/block_update.h"
+#include "furrow/material/deviatoric_return.h"
+#include "furrow/material/models/drucker_prager_cap/drucker_prager_cap_return.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

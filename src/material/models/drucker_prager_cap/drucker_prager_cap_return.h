@@ -11,7 +11,7 @@
 /// all hold with the stress and the hardening of the end of the step. The stress is then placed on
 /// the surface of the final eps, so that the yield function is zero to rounding.
 
-#include "material/models/drucker_prager_cap/return_to_cap.h"
+#include "furrow/material/models/drucker_prager_cap/return_to_cap.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -3,9 +3,9 @@
 /// Yield surfaces of the Drucker-Prager cap law at a given volumetric plastic strain (theory: laws,
 /// eqs. 6 to 9). The law: drucker_prager_cap.h.
 
-#include "material/hardening/hardening_kernel.h"
-#include "material/models/drucker_prager_cap/drucker_prager_cap_parameters.h"
-#include "simd/root_solver.h"
+#include "furrow/material/hardening/hardening_kernel.h"
+#include "furrow/material/models/drucker_prager_cap/drucker_prager_cap_parameters.h"
+#include "furrow/simd/root_solver.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -2,9 +2,9 @@
 #pragma once
 /// The elastic trial of a step of the Drucker-Prager cap law, and which surface it violates.
 
-#include "material/elasticity/elasticity_kernel.h"
-#include "material/models/drucker_prager_cap/drucker_prager_cap_surfaces.h"
-#include "material/point_block.h"
+#include "furrow/material/elasticity/elasticity_kernel.h"
+#include "furrow/material/models/drucker_prager_cap/drucker_prager_cap_surfaces.h"
+#include "furrow/material/point_block.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

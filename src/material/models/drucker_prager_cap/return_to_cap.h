@@ -14,7 +14,7 @@
 /// after a few iterations, and those of porous elasticity, are solved with one equation inside the
 /// other, each within a bracket, which always converges.
 
-#include "material/models/drucker_prager_cap/drucker_prager_cap_trial.h"
+#include "furrow/material/models/drucker_prager_cap/drucker_prager_cap_trial.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

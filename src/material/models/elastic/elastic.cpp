@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/models/elastic/elastic.h"
+#include "furrow/material/models/elastic/elastic.h"
 
 namespace furrow {
 

@@ -3,8 +3,8 @@
 /// Elastic ground: linear or porous elasticity (elasticity.h) without yielding. Rate form
 /// (hypoelastic) under finite strain.
 
-#include "material/kernel_law.h"
-#include "material/models/elastic/elastic_parameters.h"
+#include "furrow/material/kernel_law.h"
+#include "furrow/material/models/elastic/elastic_parameters.h"
 
 namespace furrow {
 

@@ -2,9 +2,9 @@
 #pragma once
 /// Kernel of the elastic law.
 
-#include "material/block_update.h"
-#include "material/elasticity/elasticity_kernel.h"
-#include "material/models/elastic/elastic_parameters.h"
+#include "furrow/material/block_update.h"
+#include "furrow/material/elasticity/elasticity_kernel.h"
+#include "furrow/material/models/elastic/elastic_parameters.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

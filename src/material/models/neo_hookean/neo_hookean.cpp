@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/models/neo_hookean/neo_hookean.h"
+#include "furrow/material/models/neo_hookean/neo_hookean.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 /// The state is the left Cauchy-Green tensor b. The stress follows from it, so setting the stress
 /// alone has no effect.
 
-#include "material/kernel_law.h"
-#include "material/models/neo_hookean/neo_hookean_parameters.h"
+#include "furrow/material/kernel_law.h"
+#include "furrow/material/models/neo_hookean/neo_hookean_parameters.h"
 
 namespace furrow {
 

@@ -3,9 +3,9 @@
 /// Kernel of the neo-Hookean law: b_{n+1} = Delta F b_n Delta F^T, stress from b. Equations:
 /// neo_hookean.h.
 
-#include "material/block_update.h"
-#include "material/models/neo_hookean/neo_hookean_parameters.h"
-#include "simd/exponential.h"
+#include "furrow/material/block_update.h"
+#include "furrow/material/models/neo_hookean/neo_hookean_parameters.h"
+#include "furrow/simd/exponential.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -2,8 +2,8 @@
 #pragma once
 /// Constants and kernels of the neo-Hookean law, as plain data.
 
-#include "material/point_block.h"
-#include "simd/instruction_set.h"
+#include "furrow/material/point_block.h"
+#include "furrow/simd/instruction_set.h"
 
 namespace furrow {
 

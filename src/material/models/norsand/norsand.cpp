@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "material/models/norsand/norsand.h"
+#include "furrow/material/models/norsand/norsand.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "material/section/section.h"
+#include "furrow/core/error.h"
+#include "furrow/material/section/section.h"
 
 namespace furrow {
 

@@ -44,8 +44,8 @@
 /// K and G are those of the pressure at the start of the step (hypoelastic): closed elastic cycles
 /// of pressure and shear together do not conserve energy exactly.
 
-#include "material/kernel_law.h"
-#include "material/models/norsand/norsand_parameters.h"
+#include "furrow/material/kernel_law.h"
+#include "furrow/material/models/norsand/norsand_parameters.h"
 
 namespace furrow {
 

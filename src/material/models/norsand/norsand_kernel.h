@@ -18,11 +18,11 @@
 /// where P_i falls. Its voids then grow by more than those of the point, at most to the critical
 /// state.
 
-#include "material/block_update.h"
-#include "material/deviatoric_return.h"
-#include "material/models/norsand/norsand_parameters.h"
-#include "simd/exponential.h"
-#include "simd/root_solver.h"
+#include "furrow/material/block_update.h"
+#include "furrow/material/deviatoric_return.h"
+#include "furrow/material/models/norsand/norsand_parameters.h"
+#include "furrow/simd/exponential.h"
+#include "furrow/simd/root_solver.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

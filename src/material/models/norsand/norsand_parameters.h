@@ -2,9 +2,9 @@
 #pragma once
 /// Constants and kernels of NorSand, as plain data (norsand.h has the equations).
 
-#include "material/point_block.h"
-#include "material/section/section_parameters.h"
-#include "simd/instruction_set.h"
+#include "furrow/material/point_block.h"
+#include "furrow/material/section/section_parameters.h"
+#include "furrow/simd/instruction_set.h"
 
 namespace furrow {
 

@@ -16,8 +16,8 @@
 /// continuum w is the cell (TerrainFill); alone a point has the key band_width. A band wider than
 /// G slip_95/(3 s_u (1 - 1/s_t)) falls at once to a softer state.
 
-#include "material/kernel_law.h"
-#include "material/models/undrained_clay/undrained_clay_parameters.h"
+#include "furrow/material/kernel_law.h"
+#include "furrow/material/models/undrained_clay/undrained_clay_parameters.h"
 
 namespace furrow {
 

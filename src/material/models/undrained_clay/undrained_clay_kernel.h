@@ -6,11 +6,11 @@
 ///   q_tr - 3 G y - q_y R(y) S(eps + y) = 0
 /// Without rate and sensitivity it is linear. A sudden step of clay with a rate is elastic.
 
-#include "material/block_update.h"
-#include "material/elasticity/elasticity_kernel.h"
-#include "material/models/undrained_clay/undrained_clay_parameters.h"
-#include "simd/exponential.h"
-#include "simd/root_solver.h"
+#include "furrow/material/block_update.h"
+#include "furrow/material/elasticity/elasticity_kernel.h"
+#include "furrow/material/models/undrained_clay/undrained_clay_parameters.h"
+#include "furrow/simd/exponential.h"
+#include "furrow/simd/root_solver.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/base/roles/fix_scm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "coupling/liggghts/styles/script.h"
+#include "furrow/core/options/check_number.h"
+#include "furrow/io/formats/heightmap_file.h"
+#include "furrow/io/inputs/patch_input.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+std::optional<SoilCard> card_of(const Options& options, const std::string& folder) {
+  if (!options.given("card")) return {};
+  return read_soil_card((std::filesystem::path(folder) / options.text("card")).string());
+}
+
+/// Soils of the line and of the cards of its patches. All have the stiffness, damping and flow of
+/// the line. None for a line that has no parameter of a soil.
+std::optional<SoilPatches> soils_of(const Options& options, const std::optional<SoilCard>& card,
+                                    const HeightFieldParameters& field, const std::string& folder) {
+  using Values = std::map<std::string, double>;
+  const auto of_soil = {"k_c", "k_phi", "n", "c", "phi", "K", "card", "patches"};
+  if (std::none_of(of_soil.begin(), of_soil.end(),
+                   [&](const char* key) { return options.given(key); }))
+    return std::nullopt;
+  SoilPatches soils(soil_from(options, card ? card->values : Values()));
+  const PatchesInput patches = read_patches(options);
+  const double middle = field.centre[patches.axis],
+               half = 0.5 * (patches.axis == 0 ? field.length : field.width);
+  for (const PatchInput& patch : patches.list) {
+    need(std::abs(patch.begin - middle) < half, options.where("patches"),
+         fmt::format("begins a patch at {:g} m", patch.begin),
+         fmt::format("a place on the ground, {:g} to {:g} m", middle - half, middle + half));
+    const SoilCard of_patch = read_soil_card((std::filesystem::path(folder) / patch.soil).string());
+    soils.add(patches.axis, patch.begin, soil_of_card(options, of_patch.values));
+  }
+  return soils;
+}
+
+HeightFieldParameters field_of(const Options& options, const std::string& folder) {
+  HeightFieldParameters field = height_field_from(options);
+  field.relief = read_relief(options, folder);
+  return field;
+}
+
+}  // namespace
+
+const Outputs<FixScm>& FixScm::outputs() {
+  static const Outputs<FixScm> list = {
+      {"deepest", "m", "largest permanent sinkage",
+       [](FixScm& fix) { return fix.field().deepest(); }},
+      {"volume_below", "m^3", "volume of ruts below the undisturbed level",
+       [](FixScm& fix) { return fix.field().volume_below(); }},
+      {"volume_above", "m^3", "volume of soil above the undisturbed level",
+       [](FixScm& fix) { return fix.field().volume_above(); }},
+  };
+  return list;
+}
+
+FixScm::FixScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
+    : FurrowFix(lammps, narg, arg, schema),
+      card_(card_of(options(), script_folder(*lammps))),
+      soils_(soils_of(options(), card_, height_field_from(options()), script_folder(*lammps))),
+      field_(field_of(options(), script_folder(*lammps)), options().subject()) {
+  if (const std::string note = field_.parameters().relief.note(); !note.empty())
+    warn(*lmp, fmt::format("{}: {}", options().where("heightmap"), note));
+  keep_state();
+  provide(outputs());
+}
+
+}  // namespace furrow::coupling

@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/version.h"
-
-namespace furrow {
-
-std::string version() { return FURROW_VERSION; }  // defined by src/CMakeLists.txt
-
-}  // namespace furrow
