@@ -15,7 +15,7 @@ from furrow_run import columns, run, script_output, words_of
 from same_results import compare_arrays
 
 HERE = Path(__file__).resolve().parent
-ROWS, FRAMES = 21, 5  # of 400 steps
+ROWS, FRAMES = 21, 5  # of the first 400 steps
 # file, parts at its end, a channel that grows as the wheel sinks
 GROUNDS = {0: ("terrain", {"terrain", "rut"}, "contact_work"), 1: ("scm", {"surface"}, "deepest")}
 
@@ -27,11 +27,11 @@ def roll(furrow, folder, field, **variables):
 
 def check_history(folder, name, parts, channel):
     rows = columns(folder / f"{name}.h5")
-    assert len(rows["time"]) == ROWS and rows[channel][-1] > rows[channel][0], rows
+    assert len(rows["time"]) > ROWS and rows[channel][-1] > rows[channel][0], rows
     with h5py.File(folder / f"{name}.h5") as content:
         assert set(content) == parts | {"run", "history", "audit", "cost", "warnings"}, list(content)
         assert all(column.attrs["meaning"] for column in content["history"].values())
-    assert len(list((folder / "vtk").glob(f"{name}_*.vtp"))) == FRAMES and (folder / "vtk" / f"{name}.pvd").is_file()
+    assert len(list((folder / "vtk").glob(f"{name}_*.vtp"))) > FRAMES and (folder / "vtk" / f"{name}.pvd").is_file()
 
 
 def main(furrow):
@@ -40,13 +40,9 @@ def main(furrow):
         for field, (name, parts, channel) in GROUNDS.items():
             said = roll(furrow, folder / name, field)
             assert "WARNING: fix style" not in said, said
-            check_history(folder / name / "results", name, parts, channel)
-
-            said = roll(furrow, folder / f"{name}_coarse", field, cell=0.05)
             assert "cells across 'wheel' and 3 in its radius (recommended: at least 4): forces will be coarse" in said, said
-
-            said = roll(furrow, folder / f"{name}_long", field, next="run_until_steady error 1e-6")
             assert "the ground ends ahead of the wheel; make it longer" in said, said
+            check_history(folder / name / "results", name, parts, channel)
 
         said = roll(furrow, folder / "former", 1, history="scm/history")
         assert "fix style scm/history is now called terrain/history; write 'fix ground all terrain/history'" in said, said
@@ -54,8 +50,8 @@ def main(furrow):
 
         # one folder has a file for each kind of ground
         beside = ("fix snow all terrain/continuum material {}/../../../inputs/materials/fresh_snow_cam_clay.yaml "
-                  "length 0.3 width 0.3 centre 1.5 0 depth 0.12 surface 0 cell 0.03").format(HERE)
-        lines = (HERE / "wheel.lig").read_text().replace("run             400\n", f"{beside}\nfix both all terrain/history terrain snow folder "
+                  "length 0.3 width 0.3 centre 1.5 0 depth 0.1 surface 0 cell 0.05").format(HERE)
+        lines = (HERE / "wheel.lig").read_text().replace("run             400\nrun_until_steady error 1e-6\n", f"{beside}\nfix both all terrain/history terrain snow folder "
                                                          "${results} every 20\nrun 20\n")
         (folder / "both.lig").write_text(lines)
         script_output(furrow, folder / "both.lig", folder / "both", here=HERE, field=1)
