@@ -64,11 +64,11 @@ class FurrowFix : public LAMMPS_NS::Fix,
 
   // ---- for the constructor of the derived class
   // --------------------------------------------------
-  /// The fix named by a keyword. @throws InputError
+  /// The fix, of a class or a role, named by a keyword. @throws InputError
   template <class Wanted>
   Wanted& use(const std::string& key, const std::vector<std::string>& kinds) {
     Wanted& fix = find_fix<Wanted>(*lmp, options_, key, kinds);
-    used_.push_back(&fix);
+    used_.push_back(&as_fix(fix));
     return fix;
   }
   /// Adds a part, which is not owned, to the system; it holds parts in the order of these calls.

@@ -9,13 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "atom.h"
-#include "atom_vec.h"
 #include "furrow/core/communicator.h"
+#include "coupling/base/roles/grain_bed.h"
 #include "coupling/checks/scene_checks.h"
 #include "coupling/liggghts/data/access.h"
 #include "coupling/liggghts/checkpoint_file.h"
-#include "coupling/liggghts/styles/fixes_of.h"
 #include "coupling/terrain/bed/fix_bed_window.h"
 
 namespace furrow::coupling {
@@ -26,12 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr double gigabyte = 1e9;
 constexpr double longest_record = std::numeric_limits<int>::max();  // LIGGGHTS reads its length
-
-/// Grains with all that rides with them, of all ranks [bytes].
-double bytes_of_grains(const LAMMPS_NS::LAMMPS& lammps) {
-  return Communicator(&lammps.world)
-      .sum(sizeof(double) * static_cast<double>(lammps.atom->avec->size_restart()));
-}
 
 /// Room [bytes] that has to be free before the first of these checkpoints: all of them, and one
 /// that is written before it replaces another.
@@ -68,9 +60,8 @@ Found checkpoints_have_room(const Scene& scene) {
   const std::vector<std::string> names = checkpoint_names(scene.lammps);
   if (names.empty()) return {};
   const Communicator ranks(&scene.lammps.world);
-  double size = bytes_of_grains(scene.lammps);
-  for (const FixTerrain* terrain : fixes_of<FixTerrain>(*scene.lammps.modify))
-    size += terrain->terrain().checkpoint_size();
+  double size = 0.0;
+  for (const Ground* ground : Grounds(scene.lammps)) size += ground->checkpoint_size();
   double free = -1.0, needed = 0.0;
   if (ranks.rank() == 0) {
     std::error_code unknown;
@@ -94,7 +85,7 @@ Found checkpoints_have_room(const Scene& scene) {
 
 Found bed_fits_a_record(const Scene& scene, const FixBedWindow& window) {
   const double grains =
-      checkpoint_names(scene.lammps).empty() ? 0.0 : bytes_of_grains(scene.lammps);
+      checkpoint_names(scene.lammps).empty() ? 0.0 : GrainBed(scene.lammps).checkpoint_size();
   if (grains <= longest_record) return {};
   return refusal(window.name(),
                  fmt::format("keeps the bed in {:.3g} GB of a checkpoint", grains / gigabyte),

@@ -15,7 +15,6 @@
 #include "coupling/liggghts/styles/fixes_of.h"
 #include "coupling/wheels/fix_plate_rigid.h"
 #include "coupling/wheels/fix_tyre_brick.h"
-#include "coupling/base/roles/fix_scm.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
 #include "coupling/drive/fix_wheel_rig.h"
@@ -64,48 +63,26 @@ struct Pair {
   Span body_x, body_y, terrain_x, terrain_y;
 };
 
+/// Corners of the box around a body; those of a half model are of the whole.
+std::pair<Vector3, Vector3> whole_bounds(const Body& body) {
+  auto corners = body.surface().bounds();
+  if (body.half_model()) corners.first.y() = -corners.second.y();
+  return corners;
+}
+
 /// Extents of a half model are those of the whole.
 Pair describe(FixContactContinuum& contact) {
-  const Body& body = contact.body_fix().body();
   const FixTerrain& terrain = contact.terrain_fix();
-  const Grid& grid = contact.terrain_fix().terrain().grid();
-  const auto [lower, upper] = body.surface().bounds();
-  const Span y{grid.axis(1).lower(), grid.axis(1).upper()};
-  return {contact.body_fix(),
-          terrain,
-          {lower[0], upper[0]},
-          {body.half_model() ? -upper[1] : lower[1], upper[1]},
-          {grid.axis(0).lower(), grid.axis(0).upper()},
-          {terrain.half_model() ? 2.0 * y.lower - y.upper : y.lower, y.upper}};
+  const auto [lower, upper] = whole_bounds(contact.body_fix().body());
+  const auto [x_lower, x_upper] = terrain.extent(0);
+  const auto [y_lower, y_upper] = terrain.extent(1);
+  return {
+      contact.body_fix(),     terrain,
+      {lower.x(), upper.x()}, {lower.y(), upper.y()},
+      {x_lower, x_upper},     {terrain.half_model() ? 2.0 * y_lower - y_upper : y_lower, y_upper}};
 }
 
 bool is_wheel(const FixBody& body) { return dynamic_cast<const FixWheelHub*>(&body) != nullptr; }
-
-/// Cells of an axis within a span, fractions included.
-double cells_within(const Axis& axis, const Span& span) {
-  double count = 0.0;
-  for (int c = 0; c < axis.cells(); ++c) {
-    const double lower = std::max(axis.knot(c), span.lower),
-                 upper = std::min(axis.knot(c + 1), span.upper);
-    count += std::max(0.0, upper - lower) / axis.length(c);
-  }
-  return count;
-}
-
-/// @param across, along  cells across a body, and in the radius of a wheel or along a plate
-Found judge_cells(const Options& terrain, const FixBody& body, double across, double along,
-                  const std::string& remedy) {
-  const double fewest = std::min(across, along);
-  if (fewest >= nearly * good_cells) return {};
-  const std::string where = terrain.where("cell");
-  const std::string problem =
-      fmt::format("is {:.4g} m: {:.2g} cells across '{}' and {:.2g} {}", terrain.number("cell"),
-                  across, body.id, along, is_wheel(body) ? "in its radius" : "along it");
-  if (fewest < nearly * min_cells)
-    return refusal(where, problem, fmt::format("at least {:g} of both", min_cells), remedy);
-  return warning(fmt::format("{} {} (recommended: at least {:g}): forces will be coarse; {}", where,
-                             problem, good_cells, remedy));
-}
 
 bool in_a_wall(const LAMMPS_NS::Modify& modify, const FixMeshBody& mesh) {
   const auto walls = fixes_of<const FixWallGranBody>(modify);
@@ -271,7 +248,7 @@ Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& ter
 }
 
 Found body_touches_something(const Scene& scene, FixBody& body) {
-  if (dynamic_cast<const FixTerrain*>(&body) || touches_grains(scene.lammps, body) ||
+  if (dynamic_cast<const Ground*>(&body) || touches_grains(scene.lammps, body) ||
       has_contact(*scene.lammps.modify, body))
     return {};
   return warning(fmt::format(
@@ -356,27 +333,6 @@ Found terrain_is_deep_enough(const Scene&, FixContactContinuum& contact) {
 
 namespace {
 
-/// Grousers that cells do not resolve act as a smooth rim of some radius between rim and tip.
-/// @param height, along  size of the cells [m]
-Found judge_grousers(const FixBody& body, const Options& ground, double height, double along) {
-  const auto* wheel = dynamic_cast<const WheelHub*>(&body.body());
-  if (!wheel || !body.options().has("grousers")) return {};
-  const auto count = static_cast<double>(body.options().integer("grousers"));
-  const double high = wheel->tip_radius() - wheel->nominal_radius(),
-               apart = 2.0 * pi * wheel->nominal_radius() / count;
-  if (count == 0.0 || high <= 0.0 ||
-      (high >= cells_of_a_lug * height && apart >= cells_of_a_lug * along))
-    return {};
-  return warning(fmt::format(
-      "{} is {:.4g} m, and the grousers of '{}' are {:.3g} m high and {:.3g} m apart: the ground "
-      "does not resolve them; write at most 'cell {:.2g}' ({:g} cells in height and spacing), or "
-      "compare with a wheel without grousers",
-      ground.where("cell"), ground.number("cell"), body.id, high, apart,
-      std::min(high / cells_of_a_lug * ground.number("cell") / height,
-               apart / cells_of_a_lug * ground.number("cell") / along),
-      cells_of_a_lug));
-}
-
 /// Travel along x from now to the end of the run [m]; nothing for a body whose speed is an answer.
 std::optional<double> planned_travel(const Scene& scene, const FixBody& body) {
   for (const auto* rig : fixes_of<const FixWheelRig>(*scene.lammps.modify))
@@ -386,10 +342,27 @@ std::optional<double> planned_travel(const Scene& scene, const FixBody& body) {
 
 }  // namespace
 
-Found cells_show_the_grousers(const Scene&, FixContactContinuum& contact) {
-  const Grid& grid = contact.terrain_fix().terrain().grid();
-  return judge_grousers(contact.body_fix(), contact.terrain_fix().options(),
-                        grid.axis(2).shortest(), grid.axis(0).shortest());
+/// Grousers that cells do not resolve act as a smooth rim of some radius between rim and tip.
+Found cells_show_the_grousers(const Scene&, FixGroundContact& contact) {
+  const FixBody& body = contact.body_fix();
+  const Options& ground = contact.ground().line();
+  const auto* wheel = dynamic_cast<const WheelHub*>(&body.body());
+  if (!wheel || !body.options().has("grousers")) return {};
+  const Vector3 cell = contact.ground().shortest_cell();
+  const auto count = static_cast<double>(body.options().integer("grousers"));
+  const double high = wheel->tip_radius() - wheel->nominal_radius(),
+               apart = 2.0 * pi * wheel->nominal_radius() / count;
+  if (count == 0.0 || high <= 0.0 ||
+      (high >= cells_of_a_lug * cell.z() && apart >= cells_of_a_lug * cell.x()))
+    return {};
+  return warning(fmt::format(
+      "{} is {:.4g} m, and the grousers of '{}' are {:.3g} m high and {:.3g} m apart: the ground "
+      "does not resolve them; write at most 'cell {:.2g}' ({:g} cells in height and spacing), or "
+      "compare with a wheel without grousers",
+      ground.where("cell"), ground.number("cell"), body.id, high, apart,
+      std::min(high / cells_of_a_lug * ground.number("cell") / cell.z(),
+               apart / cells_of_a_lug * ground.number("cell") / cell.x()),
+      cells_of_a_lug));
 }
 
 /// Blades, and grousers: ground reaches both sides of no other part.
@@ -422,11 +395,6 @@ Found thin_parts_divide_the_ground(const Scene&, FixContactContinuum& contact) {
       "3 times too hard; write 'thin_parts yes' in the line of terrain '{}'",
       body.id, count == 1 ? "a part" : fmt::format("{} parts", count),
       DividedGround::largest_thickness, contact.terrain_fix().id));
-}
-
-Found cells_of_the_field_show_the_grousers(const Scene&, FixContactScm& contact) {
-  const double cell = contact.terrain_fix().field().cell();
-  return judge_grousers(contact.body_fix(), contact.terrain_fix().options(), cell, cell);
 }
 
 /// Checked after a run in which the wheel has rolled.
@@ -545,30 +513,28 @@ Found terrain_has_the_size_of_a_wheels(const Scene&, FixContactContinuum& contac
   return {};
 }
 
-Found cells_show_the_body(const Scene&, FixContactContinuum& contact) {
-  const Pair pair = describe(contact);
-  const Grid& grid = contact.terrain_fix().terrain().grid();
-  // Half of the ground has half of the cells.
-  double across = (pair.terrain.half_model() ? 2.0 : 1.0) * cells_within(grid.axis(1), pair.body_y);
-  double along = (is_wheel(pair.body) ? 0.5 : 1.0) * pair.body_x.length() / grid.axis(0).shortest();
-  // A tool that moves sideways shows its height in place of its thickness.
-  const auto* tool = dynamic_cast<const FixPlateRigid*>(&pair.body);
-  if (tool && std::abs(tool->direction().z()) < sideways) {
-    const auto [lower, upper] = pair.body.body().surface().bounds();
-    (std::abs(tool->direction().x()) > std::abs(tool->direction().y()) ? along : across) =
-        cells_within(grid.axis(2), {lower.z(), upper.z()});
-  }
-  return judge_cells(pair.terrain.options(), pair.body, across, along,
-                     "choose smaller cells, and a larger fine_width if there is one");
-}
-
-Found cells_of_the_field_show_the_body(const Scene&, FixContactScm& contact) {
+/// Counts cells across a body, and in the radius of a wheel or along a plate.
+Found cells_show_the_body(const Scene&, FixGroundContact& contact) {
   const FixBody& body = contact.body_fix();
-  const Options& options = contact.terrain_fix().options();
-  const auto [lower, upper] = body.body().surface().bounds();
-  const Vector3 cells = (upper - lower) / options.number("cell");
-  return judge_cells(options, body, (body.body().half_model() ? 2.0 : 1.0) * cells.y(),
-                     (is_wheel(body) ? 0.5 : 1.0) * cells.x(), "choose smaller cells, in m");
+  const Options& ground = contact.ground().line();
+  const auto [lower, upper] = whole_bounds(body.body());
+  const Vector3 cells = contact.ground().cells_across(lower, upper);
+  double across = cells.y(), along = (is_wheel(body) ? 0.5 : 1.0) * cells.x();
+  // A tool that moves sideways shows its height in place of its thickness.
+  const auto* tool = dynamic_cast<const FixPlateRigid*>(&body);
+  if (tool && std::abs(tool->direction().z()) < sideways && !std::isnan(cells.z()))
+    (std::abs(tool->direction().x()) > std::abs(tool->direction().y()) ? along : across) =
+        cells.z();
+  const double fewest = std::min(across, along);
+  if (fewest >= nearly * good_cells) return {};
+  const std::string where = ground.where("cell"), remedy = contact.ground().finer_cells();
+  const std::string problem =
+      fmt::format("is {:.4g} m: {:.2g} cells across '{}' and {:.2g} {}", ground.number("cell"),
+                  across, body.id, along, is_wheel(body) ? "in its radius" : "along it");
+  if (fewest < nearly * min_cells)
+    return refusal(where, problem, fmt::format("at least {:g} of both", min_cells), remedy);
+  return warning(fmt::format("{} {} (recommended: at least {:g}): forces will be coarse; {}", where,
+                             problem, good_cells, remedy));
 }
 
 Found wheel_on_a_field_has_no_camber(const Scene& scene, FixContactScm& contact) {

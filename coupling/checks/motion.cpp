@@ -15,10 +15,9 @@
 #include "furrow/core/gravity.h"
 #include "furrow/core/types.h"
 #include "coupling/liggghts/styles/fixes_of.h"
-#include "coupling/base/bed_line.h"
+#include "coupling/base/roles/grain_bed.h"
 #include "coupling/base/checks/grain_check.h"
 #include "coupling/wheels/fix_plate_rigid.h"
-#include "coupling/base/roles/fix_scm.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
 #include "coupling/contact/grains/grain_bed_check.h"
@@ -74,31 +73,13 @@ double wave_speed(const ContinuumTerrain& terrain) {
   return terrain.parameters().cfl * terrain.grid().shortest_cell() / terrain.stable_time_step();
 }
 
-/// Gravity as one line of the script gives it.
-struct GivenGravity {
-  std::string where;
-  Vector3 vector;  // [m/s^2]
-};
-
 /// Every gravity that a line of the scene uses. A rig uses it where it is given, or makes a force
-/// of a mass or a mass of a force; a height field where it is given, or a card holds in it.
+/// of a mass or a mass of a force.
 std::vector<GivenGravity> gravities(const Scene& scene) {
   const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
   std::vector<GivenGravity> given;
-  for (const auto* terrain : fixes_of<const FixTerrain>(modify))
-    given.push_back({terrain->options().where("gravity"), terrain->terrain().parameters().gravity});
-  for (const auto* field : fixes_of<const FixScm>(modify))
-    if (field->card() || field->options().given("gravity"))
-      given.push_back(
-          {field->options().where("gravity"), {0.0, 0.0, -field->options().number("gravity")}});
-  for (const auto& [name, value] : bed_line(scene.lammps))
-    if (name == "gravity")
-      given.push_back({"command bed, keyword 'gravity'", {0.0, 0.0, -std::stod(value)}});
-  if (scene.grains > 0.0)
-    for (auto* fix : fixes_of<LAMMPS_NS::FixGravity>(modify)) {
-      given.push_back({fmt::format("fix gravity '{}'", fix->id), Vector3::Zero()});
-      fix->get_gravity(given.back().vector.data());
-    }
+  for (const Ground* ground : Grounds(scene.lammps))
+    for (const GivenGravity& gravity : ground->gravities()) given.push_back(gravity);
   for (const auto* rig : fixes_of<const FixWheelRig>(modify)) {
     const Options& options = rig->options();
     if (options.given("gravity") || options.given("load_mass") ||
@@ -118,7 +99,7 @@ bool touches_plane_only(const Scene& scene, const FixBody& body) {
   const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
   const auto on_body = [&](const auto* contact) { return contact->uses(body); };
   const auto planes = fixes_of<const FixContactPlane>(modify);
-  const auto grounds = fixes_of<const FixContactContinuum>(modify);
+  const auto grounds = fixes_of<const FixGroundContact>(modify);
   return std::any_of(planes.begin(), planes.end(), on_body) &&
          std::none_of(grounds.begin(), grounds.end(), on_body) &&
          !touches_grains(scene.lammps, body);
@@ -294,12 +275,14 @@ Found slope_is_given_once(const Scene& scene) {
       if (rig->rig().on_slope())
         return refusal(where, fmt::format("{}, and fix {} has a slope", problem, rig->id),
                        "one of the two", "write 'vector 0 0 -1' and keep the slope");
-    for (const auto* terrain : fixes_of<const FixTerrain>(modify))
-      if (terrain->options().number("gravity") > 0.0)
-        return refusal(where,
-                       fmt::format("{}, and that of {} straight down", problem, terrain->name()),
-                       "one direction for grains and terrain",
-                       "write 'vector 0 0 -1', and for a slope 'slope' in the line of the rig");
+    for (const auto* terrain : fixes_of<const Terrain>(modify))
+      for (const GivenGravity& given : terrain->gravities())
+        if (given.vector.norm() > 0.0)
+          return refusal(
+              where,
+              fmt::format("{}, and that of {} straight down", problem, name_of(as_fix(*terrain))),
+              "one direction for grains and terrain",
+              "write 'vector 0 0 -1', and for a slope 'slope' in the line of the rig");
     const double across = degrees(std::asin(std::abs(gravity.y()) / gravity.norm()));
     if (across > straight && -gravity.z() >= least_downward_share * gravity.norm())
       return warning(fmt::format(

@@ -15,7 +15,7 @@
 #include "furrow/core/communicator.h"
 #include "coupling/liggghts/styles/fixes_of.h"
 #include "coupling/base/checks/grain_check.h"
-#include "coupling/base/roles/fix_scm.h"
+#include "coupling/base/roles/grain_bed.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
 #include "coupling/contact/fix_contact_scm.h"
@@ -28,15 +28,11 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr int shrink_wrapped = 2;         // of Domain::nonperiodic
-constexpr double large_overlap = 0.02;    // of the smaller of two boxes around bodies
-constexpr double inside = 0.5;            // winding number
-constexpr double level_tolerance = 1e-3;  // of the body's size, on a continuum or a plane
-// Difference of a level over the largest diameter of the grains: a bed's level may be that of its
-// middles, of its highest grains or a mean, and a few grains may stick out.
-constexpr double grain_tolerance = 3.0;
-constexpr double deep_start = 0.05;  // of the height of a body
-constexpr double near_base = 0.1;    // of the depth of a terrain
+constexpr int shrink_wrapped = 2;       // of Domain::nonperiodic
+constexpr double large_overlap = 0.02;  // of the smaller of two boxes around bodies
+constexpr double inside = 0.5;          // winding number
+constexpr double deep_start = 0.05;     // of the height of a body
+constexpr double near_base = 0.1;       // of the depth of a terrain
 
 bool changes_on_purpose(const LAMMPS_NS::LAMMPS& lammps) {
   const auto fixes = fixes_of<const LAMMPS_NS::Fix>(*lammps.modify);
@@ -136,55 +132,19 @@ Eigen::Index node_inside(const Surface& surface, const Surface& mesh) {
   return -1;
 }
 
-/// The level of something under a body, and how well it is known.
-struct Level {
-  double z;          // [m]
-  double tolerance;  // [m]
-  std::string what;
-};
-
-/// z of the highest grain within the body's outline from above, of all ranks.
-std::optional<Level> level_of_grains(const LAMMPS_NS::LAMMPS& lammps, const Body& body) {
-  const LAMMPS_NS::Atom& atom = *lammps.atom;
-  const auto [lower, upper] = body.surface().bounds();
-  constexpr double none = -std::numeric_limits<double>::infinity();
-  double top = none, largest = 0.0;
-  for (int i = 0; i < atom.nlocal; ++i) {
-    const double* x = atom.x[i];
-    if (x[0] < lower[0] || x[0] > upper[0] || x[1] < lower[1] || x[1] > upper[1]) continue;
-    top = std::max(top, x[2] + atom.radius[i]);
-    largest = std::max(largest, 2.0 * atom.radius[i]);
-  }
-  const Communicator ranks(&lammps.world);
-  top = ranks.max(top);
-  largest = ranks.max(largest);
-  if (top == none) return std::nullopt;
-  return Level{top, grain_tolerance * largest, "the highest grain under it"};
-}
-
-std::vector<Level> levels_under(const LAMMPS_NS::LAMMPS& lammps, const FixBody& fix, double size) {
+std::vector<Level> levels_under(LAMMPS_NS::LAMMPS& lammps, const FixBody& fix) {
   std::vector<Level> levels;
-  for (auto* contact : fixes_of<FixContactContinuum>(*lammps.modify))
-    if (&contact->body_fix() == &fix)
-      levels.push_back({contact->terrain_fix().terrain().parameters().surface,
-                        level_tolerance * size,
-                        fmt::format("the surface of terrain '{}'", contact->terrain_fix().id)});
+  const auto add = [&](const std::optional<Level>& level) {
+    if (level) levels.push_back(*level);
+  };
+  for (auto* contact : fixes_of<FixGroundContact>(*lammps.modify))
+    if (&contact->body_fix() == &fix) add(contact->ground().level_under(fix.body()));
   for (auto* contact : fixes_of<FixContactPlane>(*lammps.modify))
     if (&contact->body_fix() == &fix)
-      levels.push_back({contact->options().number("level"), level_tolerance * size,
-                        fmt::format("the level of fix contact/plane '{}'", contact->id)});
-  for (auto* contact : fixes_of<FixFieldContact>(*lammps.modify))
-    if (&contact->body_fix() == &fix)
-      levels.push_back({contact->terrain_fix().field().parameters().level, level_tolerance * size,
-                        fmt::format("the surface of terrain '{}'", contact->terrain_fix().id)});
-  if (touches_grains(lammps, fix))
-    if (const auto grains = level_of_grains(lammps, fix.body())) levels.push_back(*grains);
+      add(exact_level(fix.body(), contact->options().number("level"),
+                      fmt::format("the level of fix contact/plane '{}'", contact->id)));
+  if (touches_grains(lammps, fix)) add(GrainBed(lammps).level_under(fix.body()));
   return levels;
-}
-
-double size_of(const FixBody& fix) {
-  const auto [lower, upper] = fix.body().surface().bounds();
-  return (upper - lower).maxCoeff();
 }
 
 /// Difference of a level from a given one, beyond the tolerance of the level.
@@ -196,7 +156,7 @@ double excess(const Level& level, double given) {
 std::optional<Level> level_at_start(const Scene& scene, const DrivenBody& driven, double given) {
   const double start = driven.options.number("start") + 0.5 * scene.step();
   if (scene.time() > start || scene.end() <= start) return std::nullopt;
-  const auto levels = levels_under(scene.lammps, driven.body, size_of(driven.body));
+  const auto levels = levels_under(scene.lammps, driven.body);
   const auto nearest = std::min_element(
       levels.begin(), levels.end(),
       [&](const Level& a, const Level& b) { return excess(a, given) < excess(b, given); });
@@ -206,7 +166,7 @@ std::optional<Level> level_at_start(const Scene& scene, const DrivenBody& driven
 /// A keyword that gives the level of the ground under a body that sets off.
 Found judge_level(const Scene& scene, const DrivenBody& driven, const Options& options,
                   const std::string& key, const std::string& use) {
-  const double given = options.number(key), size = size_of(driven.body);
+  const double given = options.number(key), size = size_of_body(driven.body.body());
   const auto level = level_at_start(scene, driven, given);
   if (!level || excess(*level, given) <= 0.0) return {};
   const std::string problem =
@@ -323,7 +283,7 @@ Found axle_stays_above_the_field(const Scene&, FixContactScm& contact) {
 
 Found bodies_are_apart(const Scene& scene, const FixBody& body) {
   const auto is_terrain = [](const FixBody& fix) {
-    return dynamic_cast<const FixTerrain*>(&fix) != nullptr;
+    return dynamic_cast<const Ground*>(&fix) != nullptr;
   };
   if (is_terrain(body)) return {};
   const auto bodies = fixes_of<const FixBody>(*scene.lammps.modify);
@@ -380,7 +340,7 @@ Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven) {
                     "strikes the ground and rests deeper than its load presses it; write 'release "
                     "on_ground' to lower it",
                     driven.body.id, gap, driven.options.where("release")));
-  if (gap > size_of(driven.body))
+  if (gap > size_of_body(driven.body.body()))
     return warning(
         fmt::format("'{}' starts {:.4g} m above the ground, more than its own size: it may not "
                     "come down in time; let it start just above z = {:.4g} m",

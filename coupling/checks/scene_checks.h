@@ -154,11 +154,9 @@ Found travel_stays_in_the_box(const Scene& scene, const FixMeshBody& mesh);
 Found wheel_stays_off_the_end(const Scene& scene, FixContactContinuum& contact);
 /// Finds terrain in centimetres in the place of metres.
 Found terrain_has_the_size_of_a_wheels(const Scene& scene, FixContactContinuum& contact);
-Found cells_show_the_body(const Scene& scene, FixContactContinuum& contact);
-Found cells_of_the_field_show_the_body(const Scene& scene, FixContactScm& contact);
-Found cells_show_the_grousers(const Scene& scene, FixContactContinuum& contact);
+Found cells_show_the_body(const Scene& scene, FixGroundContact& contact);
+Found cells_show_the_grousers(const Scene& scene, FixGroundContact& contact);
 Found thin_parts_divide_the_ground(const Scene& scene, FixContactContinuum& contact);
-Found cells_of_the_field_show_the_grousers(const Scene& scene, FixContactScm& contact);
 /// Checks after a run, when the sinkage is known.
 Found cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact);
 /// The soil contact model has no pressure on upright faces. With camber a side of a wheel is not

@@ -59,9 +59,9 @@ void warn_of_slip_length(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
 }
 
 BodyContact contact_with(LAMMPS_NS::LAMMPS& lammps, const Options& options, const FixBody& body,
-                         const std::string& material, const std::string& ground,
-                         const GroundContact& known, const BodyContact& without,
-                         const std::string& consequence) {
+                         const std::string& material, const Terrain& terrain,
+                         const BodyContact& without, const std::string& consequence) {
+  const auto [ground, known] = terrain.known_contact();
   const auto found = known.find(material);
   const bool has_limit = found != known.end() && std::isfinite(found->second.shear_limit);
   const bool limited = has_limit && takes_shear_limit(options);

@@ -7,6 +7,7 @@
 
 #include "furrow/core/options/options.h"
 #include "coupling/base/fix_body.h"
+#include "coupling/base/roles/ground.h"
 #include "furrow/material/ground_contact.h"
 
 namespace furrow::coupling {
@@ -22,13 +23,11 @@ void warn_of_slip_length(LAMMPS_NS::LAMMPS& lammps, const Options& options);
 /// Friction and slip length of a contact, from the ground where a line does not give them. Prints
 /// the values; warns where the ground knows nothing, or has a shear limit that the law does not
 /// use.
-/// @param ground  its name for messages
 /// @param without  values in effect without those of the ground
 /// @param consequence  of these values, for the warning
 BodyContact contact_with(LAMMPS_NS::LAMMPS& lammps, const Options& options, const FixBody& body,
-                         const std::string& material, const std::string& ground,
-                         const GroundContact& known, const BodyContact& without,
-                         const std::string& consequence);
+                         const std::string& material, const Terrain& terrain,
+                         const BodyContact& without, const std::string& consequence);
 
 /// Puts the friction and slip length in effect into the settings of a contact.
 void put_effective(std::vector<std::pair<std::string, std::string>>& settings, double friction,

@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include "furrow/core/error.h"
-#include "coupling/base/checks/require_unique.h"
 #include "coupling/contact/body_material.h"
 #include "coupling/liggghts/styles/style_registry.h"
-#include "coupling/base/roles/fix_terrain.h"
 
 namespace furrow::coupling {
 
@@ -48,20 +46,15 @@ const Outputs<FixContactContinuum>& FixContactContinuum::outputs() {
   return list;
 }
 
-/// A half body needs half the terrain with the same plane of symmetry, y = 0.
-FixTerrain& FixContactContinuum::find_terrain() {
-  auto& fix = use<FixTerrain>("terrain", {"terrain"});
-  require_unique<FixContactContinuum>(
-      *modify, options().subject(), fmt::format("presses '{}' on '{}'", body_fix().id, fix.id),
-      "one contact for each pair", [&](FixContactContinuum& other) {
-        return &other.body_fix() == &body_fix() && &other.terrain_fix_ == &fix;
-      });
+/// A half body needs half the terrain with the same plane of symmetry, y = 0. @throws InputError
+void FixContactContinuum::check_terrain() const {
+  const FixTerrain& fix = terrain_fix();
   if (fix.options().flag("multirate"))
     throw InputError(
         options().where("terrain"), fmt::format("is '{}', which has 'multirate yes'", fix.id),
         "terrain that steps with what presses on it", "write 'multirate no' in the terrain's line");
   const double plane = fix.terrain().grid().axis(1).lower();
-  if (!body().half_model() || (fix.half_model() && plane == 0.0)) return fix;
+  if (!body().half_model() || (fix.half_model() && plane == 0.0)) return;
   const std::string& body_id = options().text("body");
   throw InputError(
       options().where("body"),
@@ -76,8 +69,8 @@ FixTerrain& FixContactContinuum::find_terrain() {
 
 void FixContactContinuum::add_losses(const Body& wheel, GroundLosses& losses) const {
   if (&wheel != &body()) return;
-  const double terrain_factor = terrain_fix_.symmetry_factor();
-  const TerrainWork work = terrain_fix_.terrain().work();
+  const double terrain_factor = terrain_fix().symmetry_factor();
+  const TerrainWork work = terrain_fix().terrain().work();
   losses.compaction += terrain_factor * work.compaction;
   losses.bulldozing += terrain_factor * work.bulldozing;
   losses.kinetic += terrain_factor * work.kinetic;
@@ -88,15 +81,14 @@ void FixContactContinuum::add_losses(const Body& wheel, GroundLosses& losses) co
   losses.continuum += terrain_factor * contact_.terrain_work();
 }
 
-/// The upper layer is the one that a body touches.
 ContactParameters FixContactContinuum::parameters() {
+  check_terrain();
   warn_of_slip_length(*lmp, options());
   if (options().text("surface") != "frictional") return ContactParameters::from(options());
-  const TerrainLayer& top = terrain_fix_.terrain().parameters().layers.front();
   return ContactParameters::from(
       options(),
       contact_with(
-          *lmp, options(), body_fix(), body_material(options(), body_fix()), top.name, top.contact,
+          *lmp, options(), body_fix(), body_material(options(), body_fix()), ground(),
           ContactParameters::unknown(),
           fmt::format("{:g} and {:g} m hold, and a slip_length of 0 m gives a driven wheel "
                       "too much traction at small slips",
@@ -114,11 +106,10 @@ std::vector<std::pair<std::string, std::string>> FixContactContinuum::settings()
 /// A half body mirrors what it is given itself; a whole one on half the terrain needs the forces of
 /// the other half as well.
 FixContactContinuum::FixContactContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixContact(lammps, narg, arg, schema()),
-      terrain_fix_(find_terrain()),
+    : FixContactWith(lammps, narg, arg, schema(), "terrain"),
       parameters_(parameters()),
-      contact_(body(), terrain_fix_.terrain(), parameters_,
-               terrain_fix_.half_model() && !body().half_model(), name()) {
+      contact_(body(), terrain_fix().terrain(), parameters_,
+               terrain_fix().half_model() && !body().half_model(), name()) {
   contribute(static_cast<Contact&>(contact_));
   provide(outputs());
 }

@@ -3,14 +3,13 @@
 /// fix contact/continuum: contact between a body and continuum terrain. See
 /// fix_contact_continuum.md.
 
-#include "coupling/contact/fix_contact.h"
+#include "coupling/base/roles/fix_terrain.h"
+#include "coupling/contact/fix_ground_contact.h"
 #include "furrow/mpm/contact/terrain_contact.h"
 
 namespace furrow::coupling {
 
-class FixTerrain;
-
-class FixContactContinuum : public FixContact {
+class FixContactContinuum : public FixContactWith<FixTerrain> {
  public:
   FixContactContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
@@ -18,18 +17,16 @@ class FixContactContinuum : public FixContact {
 
   const TerrainContact& contact() const { return contact_; }
   void add_losses(const Body& wheel, GroundLosses& losses) const override;
-  FixTerrain& terrain_fix() const { return terrain_fix_; }
   std::vector<std::pair<std::string, std::string>> settings() const override;
 
  private:
   ContactParameters parameters();
-  FixTerrain& find_terrain();
+  void check_terrain() const;
   // [J] since the start, of the whole body
   double friction_loss() const { return symmetry_factor() * contact_.friction_loss(); }
   double damping_loss() const { return symmetry_factor() * contact_.damping_loss(); }
   void checkpoint(Checkpoint& state) override { contact_.checkpoint(state); }
 
-  FixTerrain& terrain_fix_;
   const ContactParameters parameters_;
   TerrainContact contact_;
 };

@@ -126,11 +126,8 @@ ScmContact::Settings FixContactScm::settings_of_contact() {
   BodyContact as_soil;
   as_soil.friction = settings.friction;
   as_soil.slip_length = soils().all().front().shear_length;
-  const auto& card = terrain_fix().card();
   const BodyContact contact =
-      contact_with(*lmp, options(), body_fix(), material,
-                   card ? terrain_fix().options().text("card") : terrain_fix().id,
-                   card ? card->contact : GroundContact(), as_soil,
+      contact_with(*lmp, options(), body_fix(), material, ground(), as_soil,
                    "the soil's own c, phi and K hold, and a surface without grousers pulls less");
   settings.friction = options().given("friction") ? options().number("friction") : contact.friction;
   settings.slip_length =

@@ -15,7 +15,7 @@
 #include "coupling/drive/tilted_gravity.h"
 #include "coupling/liggghts/styles/script.h"
 #include "coupling/liggghts/styles/style_registry.h"
-#include "coupling/base/roles/fix_terrain.h"
+#include "coupling/base/roles/ground.h"
 #include "furrow/io/formats/csv_file.h"
 #include "update.h"
 
@@ -195,9 +195,9 @@ void FixWheelRig::check_passes() {
   };
   if (const auto* window = modify->find_fix_style("bed/window", 0)) refuse(*window);
   for (const auto* contact : fixes_of<FixUser>(*modify))
-    for (const auto* terrain : fixes_of<FixTerrain>(*modify))
-      if (terrain->moves() && contact->uses(wheel_fix_) && contact->uses(*terrain))
-        refuse(*terrain);
+    for (const auto* terrain : fixes_of<const Terrain>(*modify))
+      if (terrain->moves() && contact->uses(wheel_fix_) && contact->uses(as_fix(*terrain)))
+        refuse(as_fix(*terrain));
 }
 
 /// One ground has one slope. LIGGGHTS takes the gravity of clumps from fix gravity itself.

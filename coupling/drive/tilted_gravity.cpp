@@ -3,17 +3,14 @@
 
 #include "atom.h"
 #include "coupling/liggghts/styles/fixes_of.h"
-#include "coupling/base/roles/fix_terrain.h"
+#include "coupling/base/roles/ground.h"
 #include "fix_gravity.h"
 #include "lammps.h"
 
 namespace furrow::coupling {
 
 void tilt_gravity_of_terrain(LAMMPS_NS::LAMMPS& lammps, const Matrix3& tilt) {
-  for (auto* fix : fixes_of<FixTerrain>(*lammps.modify)) {
-    ContinuumTerrain& terrain = fix->terrain();
-    terrain.set_gravity(tilt * terrain.parameters().gravity);
-  }
+  for (Terrain* terrain : fixes_of<Terrain>(*lammps.modify)) terrain->tilt_gravity(tilt);
 }
 
 void tilt_gravity_of_grains(LAMMPS_NS::LAMMPS& lammps, const Matrix3& tilt) {

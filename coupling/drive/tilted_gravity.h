@@ -10,7 +10,7 @@ class LAMMPS;
 
 namespace furrow::coupling {
 
-/// Turns the gravity of every continuum of the scene, as its keyword gives it. @param tilt rotation
+/// Turns the gravity of every terrain of the scene, as its keyword gives it. @param tilt rotation
 void tilt_gravity_of_terrain(LAMMPS_NS::LAMMPS& lammps, const Matrix3& tilt);
 /// Adds to the forces on grains the difference between the turned gravity and that of each fix
 /// gravity.

@@ -9,18 +9,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "atom.h"
 #include "furrow/bodies/wheel_hub.h"
 #include "furrow/core/error.h"
 #include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/roles/grain_bed.h"
 #include "coupling/liggghts/styles/fixes_of.h"
 #include "coupling/liggghts/errors/first_rank.h"
 #include "coupling/liggghts/styles/script.h"
 #include "coupling/liggghts/errors/signals.h"
 #include "coupling/liggghts/styles/style_registry.h"
 #include "coupling/output/histories/fix_wheel_history.h"
-#include "coupling/base/roles/fix_terrain.h"
-#include "domain.h"
 #include "input.h"
 #include "furrow/io/results/summary.h"
 #include "update.h"
@@ -122,9 +120,8 @@ std::string CommandRunUntilSteady::unsteady(const std::vector<FixWheelHistory*>&
 
 double CommandRunUntilSteady::time_left(const std::vector<FixWheelHistory*>& histories) const {
   double end = unlimited;  // [m]
-  if (atom->natoms > 0 && !domain->xperiodic) end = domain->boxhi[0];
-  for (const FixTerrain* soil : fixes_of<FixTerrain>(*modify))
-    if (!soil->options().has("follow")) end = std::min(end, soil->extent(0).second);
+  for (const Ground* ground : Grounds(*lmp))
+    if (!ground->moves()) end = std::min(end, ground->extent(0).second);
   double left = unlimited;
   for (const FixWheelHistory* history : histories) {
     const WheelHub& wheel = history->wheel();

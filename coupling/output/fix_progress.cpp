@@ -16,7 +16,7 @@
 #include "coupling/liggghts/styles/fixes_of.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/liggghts/styles/style_registry.h"
-#include "coupling/base/roles/fix_terrain.h"
+#include "coupling/base/roles/ground.h"
 #include "furrow/tyre/tyre.h"
 #include "update.h"
 
@@ -74,8 +74,8 @@ void FixProgress::add_work() {
   if (!system) return;
   const double sub_steps = system->sub_steps() - sub_steps_;
   sub_steps_ = system->sub_steps();
-  for (const FixTerrain* soil : fixes_of<FixTerrain>(*modify))
-    work_.particle_updates += sub_steps * soil->terrain().particle_count();
+  for (const Terrain* terrain : fixes_of<Terrain>(*modify))
+    work_.particle_updates += sub_steps * terrain->particle_count();
   for (const FixWheelHub* wheel : fixes_of<FixWheelHub>(*modify))
     if (dynamic_cast<const Tyre*>(&wheel->body())) work_.tyre_steps += sub_steps;
 }

@@ -276,9 +276,12 @@ PYBIND11_MODULE(furrow, module) {
       .def_property_readonly("radius", in_turn(&WheelPart::radius), "Without grousers [m].")
       .def_property_readonly("mass", in_turn(&WheelPart::mass),
                              "Of all that moves with the wheel [kg].");
-  py::class_<TerrainPart, BodyPart>(module, "Terrain", "Ground as a continuum.")
+  py::class_<TerrainPart, BodyPart>(module, "Terrain", "Ground of a line terrain/...")
+      .def_property_readonly("level", in_turn(&TerrainPart::level),
+                             "Of the undisturbed surface [m].")
       .def("particles", &TerrainPart::particles, turn,
-           "Particles of this rank, a dictionary of views for each material.");
+           "Particles of this rank, a dictionary of views for each material; none of a height "
+           "field.");
   py::class_<RigPart>(module, "Rig", "A wheel/rig, which drives a wheel.")
       .def_property_readonly("id", &RigPart::id)
       .def("set", &RigPart::set, turn,
@@ -319,7 +322,7 @@ PYBIND11_MODULE(furrow, module) {
       .def_property_readonly("step_number", in_turn(&Session::step_number), "Of LIGGGHTS.")
       .def_property_readonly("bodies", in_turn(&parts_of<FixBody, BodyPart>), "All bodies, by id.")
       .def_property_readonly("wheels", in_turn(&parts_of<FixWheelHub, WheelPart>))
-      .def_property_readonly("terrains", in_turn(&parts_of<FixTerrain, TerrainPart>))
+      .def_property_readonly("terrains", in_turn(&parts_of<Terrain, TerrainPart>))
       .def_property_readonly("rigs", in_turn(&parts_of<FixWheelRig, RigPart>))
       .def_property_readonly("grains", in_turn(&grains),
                              "Grains of this rank, a dictionary of views.")

@@ -46,22 +46,22 @@ void show_warnings(Session& session) {
 }
 
 py::array BodyPart::nodes() const {
-  const Surface& surface = fix().body().surface();
-  return view_rows(owner(), surface.x.data(), surface.node_count());
+  const Surface& now = surface();
+  return view_rows(owner(), now.x.data(), now.node_count());
 }
 
 py::array BodyPart::velocities() const {
-  const Surface& surface = fix().body().surface();
-  return view_rows(owner(), surface.v.data(), surface.node_count());
+  const Surface& now = surface();
+  return view_rows(owner(), now.v.data(), now.node_count());
 }
 
 py::array BodyPart::forces() const {
-  const Surface& surface = fix().body().surface();
-  return view_rows(owner(), surface.f.data(), surface.node_count());
+  const Surface& now = surface();
+  return view_rows(owner(), now.f.data(), now.node_count());
 }
 
 py::array BodyPart::triangles() const {
-  const std::vector<Vector3i>& triangles = fix().body().surface().triangles;
+  const std::vector<Vector3i>& triangles = surface().triangles;
   static_assert(sizeof(Vector3i) == 3 * sizeof(int));
   return view_rows(owner(), reinterpret_cast<const int*>(triangles.data()), triangles.size());
 }
@@ -142,8 +142,8 @@ void WheelPart::release(const std::string& coordinate) {
 
 py::list TerrainPart::particles() const {
   py::list materials;
-  for (ParticleGroup& group : fix<FixTerrain>().terrain().unsynchronised_groups()) {
-    Particles& particles = group.particles;
+  for (ParticleGroup* group : fix<Terrain>().particle_groups()) {
+    Particles& particles = group->particles;
     const std::size_t count = particles.size();
     const auto one = [&](std::size_t column) {
       return view(owner(), particles.data(column), count);
@@ -155,7 +155,7 @@ py::list TerrainPart::particles() const {
     columns["velocity"] = view_rows(owner(), particles.data(column::velocity), count, 4);
     columns["reference_volume"] = one(column::volume);
     columns["id"] = one(column::id);
-    const std::vector<StateField>& fields = group.material->state_fields();
+    const std::vector<StateField>& fields = group->material->state_fields();
     for (std::size_t i = 0; i < fields.size(); ++i)
       columns[py::str(fields[i].name)] = one(column::state + i);
     materials.append(columns);

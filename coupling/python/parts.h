@@ -14,7 +14,8 @@
 
 #include "furrow/bodies/wheel_hub.h"
 #include "furrow/core/error.h"
-#include "coupling/base/roles/fix_terrain.h"
+#include "coupling/base/fix_body.h"
+#include "coupling/base/roles/ground.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/session/session.h"
@@ -46,10 +47,14 @@ class Part {
 class BodyPart : public Part<FixBody> {
  public:
   using Part::Part;
+  virtual ~BodyPart() = default;
   pybind11::array nodes() const;       ///< [m]
   pybind11::array velocities() const;  ///< [m/s]
   pybind11::array forces() const;      ///< [N]
   pybind11::array triangles() const;
+
+ private:
+  virtual const Surface& surface() const { return fix().body().surface(); }
 };
 
 /// Six numbers: x, y, z, spin, yaw, camber; or forces along and moments about x, y, z.
@@ -81,9 +86,14 @@ class WheelPart : public BodyPart {
 class TerrainPart : public BodyPart {
  public:
   using BodyPart::BodyPart;
-  /// The particles of this rank: for each material a view of each column. Positions and velocities
-  /// may be those of the last transfer; bringing them up to date would change the run by rounding.
+  double level() const { return fix<Terrain>().level(); }  ///< [m]
+  /// The particles of this rank, if the ground has some: for each material a view of each column.
+  /// Positions and velocities may be those of the last transfer; bringing them up to date would
+  /// change the run by rounding.
   pybind11::list particles() const;
+
+ private:
+  const Surface& surface() const override { return fix<Terrain>().surface(); }
 };
 
 class RigPart : public Part<FixWheelRig> {

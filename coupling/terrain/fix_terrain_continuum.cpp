@@ -200,21 +200,10 @@ void FixTerrainContinuum::check_slabs() const {
 
 /// Two of them side by side, or one on top of the other, share a face.
 void FixTerrainContinuum::refuse_overlap() {
-  constexpr double shared = 1e-6;  // of an edge
-  const auto overlaps = [this](FixTerrainContinuum& other) {
-    bool overlap = true;
-    for (int a = 0; a < 3; ++a) {
-      const auto [lower, upper] = extent(a);
-      const auto [other_lower, other_upper] = other.extent(a);
-      overlap &=
-          std::min(upper, other_upper) - std::max(lower, other_lower) > shared * (upper - lower);
-    }
-    return overlap;
-  };
   require_unique<FixTerrainContinuum>(*modify, options().subject(), "fills space with terrain",
                                       "terrains that do not overlap; layers of one terrain are in "
                                       "its keyword 'material'",
-                                      overlaps);
+                                      [&](const auto& other) { return overlap(*this, other); });
 }
 
 bool FixTerrainContinuum::follows(const Body& body) const {

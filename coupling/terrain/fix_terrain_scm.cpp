@@ -83,16 +83,10 @@ FixTerrainScm::FixTerrainScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 /// Refuses overlapping fields, which would both carry a body. Two of them side by side share an
 /// edge.
 void FixTerrainScm::refuse_overlap() {
-  constexpr double shared = 1e-6;  // of a cell
-  const auto overlaps = [this](FixTerrainScm& other) {
-    const Vector2 common = field().upper().cwiseMin(other.field().upper()) -
-                           field().lower().cwiseMax(other.field().lower());
-    return common.minCoeff() > shared * field().cell();
-  };
   require_unique<FixTerrainScm>(*modify, options().subject(), "covers ground with a height field",
                                 "height fields that do not overlap; soils side by side are in the "
                                 "keyword 'patches' of one field",
-                                overlaps);
+                                [&](const auto& other) { return overlap(*this, other); });
 }
 
 }  // namespace furrow::coupling

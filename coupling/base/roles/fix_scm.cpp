@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -73,6 +74,42 @@ FixScm::FixScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& sc
     warn(*lmp, fmt::format("{}: {}", options().where("heightmap"), note));
   keep_state();
   provide(outputs());
+}
+
+std::pair<double, double> FixScm::extent(int direction) const {
+  if (direction == 2) return {-std::numeric_limits<double>::infinity(), level()};
+  return {field_.lower()[direction], field_.upper()[direction]};
+}
+
+std::vector<GivenGravity> FixScm::gravities() const {
+  if (!card_ && !options().given("gravity")) return {};
+  return {{options().where("gravity"), {0.0, 0.0, -options().number("gravity")}}};
+}
+
+/// Two heights of each cell.
+double FixScm::checkpoint_size() const {
+  return 2.0 * sizeof(double) * static_cast<double>(field_.cells());
+}
+
+Vector3 FixScm::cells_across(const Vector3& lower, const Vector3& upper) const {
+  Vector3 cells = (upper - lower) / field_.cell();
+  cells.z() = std::numeric_limits<double>::quiet_NaN();
+  return cells;
+}
+
+Terrain::KnownContact FixScm::known_contact() const {
+  if (!card_) return {id, {}};
+  return {options().text("card"), card_->contact};
+}
+
+/// Nodes keep their places in memory.
+const Surface& FixScm::surface() {
+  Surface now = field_.triangles();
+  if (surface_.triangle_count() == 0)
+    surface_ = std::move(now);
+  else
+    surface_.x = now.x;
+  return surface_;
 }
 
 }  // namespace furrow::coupling

@@ -32,6 +32,10 @@ FixHistory::FixHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Sc
     : FurrowFix(lammps, narg, arg, schema) {
   nevery = 1;
   keep_state();
+}
+
+void FixHistory::take_file(const std::string& name) {
+  file_name_ = name;
   const auto folder = [](const FixHistory& fix) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(fix.in_folder(".")));
   };
@@ -39,7 +43,7 @@ FixHistory::FixHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Sc
       *modify, options().where("folder"),
       fmt::format("is '{}', which this fix writes its files to", options().text("folder")),
       "a folder for each wheel/history, and for each terrain/history", [&](FixHistory& other) {
-        return style_of(other) == style_of(*this) && folder(other) == folder(*this);
+        return other.file_name_ == name && folder(other) == folder(*this);
       });
 }
 
@@ -63,9 +67,9 @@ RunInfo FixHistory::run_info(const std::string& title) const {
   return info;
 }
 
-void FixHistory::open_rows(const std::string& name, const std::vector<Channel>& channels,
-                           const std::string& title, std::optional<double> resume_time) {
-  const std::string path = in_folder(name);
+void FixHistory::open_rows(const std::vector<Channel>& channels, const std::string& title,
+                           std::optional<double> resume_time) {
+  const std::string path = in_folder(file_name_);
   file_ = resume_time ? HistoryFile::resume(path, channels, *resume_time)
                       : HistoryFile::create(path, channels, run_info(title));
 }

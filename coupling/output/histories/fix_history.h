@@ -39,6 +39,9 @@ class FixHistory : public FurrowFix, public SystemFollower, public ResultBuffer 
   FixHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema);
   /// The keys that all have: folder, every and vtk. @param frames what a frame shows
   static void add_keys(Schema& schema, const char* frames);
+  /// Names the file of rows; for the constructor of the derived class. @throws InputError for a
+  /// file of another fix
+  void take_file(const std::string& name);
 
   // ---- the recorder's part: called on all ranks -------------------------------------------------
   /// @param resume_time of the checkpoint that this run continues; none for a run from the start
@@ -57,8 +60,8 @@ class FixHistory : public FurrowFix, public SystemFollower, public ResultBuffer 
   }
 
   /// Opens file_ for rows of these channels. Rank 0 only.
-  void open_rows(const std::string& name, const std::vector<Channel>& channels,
-                 const std::string& title, std::optional<double> resume_time);
+  void open_rows(const std::vector<Channel>& channels, const std::string& title,
+                 std::optional<double> resume_time);
   /// Opens a series of frames; none where the line asks for none. Rank 0 only.
   std::optional<VtkSeries> open_frames(const std::string& series,
                                        std::optional<double> resume_time) const;
@@ -72,6 +75,7 @@ class FixHistory : public FurrowFix, public SystemFollower, public ResultBuffer 
   void checkpoint(Checkpoint& state) override;
   bool state_needs_options() const override { return false; }
 
+  std::string file_name_;
   std::shared_ptr<FolderLock> lock_;  // of the folder; rank 0 only
   std::optional<double> resume_time_;
   bool opened_ = false;

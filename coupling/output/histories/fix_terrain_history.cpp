@@ -1,27 +1,31 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/output/histories/fix_terrain_history.h"
 
+#include <algorithm>
+
 #include "comm.h"
+#include "coupling/base/roles/ground.h"
 #include "coupling/liggghts/errors/rescue.h"
 #include "coupling/liggghts/styles/style_registry.h"
-#include "coupling/base/roles/fix_terrain.h"
-#include "furrow/mpm/terrain_outputs.h"
-#include "furrow/mpm/terrain_snapshot.h"
 
 namespace furrow::coupling {
 
 namespace {
 
-std::vector<Channel> channels() {
-  std::vector<Channel> list = {{"time", "s", "time since the start of the run"}};
-  for (const Channel& channel : terrain_outputs().channels()) list.push_back(channel);
-  return list;
+const Channel time_channel = {"time", "s", "time since the start of the run"};
+
+void write_end(HistoryFile& file, const TerrainSnapshot& particles,
+               const std::vector<RutPoint>& rut) {
+  file.write_terrain(particles, rut);
+}
+void write_end(HistoryFile& file, const Surface& surface, const std::vector<RutPoint>&) {
+  file.write_final(Grains(), surface);
 }
 
 }  // namespace
 
 const StyleRow terrain_history_style = fix_style<FixTerrainHistory>(
-    "terrain/history", "history", "output/histories/fix_terrain_history.md");
+    "terrain/history", "history", "output/histories/fix_terrain_history.md", {"scm/history"});
 
 Schema FixTerrainHistory::schema() {
   Schema schema("fix terrain/history");
@@ -31,51 +35,60 @@ Schema FixTerrainHistory::schema() {
   return schema;
 }
 
-OutputTable FixTerrainHistory::outputs() { return {"channel", channels()}; }
+/// The channels of all terrains, which are their outputs.
+OutputTable FixTerrainHistory::outputs() {
+  OutputTable table = {"channel", {time_channel}};
+  for (const Style& style : styles())
+    if (std::count(terrain_kinds.begin(), terrain_kinds.end(), style.kind) > 0)
+      for (const Channel& channel : style.outputs().rows) table.rows.push_back(channel);
+  return table;
+}
 
 FixTerrainHistory::FixTerrainHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixHistory(lammps, narg, arg, schema()),
-      terrain_fix_(use<FixTerrain>("terrain", {"terrain"})) {}
+    : FixHistory(lammps, narg, arg, schema()), terrain_(use<Terrain>("terrain", terrain_kinds)) {
+  take_file(terrain_.series() + ".h5");
+}
 
 void FixTerrainHistory::open(std::optional<double> resume_time) {
   if (comm->me != 0) return;
   const ResultsInUse in_use;
-  open_rows("terrain.h5", channels(), "terrain", resume_time);
-  frames_ = open_frames("terrain", resume_time);
+  std::vector<Channel> channels = terrain_.channels();
+  channels.insert(channels.begin(), time_channel);
+  open_rows(channels, terrain_.title(), resume_time);
+  frames_ = open_frames(terrain_.series(), resume_time);
 }
 
 void FixTerrainHistory::record() {
-  TerrainReading reading(terrain_fix_.terrain());
-  std::vector<double> row = {time()};
-  for (const double value : terrain_outputs().values(reading)) row.push_back(value);
+  std::vector<double> row = terrain_.values();
+  row.insert(row.begin(), time());
   if (!file_) return;
   const ResultsInUse in_use;
   file_->append(row);
 }
 
 void FixTerrainHistory::write_frame() {
-  const TerrainSnapshot snapshot = take_snapshot(terrain_fix_.terrain());
-  if (frames_) frames_->add(time(), snapshot);
+  const auto snapshot = terrain_.snapshot();
+  if (frames_) std::visit([&](const auto& shape) { frames_->add(time(), shape); }, snapshot);
 }
 
 void FixTerrainHistory::close() {
-  ContinuumTerrain& terrain = terrain_fix_.terrain();
-  const EnergyBudget budget = terrain.energy_budget();
-  const TerrainSnapshot snapshot = take_snapshot(terrain);
-  const std::vector<RutPoint> rut = collect_rut(terrain);
+  const std::optional<EnergyBudget> budget = terrain_.energy_budget();
+  const auto snapshot = terrain_.snapshot();
+  const std::vector<RutPoint> rut = terrain_.rut();
   if (!file_) return;
   RunClosing end;
-  end.audit.set_energies({{"work of contacts on the terrain", budget.contact_work},
-                          {"work of gravity and absorbing faces", budget.load_work},
-                          {"kinetic energy", -budget.kinetic_energy},
-                          {"stored energy", -budget.stored_energy},
-                          {"plastic dissipation", -budget.dissipated_energy},
-                          {"numerical loss", -budget.numerical_loss}},
-                         budget.residual());
+  if (budget)
+    end.audit.set_energies({{"work of contacts on the terrain", budget->contact_work},
+                            {"work of gravity and absorbing faces", budget->load_work},
+                            {"kinetic energy", -budget->kinetic_energy},
+                            {"stored energy", -budget->stored_energy},
+                            {"plastic dissipation", -budget->dissipated_energy},
+                            {"numerical loss", -budget->numerical_loss}},
+                           budget->residual());
   end.cost.wall_time = wall_time();
   end.cost.ranks = comm->nprocs;
   const ResultsInUse in_use;
-  file_->write_terrain(snapshot, rut);
+  std::visit([&](const auto& shape) { write_end(*file_, shape, rut); }, snapshot);
   file_->write_closing(end);
   file_->flush();
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// fix terrain/history: the results of continuum terrain. See fix_terrain_history.md.
+/// fix terrain/history: the results of a terrain. See fix_terrain_history.md.
 
 #include "coupling/output/histories/fix_history.h"
 #include "furrow/io/formats/vtk_file.h"
 
 namespace furrow::coupling {
 
-class FixTerrain;
+class Terrain;
 
 class FixTerrainHistory : public FixHistory {
  public:
@@ -21,7 +21,7 @@ class FixTerrainHistory : public FixHistory {
   void write_frame() override;
   void close() override;
 
-  FixTerrain& terrain_fix_;
+  Terrain& terrain_;
   std::optional<VtkSeries> frames_;  // rank 0 only
 };
 

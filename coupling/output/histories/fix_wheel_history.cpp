@@ -30,7 +30,9 @@ Schema FixWheelHistory::schema() {
 }
 
 FixWheelHistory::FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixHistory(lammps, narg, arg, schema()), rig_fix_(use<FixRig>("rig", {"rig"})) {}
+    : FixHistory(lammps, narg, arg, schema()), rig_fix_(use<FixRig>("rig", {"rig"})) {
+  take_file("history.h5");
+}
 
 OutputTable FixWheelHistory::outputs() { return {"channel", WheelRig::channels()}; }
 
@@ -54,7 +56,7 @@ void FixWheelHistory::open(std::optional<double> resume_time) {
   Grains now = gather_grains(*lmp, ground_level);
   if (comm->me != 0) return;
   const ResultsInUse in_use;
-  open_rows("history.h5", rig_fix_.rig().recorded_channels(), options().text("title"), resume_time);
+  open_rows(rig_fix_.rig().recorded_channels(), options().text("title"), resume_time);
   if (resume_time && now.size() > 0)
     reference_ = read_reference_grains(in_folder("history.h5"));
   else

@@ -106,7 +106,7 @@ def compare(
     known = families(table) if table else {}
     for run in runs:
         errors = RunErrors(run, known)
-        if run.has_density:
+        if run.ground_kind.has_density:
             result.tracks[run.label] = track_entry(errors)
         result.entries += entries_of_run(errors)
         result.entries += best_estimates(run, known)
@@ -259,7 +259,7 @@ def comparison_report(result: Comparison) -> str:
         texts = [run.text(name, "?") for run in result.runs]
         lines.append(f"  {name.replace('_', ' '):22} " + "   ".join(dict.fromkeys(texts)))
     for run in result.runs:
-        size = f"{run.ground}, {run.describe_size()}, {run.model} model, {run.elements} {run.elements_name}"
+        size = f"{run.ground}, {run.describe_size()}, {run.model} model, {run.elements} {run.ground_kind.elements}"
         lines.append(f"  {run.label:{wide}}  {size}")
     for quantity in QUANTITIES:
         lines += ["", f"  {quantity.label:{wide}}  {'':18} {'cost':9}parts of the error"]
@@ -306,7 +306,7 @@ def _write_hdf5(content: Any, result: Comparison, lines: list[Line]) -> None:
             group[f"settling/{name}"] = values
         for name, condition in run.conditions.items():
             group.attrs[name] = condition.value
-        if run.has_density:
+        if run.ground_kind.has_density:
             for name, cut in zip(("lengthwise", "across"), sections(run)):
                 part = group.create_group(f"density/{name}")
                 part["density"], part["edges"] = cut.density, cut.across_edges

@@ -20,7 +20,7 @@ from ..csv_table import in_cells, write_rows
 from ..errors import ResultsError, content_of
 from ..formatting import percent
 from ..read.laboratory import LaboratoryTest, PointRun, cell_curve
-from ..read.wheel_run import GROUNDS_OF_CELLS
+from ..read.ground_kinds import ground_kind
 from ..uncertainty.statistics import rms
 from ..uncertainty.verdict import COVERAGE, conclusion
 from .conditions import Difference, Tolerance, require_comparable, require_different_labels
@@ -72,7 +72,7 @@ class Curve:
     def unknown(self) -> list[str]:
         """Parts of its error that are unknown: "size of soft". A material point has none."""
         parts = ["domain"] if self.kind is CurveKind.PLATE else []
-        if self.ground not in GROUNDS_OF_CELLS:
+        if ground_kind(self.ground).random:
             parts.append("packing")
         if parts:
             parts.append("size")

@@ -176,7 +176,7 @@ def compare_flows(runs: Sequence[WheelRun], width: float | None = None) -> FlowC
     if len(runs) != 2:
         raise ResultsError(f"flow compares two results folders, not {len(runs)}")
     for run in runs:
-        if not run.has_density:
+        if not run.ground_kind.has_density:
             raise ResultsError(f"{run.label}: has no terrain of grains or of a continuum, and so no flow")
     taken = [_Points.of(run) for run in runs]
     least = GRAINS_PER_WIDTH * max(points.size for points in taken)

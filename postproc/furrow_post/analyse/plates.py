@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..read.ground_kinds import ground_kind
 from ..uncertainty.budget import Budget
 from .curves import Curve
 from ..uncertainty.grid_convergence import grid_convergence, mean_shift, noise_of, pooled_scatter, same_size
@@ -41,7 +42,7 @@ class PlateFamily:
 
     def packing(self) -> float:
         """Relative standard deviation of one packing; 0 of a lattice, NaN where there is one."""
-        if self.base.ground == "continuum":
+        if not ground_kind(self.base.ground).random:
             return 0.0
         sizes: list[float] = []
         for curve, _ in self.in_box:

@@ -27,7 +27,7 @@ SECTION_HEIGHT = 1.75  # of a row of density sections [inch]
 def draw_comparison(result: Comparison, target: Path) -> None:
     """Values with their uncertainties, histories, settling curves, and density sections."""
     use_style()
-    grounds = [run for run in result.runs if run.has_density]
+    grounds = [run for run in result.runs if run.ground_kind.has_density]
     colours = {run.label: RUN_COLOURS[k % len(RUN_COLOURS)] for k, run in enumerate(result.runs)}
     many = max(len(result.of(HUB_DROP)) - 4, 0)  # entries that need more room
     tall = 5.9 + SECTION_HEIGHT * len(grounds) + 0.4 * many

@@ -17,6 +17,7 @@ import numpy as np
 from ..arrays import Fields, Floats, Integers, Named, read_only
 from ..errors import ResultsError
 from ..json_text import parse_json
+from .ground_kinds import TERRAINS
 from .hdf5 import opened
 
 # channel in files of earlier versions -> its name
@@ -200,6 +201,10 @@ class Styles:
     def of_kind(self, kind: str) -> Style | None:
         """The first of a kind, or None."""
         return next((style for style in self._styles if style.kind == kind), None)
+
+    def terrain(self) -> Style | None:
+        """The first line terrain/..., or None."""
+        return next((style for style in self._styles if style.kind in TERRAINS), None)
 
     def of_style(self, name: str) -> Style | None:
         """The first of a style, or None."""

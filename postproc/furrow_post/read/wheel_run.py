@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ResultsError
+from .ground_kinds import GroundKind, ground_kind
 from .results import Grains, Results, Style
 from ..run.record import FINISHED, read_record
 from ..run.summary import SteadyValue, Summary
@@ -31,12 +32,6 @@ STEADY_QUANTITIES = (
 FROM_CHANNELS = ("hub_drop", "force_z", "drawbar_pull", "drive_torque")
 SAME_MEAN = 0.02  # relative difference of means over one window: rows at its ends
 ANGLES = ("slip_angle", "camber", "slope", "side_slope")  # of a rig
-GROUNDS_OF_CELLS = ("continuum", "scm")  # nothing in them is random
-
-
-def cells_or_grains(ground: str) -> str:
-    """Whose size is that of a run."""
-    return "cells" if ground in GROUNDS_OF_CELLS else "grains"
 
 
 @dataclass(frozen=True)
@@ -109,18 +104,13 @@ class WheelRun:
         return "half" if self.half else "whole"
 
     @property
-    def has_density(self) -> bool:
-        """True where the ground has grains or particles, and so a density at each point."""
-        return self.ground not in ("scm", "none")
-
-    @property
-    def elements_name(self) -> str:
-        return {"continuum": "particles", "scm": "cells"}.get(self.ground, "grains")
+    def ground_kind(self) -> GroundKind:
+        return ground_kind(self.ground)
 
     def describe_size(self) -> str:
         if self.ground == "none":
             return "none"
-        return f"{cells_or_grains(self.ground)} of {1e3 * self.size:.3g} mm"
+        return f"{self.ground_kind.sizes} of {1e3 * self.size:.3g} mm"
 
     def relabelled(self, label: str) -> "WheelRun":
         return replace(self, label=label)
@@ -136,9 +126,8 @@ def read_wheel_run(folder: Path | str, label: str | None = None) -> WheelRun:
             f"{results.file}: is not the run of a wheel on a rig "
             "(none of its styles is of the kind wheel, or none is a rig)"
         )
-    soil, bed = styles.of_kind("terrain"), styles.of_style("bed")
-    scm = styles.of_kind("scm")
-    if soil and not terrain_file(results.folder).is_file():
+    soil, bed = styles.terrain(), styles.of_style("bed")
+    if soil and soil.kind == "terrain" and not terrain_file(results.folder).is_file():
         raise ResultsError(
             f"{results.folder}: has no {FILE}; give the scene a fix terrain/history with the same "
             "folder"
@@ -150,13 +139,13 @@ def read_wheel_run(folder: Path | str, label: str | None = None) -> WheelRun:
         results.folder,
         results,
         label or results.folder.resolve().name,
-        "scm" if scm else _ground_of(soil, reference),
+        _ground_of(soil, reference),
         deformable=not wheel.style.startswith("wheel/"),
     )
     run.conditions.update(_rig_conditions(rig))
     run.conditions.update(_wheel_conditions(wheel, results))
-    if scm:
-        _read_scm(run, scm)
+    if soil and run.ground == "scm":
+        _read_scm(run, soil)
     elif soil and run.ground == "continuum":
         _read_continuum(run, soil)
     elif reference:
@@ -167,6 +156,8 @@ def read_wheel_run(folder: Path | str, label: str | None = None) -> WheelRun:
 
 
 def _ground_of(soil: Style | None, reference: Grains | None) -> str:
+    if soil and soil.kind == "scm":
+        return "scm"
     if soil:
         return "hybrid" if reference else "continuum"
     return "grains" if reference else "none"

@@ -9,7 +9,8 @@ from ..uncertainty.scene_errors import CONVERGENCE, MATERIAL, RELATIVE, SceneCon
 from ..uncertainty.scene_errors import found_file, of_runs, places, values_of
 from ..errors import ResultsError
 from ..formatting import duration
-from ..read.wheel_run import cells_or_grains, read_wheel_run
+from ..read.ground_kinds import ground_kind
+from ..read.wheel_run import read_wheel_run
 from ..run.record import digest
 from ..run.script import RESERVED, check_variables, script_variables
 from ..csv_table import in_columns
@@ -115,7 +116,7 @@ def sizes_of(script: Path, given: Variables) -> dict[str, float]:
 
 def convergence_table(found: SceneConvergence) -> str:
     """Values over the sizes, order, and the error of the finest."""
-    kind = cells_or_grains(found.ground)
+    kind = ground_kind(found.ground).sizes
     head = ["", *(f"{kind} {1e3 * size:.3g} mm" for size in found.sizes), "order", "error of the finest"]
     rows: list[Sequence[str]] = [head]
     for name, values in found.quantities.items():

@@ -17,7 +17,7 @@ from ..uncertainty.scene_errors import convergence_of
 from ..uncertainty.whole_error import SNOW, RunErrors, budgets_of
 from ..errors import ResultsError
 from ..formatting import duration
-from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun, read_wheel_run
+from ..read.wheel_run import WheelRun, read_wheel_run
 from ..run.script import script_variables
 from ..run.summary import Summary
 from .catalogue import Variables
@@ -183,7 +183,7 @@ def _exponent(run: WheelRun) -> float:
     stored = convergence_of(run)
     if stored and all(map(math.isfinite, stored.cpu_times)):
         return -float(np.polyfit(np.log(stored.sizes), np.log(stored.cpu_times), 1)[0])
-    return EXPONENTS[run.ground in GROUNDS_OF_CELLS]
+    return EXPONENTS[not run.ground_kind.random]
 
 
 def outcome(made: Plan, folder: Path) -> list[str]:

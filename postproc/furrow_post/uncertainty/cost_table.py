@@ -17,7 +17,8 @@ from typing import Any, NamedTuple
 from ..csv_table import in_cells, read_comments, read_rows, write_rows
 from ..errors import ResultsError, content_of
 from ..formatting import duration
-from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun, cells_or_grains
+from ..read.ground_kinds import ground_kind
+from ..read.wheel_run import WheelRun
 from .budget import Budget
 from .grid_convergence import Convergence, grid_convergence, mean_shift, noise_of, pooled_scatter, same_size
 from .statistics import commonest, grouped
@@ -147,8 +148,8 @@ class Family:
 
     def packing(self, key: str) -> float:
         """Standard deviation of one packing; 0 of a lattice, NaN where there is one alone."""
-        if self.key.ground in GROUNDS_OF_CELLS:
-            return 0.0  # nothing is random
+        if not ground_kind(self.key.ground).random:
+            return 0.0
         return pooled_scatter(self._values_of(key, base.size) for base in self.bases)
 
     def domain_error(self, key: str) -> float:
@@ -177,7 +178,7 @@ class Family:
 
     @property
     def _elements(self) -> str:
-        return cells_or_grains(self.rows[0].ground)
+        return ground_kind(self.rows[0].ground).sizes
 
     def _bases_of(self, size: float) -> list[Row]:
         return [base for base in self.bases if same_size(base.size, size)]
@@ -222,7 +223,7 @@ def cost_report(rows: Iterable[Row]) -> str:
     """Values with their numerical errors, parts and cost."""
     lines = []
     for row, errors in numerical_errors(rows):
-        kind = f"{row.ground}, {cells_or_grains(row.ground)} of {1e3 * row.size:.3g} mm, {row.model} model, {row.wheel}"
+        kind = f"{row.ground}, {ground_kind(row.ground).sizes} of {1e3 * row.size:.3g} mm, {row.model} model, {row.wheel}"
         lines.append(f"{row.run}: {kind}, {duration(row.cpu_time)} of one core")
         for quantity in QUANTITIES:
             error = errors[quantity.key].scaled(quantity.scale)

@@ -10,7 +10,8 @@ from typing import Any
 
 from ..errors import ResultsError, content_of
 from ..json_text import parse_json
-from ..read.wheel_run import WheelRun, cells_or_grains
+from ..read.ground_kinds import ground_kind
+from ..read.wheel_run import WheelRun
 from ..run.record import digest
 from ..run.summary import SteadyValue, Summary
 from .grid_convergence import Convergence, grid_convergence
@@ -60,7 +61,7 @@ class SceneConvergence(SceneFile):
     @property
     def source(self) -> str:
         sizes = ", ".join(f"{1e3 * size:.3g}" for size in sorted(self.sizes, reverse=True))
-        return f"{self.path.name}: {cells_or_grains(self.ground)} of {sizes} mm"
+        return f"{self.path.name}: {ground_kind(self.ground).sizes} of {sizes} mm"
 
 
 @dataclass(frozen=True)
@@ -152,7 +153,7 @@ def material_error_of(run: WheelRun) -> SceneMaterial | None:
     """Error by the material in the scene of a run; None where there is none, or the script or the file has changed since."""
     script, path = _beside_scene(run, MATERIAL)
     found = read_material_error(path) if path else None
-    soil = next((one for kind in ("terrain", "scm") if (one := run.results.styles().of_kind(kind))), None)
+    soil = run.results.styles().terrain()
     keyword = next((key for key in ("material", "card") if soil and soil.has(key)), "")
     if not found or not soil or not keyword or found.script != digest(script):
         return None

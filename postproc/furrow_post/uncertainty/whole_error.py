@@ -17,7 +17,7 @@ import numpy as np
 
 from ..errors import ResultsError
 from ..formatting import value_text as with_known_error
-from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun, cells_or_grains, read_wheel_run
+from ..read.wheel_run import WheelRun, read_wheel_run
 from ..run.summary import BUDGET, SteadyValue, Summary
 from .budget import IMPOSED, Budget
 from .cost_table import Family, FamilyKey, parsed_row
@@ -126,7 +126,7 @@ def width_of_ground(run: WheelRun, case: Case, key: str) -> Budget:
 
 
 def of_like_wheels(run: WheelRun, case: Case, key: str) -> Budget:
-    soil = run.results.styles().of_kind("terrain")
+    soil = run.results.styles().terrain()
     particles = soil.number("particles", 2) if soil else 2
     ratio = run.size / run.number("wheel_width")
     return like_wheels(SIZES.stored(), SCHEME.stored(), run.ground, ratio, case, key, particles)
@@ -168,8 +168,8 @@ class RunErrors:
         self.stored = convergence_of(run)
         self.soil = material_error_of(run)
         self.load = abs(run.values["force_z"].mean)
-        self.regimes = REGIMES.stored() if run.ground != "scm" else ()
-        self.elements = "mesh" if run.ground == "none" else cells_or_grains(run.ground)
+        self.regimes = REGIMES.stored() if run.ground_kind.has_tests else ()
+        self.elements = "mesh" if run.ground == "none" else run.ground_kind.sizes
 
     def of(self, name: str, value: SteadyValue) -> Budget:
         """Error of a value, also of one that the summary does not have."""
@@ -215,7 +215,7 @@ class RunErrors:
         """Nothing in cells is random, a road has no end."""
         if self.run.ground == "none":
             return Budget(packing=0.0, domain=0.0)
-        return Budget(packing=0.0) if self.run.ground in GROUNDS_OF_CELLS else Budget()
+        return Budget() if self.run.ground_kind.random else Budget(packing=0.0)
 
     def _with_scene(self, parts: Budget, name: str, value: SteadyValue, key: str) -> Budget:
         """Parts with the errors from the runs of this scene in other sizes, where there are any."""

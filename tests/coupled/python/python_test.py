@@ -352,6 +352,17 @@ class Arrays(Case):
             self.assertGreater(soil["kinetic_energy"], 0.0)
 
 
+    def test_height_field_is_a_terrain(self) -> None:
+        with opened(SCENES / "wheel_on_scm.lig", results="field", distance=0.1) as run:
+            soil = run.terrains["soil"]
+            before = soil.nodes.copy()
+            self.assertEqual((soil.level, soil.particles(), before[:, 2].max()), (0.0, [], 0.0))
+            run.step(1000)
+            self.assertEqual(soil.nodes[:, 2].min(), -run.outputs("soil")["deepest"])
+            self.assertEqual(len(soil.forces), len(before))
+            self.assertLess(soil.triangles.max(), len(before))
+
+
 class Checkpoints(Case):
     def test_a_run_continues_from_a_checkpoint_of_the_script_and_one_between_steps(self) -> None:
         executable(SCENE, here=HERE, results="alone")

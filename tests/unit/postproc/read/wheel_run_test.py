@@ -150,9 +150,9 @@ class WheelRunTest(FolderTest):
         scm = style("scm", "terrain/scm", length=3.0, width=1.0, cell=0.02)
         write_run(self.folder, styles=[rigid_wheel(), rig(), scm])
         run = read_wheel_run(self.folder)
-        self.assertEqual((run.ground, run.has_density, run.elements), ("scm", False, 7500))
+        self.assertEqual((run.ground, run.ground_kind.has_density, run.elements), ("scm", False, 7500))
         self.assertEqual(run.describe_size(), "cells of 20 mm")
-        self.assertEqual((run.domain, run.elements_name), ((3.0, 1.0), "cells"))
+        self.assertEqual((run.domain, run.ground_kind.elements), ((3.0, 1.0), "cells"))
 
     def test_results_of_an_older_version_are_refused(self) -> None:
         write_run(self.folder)
