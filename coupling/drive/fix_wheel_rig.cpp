@@ -137,26 +137,24 @@ int FixWheelRig::setmask() { return on_slope() ? LAMMPS_NS::FixConst::POST_FORCE
 
 /// Warns once, before a run, of a spring that gives by more than the radius.
 void FixWheelRig::warn_of_soft_spring() {
-  const Suspension* const suspension = rig_.suspension();
-  if (!suspension || warned_of_spring_) return;
+  if (!rig_.has_suspension() || warned_of_spring_) return;
   warned_of_spring_ = true;
-  const double weight = suspension->mass() * options().number("gravity"),
-               deflection = weight / suspension->stiffness(),
-               radius = wheel_fix_.hub().nominal_radius();
+  const double mass = rig_.sprung_mass(), stiffness = rig_.strut().stiffness,
+               damping = rig_.strut().damping, weight = mass * options().number("gravity"),
+               deflection = weight / stiffness, radius = wheel_fix_.hub().nominal_radius();
   if (deflection > radius)
     warn(*lmp, fmt::format(
                    "{} is {:g} N/m: under the sprung weight of {:.4g} N it gives by {:.3g} m, more "
                    "than the radius of '{}', {:.3g} m; springs of vehicles give by a tenth of it; "
                    "give N/m, not N/mm",
-                   options().where("suspension_stiffness"), suspension->stiffness(), weight,
-                   deflection, wheel_fix_.id, radius));
-  const double ratio =
-      0.5 * suspension->damping() / std::sqrt(suspension->stiffness() * suspension->mass());
-  if (suspension->damping() > 0.0 && ratio < least_damping_ratio)
+                   options().where("suspension_stiffness"), stiffness, weight, deflection,
+                   wheel_fix_.id, radius));
+  const double ratio = 0.5 * damping / std::sqrt(stiffness * mass);
+  if (damping > 0.0 && ratio < least_damping_ratio)
     warn(*lmp,
          fmt::format("{} is {:g} N s/m, {:.1g} of critical damping; vehicles have 0.2 to 0.4; give "
                      "N s/m, not kN s/m",
-                     options().where("suspension_damping"), suspension->damping(), ratio));
+                     options().where("suspension_damping"), damping, ratio));
 }
 
 /// Warns once, before a run, of a torque that turns nothing.

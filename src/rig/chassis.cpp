@@ -17,15 +17,13 @@ constexpr double apart = 1e-6;          // [m] wheels that are closer are in one
 constexpr double most_radii = 10.0;     // of a wheel, of heights above the axles
 constexpr double least_support = 1e-6;  // of the stiffest coordinate
 
-double mass_of(const WheelRig& rig) { return rig.suspension()->mass(); }
-
 /// Centre of the sprung masses in x and y [m].
 Vector2 centre_of_mass(const std::vector<WheelRig*>& rigs) {
   Vector2 sum = Vector2::Zero();
   double mass = 0.0;
   for (const WheelRig* rig : rigs) {
-    sum += mass_of(*rig) * rig->wheel().centre().head<2>();
-    mass += mass_of(*rig);
+    sum += rig->sprung_mass() * rig->wheel().centre().head<2>();
+    mass += rig->sprung_mass();
   }
   return sum / mass;
 }
@@ -71,13 +69,13 @@ SprungBody Chassis::make_body(const Options& options, const std::vector<WheelRig
   double mass = 0.0;
   Vector2 least = rigs.front()->wheel().centre().head<2>(), most = least;
   for (const WheelRig* rig : rigs) {
-    if (!rig->suspension())
+    if (!rig->has_suspension())
       throw InputError(options.where("rigs"), "has a rig without suspension",
                        "rigs with suspension_stiffness", "the springs of the rigs carry the body");
     if (rig->joined())
       throw InputError(options.where("rigs"), "has a rig that carries a chassis already",
                        "each rig once");
-    mass += mass_of(*rig);
+    mass += rig->sprung_mass();
     least = least.cwiseMin(rig->wheel().centre().head<2>());
     most = most.cwiseMax(rig->wheel().centre().head<2>());
   }
@@ -88,7 +86,7 @@ SprungBody Chassis::make_body(const Options& options, const std::vector<WheelRig
   for (const WheelRig* rig : rigs) {
     const Vector2 arm = (rig->wheel().centre().head<2>() - centre) / span.maxCoeff();
     const Vector3 b(1.0, inertia[1] > 0.0 ? arm.y() : 0.0, inertia[2] > 0.0 ? -arm.x() : 0.0);
-    support += rig->suspension()->stiffness() * b * b.transpose();
+    support += rig->strut().stiffness * b * b.transpose();
   }
   for (int k = 1; k < 3; ++k)
     if (inertia[k] == 0.0) support(k, k) = support(0, 0);
@@ -141,8 +139,8 @@ Vector2 Chassis::moment(double dt) {
   double mass = 0.0;
   for (const WheelRig* rig : rigs_) {
     const WheelHub& wheel = rig->wheel();
-    mass += mass_of(*rig);
-    speed += mass_of(*rig) * wheel.velocity().head<2>();
+    mass += rig->sprung_mass();
+    speed += rig->sprung_mass() * wheel.velocity().head<2>();
     weight += rig->sprung_weight();
     guides += Vector2(wheel.constraint(Coordinate::x), wheel.constraint(Coordinate::y));
     const Vector3 axle = wheel.axle();

@@ -16,7 +16,6 @@
 #include "rig/ramp.h"
 #include "rig/slip.h"
 #include "rig/sprung_body.h"
-#include "rig/suspension.h"
 
 namespace furrow {
 
@@ -83,9 +82,8 @@ class WheelRig {
 
   /// True if the rig sets a coordinate, "the load" or "the axle torque" of its wheel in every step.
   bool sets(const std::string& coordinate) const;
-  bool has_suspension() const { return suspension_.has_value(); }
-  /// Suspension of the rig; null without one.
-  const Suspension* suspension() const { return suspension_ ? &*suspension_ : nullptr; }
+  bool has_suspension() const { return sprung_mass_ > 0.0; }
+  double sprung_mass() const { return sprung_mass_; }  ///< [kg]; 0 without suspension
   const WheelHub& wheel() const { return wheel_; }
 
   // Suspension that carries a part of a chassis, which computes its step after apply().
@@ -96,7 +94,8 @@ class WheelRig {
   bool lowered(double time) const { return time >= load_ramp_.start; }
   /// Weight of the sprung mass in the axes of the ground [N].
   const Vector3& sprung_weight() const { return sprung_weight_; }
-  Strut strut() const;                 ///< its arm is the place of the axle
+  /// Present strut of the suspension. Its arm is the place of the axle.
+  Strut strut() const;
   void press(const Strut& strut);      ///< presses the wheel with the results
   void checkpoint(Checkpoint& state);  ///< of the suspension
 
@@ -176,7 +175,8 @@ class WheelRig {
   Ramp load_ramp_;            // begins when the wheel is lowered
   Ramp speed_ramp_;           // begins with the acceleration
   PassSchedule passes_;
-  std::optional<Suspension> suspension_;
+  double sprung_mass_ = 0.0;  // [kg]; 0 without suspension
+  Strut strut_;               // stiffness, damping, and the results of the last step
   bool joined_ = false;
   Vector3 sprung_weight_ = Vector3::Zero();  // [N] in the axes of the ground, of this step
   double start_height_ = 0.0;                // [m] of the axle with a suspension

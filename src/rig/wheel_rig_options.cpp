@@ -320,7 +320,7 @@ void WheelRig::retarget(const Options& options) {
                      fmt::format("is {}, and targets change during the run", passes_.passes()),
                      "one pass", "the passes are planned before the first");
   check_constants(options);
-  if (suspension_ && options.given("load_mass") &&
+  if (has_suspension() && options.given("load_mass") &&
       options.number("load_mass") * options.number("gravity") != load_)
     throw InputError(options.where("load_mass"), "changes during the run",
                      "the value of the script with a suspension, whose sprung mass it has set",
@@ -544,8 +544,9 @@ void WheelRig::read_suspension(const Options& options) {
     throw InputError(where, fmt::format("is given, and the load is {:.4g} kg", load_ / gravity),
                      fmt::format("a load above {:.4g} kg, the mass of the wheel", own),
                      "the mass of the wheel is unsprung, the rest of the load is sprung");
-  suspension_.emplace(options.number("suspension_stiffness"), options.number("suspension_damping"),
-                      sprung);
+  sprung_mass_ = sprung;
+  strut_.stiffness = options.number("suspension_stiffness");
+  strut_.damping = options.number("suspension_damping");
   wheel_weight_ = own * gravity;
   start_height_ = first_height_ = wheel_.position(Coordinate::z);
 }
