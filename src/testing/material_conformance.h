@@ -146,7 +146,7 @@ TEST_P(MaterialConformance, StateIsDescribed) {
   }
 }
 
-TEST_P(MaterialConformance, NoStepNoChange) {
+TEST_P(MaterialConformance, ZeroStepChangesNothing) {
   VectorX state = some_state();
   const VectorX before = state;
   update(Matrix3::Zero(), state, 0.0);
@@ -279,7 +279,7 @@ TEST_P(MaterialConformance, BlocksOfAnySizeAndAlignmentAgreeWithSinglePoints) {
 
 /// The work of the stress equals the change of the three energies up to an error of second order in
 /// the step, for steps without duration and, if the law depends on the rate, in its response time.
-TEST_P(MaterialConformance, WorkIsAccountedFor) {
+TEST_P(MaterialConformance, WorkIsStoredFrozenOrDissipated) {
   std::vector<double> durations{0.0};
   if (material_->rate_dependent()) durations.push_back(time_step_ / 0.3);
   for (const double duration : durations) {
@@ -317,7 +317,7 @@ TEST_P(MaterialConformance, WorkIsAccountedFor) {
   }
 }
 
-TEST_P(MaterialConformance, NoStepLeavesTheYieldSurfaceOrTakesBackHeat) {
+TEST_P(MaterialConformance, StressStaysInsideTheYieldSurfaceAndHeatNeverFalls) {
   for (int path = 0; path < 20; ++path) {
     VectorX state = material_->initial_state();
     for (int step = 0; step < 20; ++step) {
@@ -335,7 +335,7 @@ TEST_P(MaterialConformance, NoStepLeavesTheYieldSurfaceOrTakesBackHeat) {
 }
 
 /// Sums dev(strain) - (s_end - s_start)/(2 G) over steps without rotation.
-TEST_P(MaterialConformance, EquivalentPlasticStrainIsWhatElasticityDoesNotTake) {
+TEST_P(MaterialConformance, EquivalentPlasticStrainIsTotalMinusElastic) {
   const std::optional<std::size_t> kept = material_->find_field("eps_dev_pl");
   if (!kept) return;
   const auto deviator = [](const Vector6& a) {
@@ -365,7 +365,7 @@ TEST_P(MaterialConformance, EquivalentPlasticStrainIsWhatElasticityDoesNotTake) 
   EXPECT_GT(yielded, 50);
 }
 
-TEST_P(MaterialConformance, TheTimeStepCountsForRateDependentLawsOnly) {
+TEST_P(MaterialConformance, OnlyRateDependentLawsDependOnTheTimeStep) {
   const VectorX start = some_state();
   const Matrix3 h = random_gradient(strain_scale(start));
   VectorX sudden = start;
@@ -413,7 +413,7 @@ TEST_P(MaterialConformance, WaveModulusBoundsTheElasticTangent) {
   }
 }
 
-TEST_P(MaterialConformance, YieldSurfaceIsWhereTheYieldFunctionVanishes) {
+TEST_P(MaterialConformance, YieldFunctionIsZeroOnTheYieldSurface) {
   const VectorX state = some_state();
   const std::vector<Vector2> line = material_->yield_surface(state);
   if (line.empty()) {
@@ -441,7 +441,7 @@ TEST_P(MaterialConformance, YieldSurfaceIsWhereTheYieldFunctionVanishes) {
   }
 }
 
-TEST_P(MaterialConformance, AFoldedOrUndefinedStepStopsWithItsCause) {
+TEST_P(MaterialConformance, InvertedOrUndefinedDeformationStopsTheRun) {
   Matrix3 folded = Matrix3::Zero();
   folded(1, 1) = -1.2;
   Matrix3 undefined = Matrix3::Zero();
@@ -463,7 +463,7 @@ TEST_P(MaterialConformance, AFoldedOrUndefinedStepStopsWithItsCause) {
 
 /// Not-a-number in a value that the law reads from the state stops the run. A value that it does
 /// not read (the stress of a law that carries its deformation) is replaced.
-TEST_P(MaterialConformance, AStateThatIsNotFiniteStopsTheRun) {
+TEST_P(MaterialConformance, NonFiniteStateStopsTheRun) {
   const VectorX start = some_state();
   VectorX expected = start;
   update(Matrix3::Zero(), expected, 0.0);

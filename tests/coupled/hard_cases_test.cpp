@@ -41,7 +41,7 @@ void make_bed(Scene& scene, const Case& c) {
 
 class HardCase : public testing::TestWithParam<Case> {};
 
-TEST_P(HardCase, LosesNothing) {
+TEST_P(HardCase, BedKeepsGrainsMomentumAndEnergy) {
   const Case c = GetParam();
   Scene scene;
   make_bed(scene, c);

@@ -75,7 +75,7 @@ void expect_equal(const Outcome& one, const Outcome& other, double tolerance) {
 class WheelMesh : public ::testing::TestWithParam<int> {};
 
 // The same triangles, which the file has with all digits.
-TEST_P(WheelMesh, OnAContinuumHasTheForcesOfTheBuiltInWheel) {
+TEST_P(WheelMesh, MeshOfAWheelHasTheForcesOfTheRigidWheel) {
   WheelGeometry geometry;
   geometry.diameter = 0.2;
   geometry.width = 0.08;
@@ -146,11 +146,11 @@ void expect_the_plate_of_twelve_facets(bool on_grains) {
   expect_equal(expected, found, 1e-6);
 }
 
-TEST(PlateMesh, OfTwelveFacetsHasTheForcesOfThePlateOnAContinuum) {
+TEST(PlateMesh, TwelveFacetsHaveTheForcesOfThePlateOnAContinuum) {
   expect_the_plate_of_twelve_facets(false);
 }
 
-TEST(PlateMesh, OfTwelveFacetsHasTheForcesOfThePlateOnGrains) {
+TEST(PlateMesh, TwelveFacetsHaveTheForcesOfThePlateOnGrains) {
   expect_the_plate_of_twelve_facets(true);
 }
 

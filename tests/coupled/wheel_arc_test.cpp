@@ -78,7 +78,7 @@ void compare(Scene& scene, int settling, int steps, double least_sliding) {
   EXPECT_LT(slid / pressed, 1.3 * rim);
 }
 
-TEST(WheelArc, SumsToForceAndTorqueOnAContinuum) {
+TEST(WheelArc, ArcStressesSumToForceAndTorqueOnAContinuum) {
   Scene scene;
   scene.granular_box(Vector3(-1, -1, -1), Vector3(1, 1, 1), 0.05);
   scene.commands("atom_modify sort 0 0\ntimestep 1e-4");
@@ -93,7 +93,7 @@ TEST(WheelArc, SumsToForceAndTorqueOnAContinuum) {
   compare(scene, 2000, 1500, 0.2);
 }
 
-TEST(WheelArc, SumsToForceAndTorqueOnGrains) {
+TEST(WheelArc, ArcStressesSumToForceAndTorqueOnGrains) {
   Scene scene;
   make_sand_bed(scene);
   add_wheel(scene, 0.075);

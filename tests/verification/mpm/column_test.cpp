@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, Column,
                          [](const auto& one) { return std::string(one.param.name); });
 
 /// Each particle has the stress at its density, if it shares nothing with its cell.
-TEST_P(Column, FollowsTheLawInConfinedCompression) {
+TEST_P(Column, StressFollowsTheLawInConfinedCompression) {
   const double cell = 0.02, height = 0.2;
   const auto material = material_of(GetParam().material);
   TerrainParameters parameters = box(material, {0, 0, 0}, {2 * cell, 2 * cell, height}, cell);
@@ -152,7 +152,7 @@ TEST_P(Column, FollowsTheLawInConfinedCompression) {
 
 /// With the usual scheme the mean stress of a cell is that of its mean density, but in the cells
 /// next to the lid and the base.
-TEST_P(Column, MeansOfCellsFollowTheLawInConfinedCompression) {
+TEST_P(Column, CellMeansFollowTheLawInConfinedCompression) {
   const double cell = 0.02, height = 0.2;
   const auto material = material_of(GetParam().material);
   TerrainParameters parameters = box(material, {0, 0, 0}, {2 * cell, 2 * cell, height}, cell);
@@ -238,7 +238,7 @@ double force_at_given_height(double cell, double stiffness) {
 
 /// The lid's spring gives way by a length that shrinks with the cell: the offset between particles
 /// and surface converges away, order 1.
-TEST(Lid, OffsetOfTheContactConvergesAway) {
+TEST(Lid, ContactOffsetConvergesToZero) {
   const double coarse = force_at_given_height(0.04, 0.4), medium = force_at_given_height(0.02, 0.4),
                fine = force_at_given_height(0.01, 0.4);
   RecordProperty("force_over_closed_form",
