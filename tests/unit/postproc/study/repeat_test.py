@@ -35,17 +35,17 @@ class GuardTest(FolderTest):
                 self.assertIn(value.study, made)
                 self.assertTrue((value.stored.table.parent / "README.md").is_file())
 
-    def test_every_study_but_those_beyond_the_report_has_a_value(self) -> None:
+    def test_studies_within_the_report_have_values(self) -> None:
         named = {value.study for value in Registry.of(SOURCE) if value.stored}
         made = {folder.name for folder in study_folders(SOURCE) if folder.parent == VALIDATION}
         self.assertEqual(named | {"cmu_sand", "free_travel", "grains", "predictions", "pull_slip", "tyre_formulas"}, made)
 
-    def test_cheap_values_cost_seconds(self) -> None:
+    def test_cheap_values_take_seconds(self) -> None:
         for folder in study_folders(SOURCE):
             costs = [v.cost.read() for v in values_of(folder) if v.cheap and v.cost]
             self.assertLessEqual(sum(costs), 30.0, folder.name)
 
-    def test_what_is_no_longer_stored_is_found(self) -> None:
+    def test_missing_stored_files_are_reported(self) -> None:
         stored, made = self.folder / "stored", self.folder / "made"
         for folder, text in ((stored, "run,z,e,f\na,1.0,0.1,0.01\n"), (made, "")):
             folder.mkdir()
@@ -82,7 +82,7 @@ class CostTest(unittest.TestCase):
                 (Path(temporary) / name).write_text(text, encoding="utf-8")
             return known_cost(Path(temporary))
 
-    def test_each_run_counts_once(self) -> None:
+    def test_cost_counts_each_run_once(self) -> None:
         results = "run,user_s\na,10\nb,5\n"
         for what, tables, expected in (
             ("a run of two tables", {"results.csv": results, "error.csv": "run,cpu_s\na,10\n"}, 15),
