@@ -8,7 +8,7 @@
 #include "bodies/rigid_plate.h"
 #include "tests/support/bar.h"
 
-namespace furrow::thin_parts_test {
+namespace furrow::thin_blade_test {
 namespace {
 
 using namespace testing_terrain;
@@ -106,4 +106,4 @@ TEST(ThinBlade, UndividedGroundIsPulledBehindTheBlade) {
 }
 
 }  // namespace
-}  // namespace furrow::thin_parts_test
+}  // namespace furrow::thin_blade_test

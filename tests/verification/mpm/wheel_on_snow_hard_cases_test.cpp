@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "tests/support/error_of.h"
 
-namespace furrow::hard_cases_test {
+namespace furrow::wheel_on_snow_hard_cases_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -263,4 +263,4 @@ TEST(HardCase, CompactionUnderASoftLidStopsTheRun) {
 }
 
 }  // namespace
-}  // namespace furrow::hard_cases_test
+}  // namespace furrow::wheel_on_snow_hard_cases_test

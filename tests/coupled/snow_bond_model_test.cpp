@@ -13,7 +13,7 @@
 #include "tests/coupled/support/scene.h"
 #include "tests/coupled/support/snow.h"
 
-namespace furrow::test::snow_bond_test {
+namespace furrow::test::snow_bond_model_test {
 namespace {
 
 constexpr double dt = 1e-5, density = 340.0;
@@ -275,4 +275,4 @@ TEST(SnowBondModel, CollidingLumpsHaveAClosedEnergyBalance) {
 }
 
 }  // namespace
-}  // namespace furrow::test::snow_bond_test
+}  // namespace furrow::test::snow_bond_model_test

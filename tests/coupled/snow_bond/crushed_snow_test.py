@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A block of sintered snow that is crushed and torn, with what grains may meet.
 
-    run.py ranks.<load> <furrow> <mpirun -n>      on 1, 2 and 3 ranks: to rounding, and the same bonds
-    run.py restart.<load> <furrow> <mpirun -n>    continued after half of it, on 1 and 2 ranks: every bit
-    run.py mesh_as_plane <furrow> <mpirun -n>     thrown at a mesh of LIGGGHTS as at a plane;
-                                                  every bit without AVX2 as with it, and in the loop
-                                                  of LIGGGHTS as in Furrow's
-    run.py initial_overlap <furrow> <mpirun -n>   accepted where snow is crushed, warned of where it
-                                                  is crushed to ice
+    crushed_snow_test.py ranks.<load> <furrow> <mpirun -n>      on 1, 2 and 3 ranks: to rounding, and the same bonds
+    crushed_snow_test.py restart.<load> <furrow> <mpirun -n>    continued after half of it, on 1 and 2 ranks: every bit
+    crushed_snow_test.py mesh_as_plane <furrow> <mpirun -n>     thrown at a mesh of LIGGGHTS as at a plane;
+                                                                every bit without AVX2 as with it, and in the
+                                                                loop of LIGGGHTS as in Furrow's
+    crushed_snow_test.py initial_overlap <furrow> <mpirun -n>   accepted where snow is crushed, warned of where it
+                                                                is crushed to ice
 
 Loads: plate (crushed on a plane by a body of Furrow), soft (the same, snow that does not harden),
 hybrid (on a continuum), plane and mesh (thrown at walls of LIGGGHTS, without a body of Furrow),
@@ -121,4 +121,5 @@ if __name__ == "__main__":
     case, program, *launcher = sys.argv[1:]
     check, *loads = case.split(".")
     with tempfile.TemporaryDirectory() as scratch:
-        {"ranks": ranks, "restart": restart, "mesh_as_plane": mesh_as_plane, "initial_overlap": initial_overlap}[check](program, launcher, Path(scratch), *loads)
+        checks = {"ranks": ranks, "restart": restart, "mesh_as_plane": mesh_as_plane, "initial_overlap": initial_overlap}
+        checks[check](program, launcher, Path(scratch), *loads)

@@ -12,14 +12,14 @@
 #include "tests/coupled/support/scene.h"
 #include "tests/support/meshes.h"
 
-namespace furrow::test::mesh_bodies_test {
+namespace furrow::test::mesh_body_forces_test {
 namespace {
 
 constexpr double load = 40.0;  // [N]
 
 /// A file that all ranks read.
 std::string stl_of(Scene& scene, const Surface& surface) {
-  const std::string path = fmt::format("mesh_bodies_test_{}.stl", scene.ranks());
+  const std::string path = fmt::format("mesh_body_forces_test_{}.stl", scene.ranks());
   if (scene.rank() == 0) write_stl(path, surface);
   scene.sum(0.0);  // a barrier
   return path;
@@ -155,4 +155,4 @@ TEST(PlateMesh, TwelveFacetsHaveTheForcesOfThePlateOnGrains) {
 }
 
 }  // namespace
-}  // namespace furrow::test::mesh_bodies_test
+}  // namespace furrow::test::mesh_body_forces_test

@@ -15,7 +15,7 @@
 #include "shell_model.h"
 #include "tests/support/error_of.h"
 
-namespace furrow::test::natural_modes_test {
+namespace furrow::test::shell_modes_test {
 namespace {
 
 constexpr double E = 1e10;           // [Pa]
@@ -212,4 +212,4 @@ TEST(NaturalModes, TooManyModesAreRefused) {
 }
 
 }  // namespace
-}  // namespace furrow::test::natural_modes_test
+}  // namespace furrow::test::shell_modes_test

@@ -16,7 +16,7 @@
 #include "tyre/darnell_tyre.h"
 #include "tests/support/error_of.h"
 
-namespace furrow::hard_cases_test {
+namespace furrow::tyre_hard_cases_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -125,4 +125,4 @@ TEST(HardCases, StiffTreadJointBucklesTheBeltInsideTheShoulder) {
 }
 
 }  // namespace
-}  // namespace furrow::hard_cases_test
+}  // namespace furrow::tyre_hard_cases_test

@@ -15,7 +15,7 @@
 #include "tyre/darnell_tyre.h"
 #include "tyre/mode_kind.h"
 
-namespace furrow::test::natural_modes_test {
+namespace furrow::test::tyre_modes_test {
 namespace {
 
 // little air, so that the belt has no wrinkles
@@ -131,4 +131,4 @@ TEST(TyreModes, HalfModelIsRefused) {
 }
 
 }  // namespace
-}  // namespace furrow::test::natural_modes_test
+}  // namespace furrow::test::tyre_modes_test

@@ -14,7 +14,7 @@
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 
-namespace furrow::test::hard_cases_test {
+namespace furrow::test::wheel_on_bed_hard_cases_test {
 namespace {
 
 struct Case {
@@ -116,4 +116,4 @@ TEST(HardCases, CohesiveColumnCollapses) {
 }
 
 }  // namespace
-}  // namespace furrow::test::hard_cases_test
+}  // namespace furrow::test::wheel_on_bed_hard_cases_test
