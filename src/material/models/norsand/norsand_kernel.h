@@ -212,16 +212,9 @@ struct NorSandKernel {
 
 inline BlockResult update_norsand(const NorSandParameters& parameters, double density,
                                   const PointBlock& block) {
-  using Kind = SectionParameters::Kind;
-  switch (parameters.section.kind) {
-    case Kind::abaqus:
-      return update_points(NorSandKernel<Kind::abaqus>{parameters}, density, block);
-    case Kind::matsuoka_nakai:
-      return update_points(NorSandKernel<Kind::matsuoka_nakai>{parameters}, density, block);
-    case Kind::round:
-      break;
-  }
-  return update_points(NorSandKernel<Kind::round>{parameters}, density, block);
+  return for_section(parameters.section, [&](auto kind) {
+    return update_points(NorSandKernel<kind.value>{parameters}, density, block);
+  });
 }
 
 constexpr void fill(NorSandKernels& kernels) { kernels.update = update_norsand; }
