@@ -16,6 +16,7 @@ from scipy.optimize import brentq
 
 from ..arrays import Floats
 from ..errors import ResultsError
+from ..read.soil_card import mobilised_share
 from ..read.wheel_run import WheelRun
 from .prediction import Limit, OutOfRange, Prediction, Result
 from .prediction import report_of, require_positive, require_range, require_wheel
@@ -200,7 +201,7 @@ def _wong_reece_sums(theta_1: float, slip: float, radius: float, width: float, g
         mirrored = theta if low > 0 else theta_1 - theta / theta_m * (theta_1 - theta_m)
         sigma = k * np.maximum(np.cos(mirrored) - np.cos(theta_1), 0.0) ** n
         j = radius * (theta_1 - theta - (1 - slip) * (np.sin(theta_1) - np.sin(theta)))
-        tau = (ground.c + sigma * np.tan(np.radians(ground.phi))) * (1 - np.exp(-j / ground.K))
+        tau = (ground.c + sigma * np.tan(np.radians(ground.phi))) * mobilised_share(j, ground.K)
         totals += [
             np.sum(weight * (sigma * np.cos(theta) + tau * np.sin(theta))),
             np.sum(weight * (tau * np.cos(theta) - sigma * np.sin(theta))),

@@ -39,9 +39,9 @@ CHRONO = {  # key of Chrono's "Soil parameters" -> name
 }
 EARTH = 9.80665  # [m/s2]
 RFT_PLATE = 0.875  # stress under a level plate over strength and depth, resistive force theory [Agarwal2023]
-SMALLEST_K = 5e-4  # [m] that a soil has
+SMALLEST_K = 5e-4  # least K of a soil [m]
 INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
-REACHED = 0.98  # of it, by the last row of a test
+REACHED = 0.98  # least depth of the tests over INDEX_DEPTH
 STANDARD_CONE = 0.02027  # [m] base of 323 mm2, ASABE S313.3
 
 
@@ -55,7 +55,7 @@ class Fitted:
 
 @dataclass(frozen=True)
 class Range:
-    """Where the tests were made."""
+    """Range of a variable in the tests."""
 
     low: float
     high: float
@@ -88,9 +88,15 @@ class PressureSinkage:
         return slope / RFT_PLATE, abs(n - 1) / (n + 2) / math.sqrt(2 * n + 1)
 
 
+def mobilised_share(displacement: Floats, length: float) -> Floats:
+    """Shear stress over strength after a shear displacement j: 1 - exp(-j/K) of Z. Janosi and B. Hanamoto (1961)."""
+    share: Floats = 1 - np.exp(-displacement / length)
+    return share
+
+
 @dataclass(frozen=True)
 class Shear:
-    """tau = (c + sigma tan phi)(1 - exp(-j/K)) of Z. Janosi and B. Hanamoto (1961)."""
+    """tau = (c + sigma tan phi)(1 - exp(-j/K)), with the mobilised_share()."""
 
     instrument: ClassVar[str] = "ring"
     c: Fitted = field(metadata={"unit": "Pa"})
@@ -103,7 +109,7 @@ class Shear:
 
     def at(self, displacement: Floats, normal: Floats) -> Floats:
         strength = self.c.value + normal * math.tan(math.radians(self.phi.value))
-        stress: Floats = strength * (1 - np.exp(-displacement / self.K.value))
+        stress: Floats = strength * mobilised_share(displacement, self.K.value)
         return stress
 
 
@@ -199,7 +205,7 @@ class SoilCard:
             )
 
     def condition(self) -> str:
-        """Where the values hold, for a person and for the files of other codes."""
+        """Text of the range of validity, for the reader and for files of other codes."""
         return f"holds in a gravity of {self.gravity:g} m/s2 only"
 
     def doubts(self) -> list[str]:
