@@ -140,7 +140,7 @@ bool replaces(LAMMPS_NS::PrimitiveWall& wall, const Vector3& centre, const Vecto
               const Radii& radii) {
   Vector3 point = centre, to_wall = Vector3::Zero();
   const double off = behind * radii.smallest;
-  point -= off * normal;  // a plane in the mesh itself would have no direction
+  point -= off * normal;  // a point in the plane of the mesh has no direction
   wall.resolveContact(point.data(), 0.0, to_wall.data());
   const double along = to_wall.dot(normal);
   return along >= aligned * to_wall.norm() && along > 0.0 && along - off <= 2.0 * radii.largest;
@@ -304,7 +304,7 @@ std::string expected(const BoundaryEffects& effects, double x, PressedBy tool) {
   return fmt::format("{}", fmt::join(parts, " and "));
 }
 
-/// Source of the expectation, and what the remedy leaves of it.
+/// Text of the source of the expectation, and of its remaining part after the remedy.
 std::string source(GroundKind kind) {
   return fmt::format("estimate of the study ground_size on {}; its limits are 2 % and 0.01",
                      name_of(kind));
@@ -455,7 +455,7 @@ Found travel_stays_on_terrain(const Scene& scene, FixContactContinuum& contact) 
   if (!travel || pair.terrain.moves()) return {};
   const double end = 0.5 * (pair.body_x.lower + pair.body_x.upper) + *travel,
                limit = pair.terrain_x.upper - near_end * pair.body_x.length();
-  if (end <= limit || end - *travel > limit) return {};  // it stands there: during the run
+  if (end <= limit || end - *travel > limit) return {};  // the body stops there during the run
   return warning(fmt::format(
       "this run brings the axle of '{}' to x = {:.4g} m, and near the end of terrain '{}' at x = "
       "{:.4g} m the end resists it; shorten the run by {:.3g} m of travel, lengthen the ground, or "

@@ -353,7 +353,7 @@ Found body_comes_to_its_speed(const Scene& scene, const DrivenBody& driven) {
 
 Found waves_outrun_body(const Scene& scene, FixContactContinuum& contact) {
   for (const DrivenBody& driven : driven_bodies(*scene.lammps.modify)) {
-    // free travel has no speed: it is an answer
+    // the speed of free travel is a result
     if (&contact.body_fix() != &driven.body) continue;
     const double wave = wave_speed(contact.terrain_fix().terrain());
     const auto judged = [&](const GivenSpeed& speed, double radius) {

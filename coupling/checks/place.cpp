@@ -30,7 +30,7 @@ namespace {
 
 constexpr int shrink_wrapped = 2;         // of Domain::nonperiodic
 constexpr double large_overlap = 0.02;    // of the smaller of two boxes around bodies
-constexpr double inside = 0.5;            // winding number
+constexpr double inside = 0.5;            // winding number above which a point is inside
 constexpr double level_tolerance = 1e-3;  // of the body's size, on a continuum or a plane
 // Difference of a level over the largest diameter of the grains: a bed's level may be that of its
 // middles, of its highest grains or a mean, and a few grains may stick out.
@@ -136,7 +136,7 @@ Eigen::Index node_inside(const Surface& surface, const Surface& mesh) {
   return -1;
 }
 
-/// The level of something under a body, and how well it is known.
+/// Level of a surface under a body, with its uncertainty.
 struct Level {
   double z;          // [m]
   double tolerance;  // [m]

@@ -35,7 +35,7 @@ using Box = std::array<double, 6>;
 
 struct Scene {
   LAMMPS_NS::LAMMPS& lammps;
-  Box box_of_bodies;    ///< when the first body was made
+  Box box_of_bodies;    ///< box at the creation of the first body
   double grains = 0.0;  ///< of all ranks, at the start of the run
 
   double time() const;  ///< [s]

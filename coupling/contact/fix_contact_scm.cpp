@@ -19,7 +19,7 @@ namespace {
 
 // Contact width over the shorter and the longer side of a body
 constexpr double least_width = 0.05, largest_width = 1.5;
-constexpr char soil[] = "soil";  // between grousers it shears on itself
+constexpr char soil[] = "soil";  // soil between grousers shears on soil
 
 bool has_grousers(const FixBody& body) {
   const auto* wheel = dynamic_cast<const WheelHub*>(&body.body());

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double mean_volume = 1.045;    // over that of the mean diameter, of the same beds
 constexpr double poured_share = 0.6;     // solid over volume, when nothing else is known
-constexpr double bytes_of_grain = 3000;  // with its contacts and neighbours, measured
+constexpr double bytes_of_grain = 3000;  // memory of a grain with contacts and neighbours, measured
 constexpr double linear_step_limit =
     0.3;  // of half a period; 2 / pi would be the limit of one spring
 constexpr double level_tolerance = 0.5;                         // of the depth

@@ -21,9 +21,10 @@ namespace furrow::coupling {
 namespace {
 
 constexpr char surplus[] = "furrow_surplus";
-constexpr int per_diameter = 16;    // samples that show what is finer than a grain
-constexpr int most_rows = 16;       // of such samples
-constexpr double most_fine = 0.1;   // rms of what is finer than a grain, over that of the relief
+constexpr int per_diameter = 16;  // samples that resolve heights finer than a grain
+constexpr int most_rows = 16;     // largest number of rows of these samples
+constexpr double most_fine =
+    0.1;  // largest rms of heights finer than a grain, over that of the relief
 constexpr double least_height = 1;  // of a relief, in diameters
 
 double length_of(const Options& options, const char* name) {

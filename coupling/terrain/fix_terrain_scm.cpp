@@ -69,7 +69,8 @@ FixTerrainScm::FixTerrainScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
                            options().where("card")));
   std::vector<std::string> all =
       field().parameters().relief.doubts(options().number("length"), field().cell(), false);
-  if (soils() && options().warnings().empty())  // else the line has a value to mend first
+  if (soils() &&
+      options().warnings().empty())  // otherwise the user must first correct a value of the line
     for (const Soil& soil : soils()->all())
       for (const std::string& doubt : doubts(soil)) all.push_back(doubt);
   for (const std::string& doubt : all)

@@ -87,7 +87,7 @@ def is_point(line: Mapping[str, str]) -> bool:
 
 
 def series_value(line: Mapping[str, str], name: str) -> float | None:
-    """The value of this condition at a point of its series; None of other lines."""
+    """Value of this condition at a point of a series; None for lines without a series."""
     own, _, value = line["place"].partition("=")
     return float(value) if own == name else None
 
@@ -113,7 +113,7 @@ def table(lines: Iterable[Mapping[str, str]]) -> list[str]:
 
 
 def entries(group: Iterable[Mapping[str, str]], kind: str) -> dict[str, Entry]:
-    """By source."""
+    """Entries of the cross-check by source."""
     return {line["source"]: entry_of(line) for line in group if line["kind"] == kind}
 
 

@@ -57,7 +57,7 @@ MATCH = {
 
 
 def warn_of_short_tests(tests: Sequence[LaboratoryTest]) -> None:
-    """Warns of tests whose end is not yet the critical state."""
+    """Warns of tests that end before the critical state."""
     for test in tests:
         reached = float(np.max(np.abs(cell_curve(test.curve())[0][:, 2])))
         if reached < CRITICAL_STRAIN:
@@ -162,7 +162,7 @@ def hardening(test: LaboratoryTest, law: Law) -> tuple[list[tuple[float, float]]
 
 
 class Shear(NamedTuple):
-    """Cone of the law, and what the file states of it."""
+    """Cone of the law, with the comments on it in the material file."""
 
     tangent: float  # of beta
     what: str

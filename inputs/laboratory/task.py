@@ -51,7 +51,7 @@ def _without_repetition(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _fault(error: Any) -> str:
-    """Fault of a value of the file, and what is needed."""
+    """Text of the fault of a value in the file, with the requirement."""
     while error.context and len(error.context[-1].path) > 0:  # of a value below
         error = error.context[-1]
     schema, key = error.schema, ".".join(str(part) for part in error.absolute_path)

@@ -20,7 +20,7 @@ Value = TypeVar("Value")
 
 
 def read_only(values: Array) -> Array:
-    """The same array, which refuses to be written to; what is no array stays as it is."""
+    """Array protected against writing; other values are returned unchanged."""
     if isinstance(values, np.ndarray):
         values.flags.writeable = False
     return values
@@ -41,7 +41,7 @@ class Named(dict[str, Value]):
 
 
 class Fields(Named[Floats]):
-    """Arrays, which cannot be written to: they are what the file has."""
+    """Arrays of a file, protected against writing."""
 
     def __init__(self, file: Path, arrays: Mapping[str, Floats], remedy: str) -> None:
         super().__init__(file, {name: read_only(values) for name, values in arrays.items()}, remedy)

@@ -26,7 +26,7 @@ def with_error(mean: float, error: float, short: bool = False) -> str:
 
 
 def value_text(value: float, error: float) -> str:
-    """The same, or three digits alone where the error is not known (NaN or infinite)."""
+    """Text of a value with its error; three digits where the error is not known (NaN or infinite)."""
     return with_error(value, error) if math.isfinite(error) else f"{value:.3g}"
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Where Furrow's programs and inputs are: in the source tree, or installed."""
+"""Folders of Furrow's programs and inputs: in the source tree, or installed."""
 
 import importlib
 import os

@@ -273,7 +273,7 @@ void Schema::check(const std::vector<std::string>& words) const {
     if (std::any_of(values.begin(), values.end(), unknown) ||
         (key->count == 0 && i < words.size() && unknown(words[i]))) {
       if (key->count != 1 || (i < words.size() && !resolve(words[i]))) return;
-      continue;  // one word stood for the value
+      continue;  // the value took one word
     }
     Options scratch;
     accept(scratch, *key, values, true, {}, fmt::format("{}, keyword '{}'", subject_, name));

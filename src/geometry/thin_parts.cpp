@@ -74,7 +74,7 @@ struct Search {
   const Surface& surface;
   std::vector<Vector3> normal;
   std::vector<double> thickness;              // [m]; 0: not thin
-  std::vector<int> opposite;                  // where the ray leaves
+  std::vector<int> opposite;                  // triangles at which the ray leaves
   std::vector<std::array<int, 3>> neighbour;  // across from each corner
   std::vector<int> face;                      // of each triangle
   std::vector<std::vector<int>> faces;        // their triangles

@@ -20,7 +20,7 @@ struct SnowBondTrial;
 class SnowBond {
  public:
   static constexpr double bond_radius = 0.2;    ///< of a sintered bond, of d
-  static constexpr double least_radius = 0.07;  ///< that resists rolling, of d
+  static constexpr double least_radius = 0.07;  ///< least radius of the rolling resistance, over d
   static constexpr double bending_limit = 4.0 / (3.0 * pi);
   static constexpr double torsion_limit = 2.0 / 3.0;
 

@@ -32,9 +32,9 @@ namespace {
 
 constexpr std::uintmax_t largest_file = 400'000'000;  // [bytes]
 constexpr double most_nodes = 5e7;
-constexpr double most_gaps = 4.0;           // nodes over points; with more gaps it is no grid
+constexpr double most_gaps = 4.0;           // largest ratio of nodes to points of a grid
 constexpr double regular = 1e-3;            // of a spacing: by which a coordinate may be off
-constexpr double largest_height = 1e5;      // [m] what is larger marks a cell without data
+constexpr double largest_height = 1e5;      // [m] larger heights mark cells without data
 constexpr double largest_coordinate = 1e9;  // [m]
 constexpr const char* kind = "a heightmap";
 constexpr const char* formats = "an ESRI ASCII grid, lines of x y z, or a BMP or PNG picture";

@@ -190,7 +190,7 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
   });
   const bool doubtful = !result.warnings.empty();
   result.warnings.insert(result.warnings.end(), of_cone_index.begin(), of_cone_index.end());
-  if (doubtful) return result;  // one of the keys is the reason of what follows
+  if (doubtful) return result;  // a doubtful key causes further doubts
   for (const std::string& doubt : doubts(*material))
     result.warnings.push_back(fmt::format("{}: {}", path, doubt));
   const MaterialOptions options = read_sections(model, result.sections);

@@ -23,7 +23,7 @@ namespace furrow {
 namespace {
 
 constexpr std::uintmax_t largest_file = 200'000'000;  // [bytes]
-constexpr std::size_t most_facets = 300'000;          // which take seconds to check
+constexpr std::size_t most_facets = 300'000;          // facets whose check takes seconds
 constexpr double largest_coordinate = 1e9;            // in any unit
 constexpr const char* kind = "a mesh file, STL, OBJ or VTP";
 
@@ -53,7 +53,7 @@ class MeshLines : public TextLines {
 MeshFacets read_ascii_stl(const std::string& path, const std::string& text) {
   MeshFacets read;
   MeshLines lines(path, text);
-  int corners = -1;  // of the facet so far; -1 outside of one
+  int corners = -1;  // corners read of the present facet; -1 outside a facet
   while (lines.next()) {
     const std::string_view word = lines.words().front();
     if (word == "facet") {

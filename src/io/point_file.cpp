@@ -136,7 +136,7 @@ PointPath read_path(const YamlTree& map, std::string* effective) {
   return in_path(map, [&] { return checked_length(table_path(options, rows)); });
 }
 
-/// A map of one key and one text: {density: rho_kgm3}.
+/// Reads a map of one key and one text: {density: rho_kgm3}.
 std::pair<std::string, const YamlTree*> one_pair(const YamlTree& curve, const std::string& key,
                                                  const std::string& meaning) {
   const YamlTree& map = curve.map(key, meaning);

@@ -15,9 +15,9 @@ namespace furrow {
 
 namespace {
 
-// length of a particle over (length of its cell)/(particles per cell): more, and it is divided
+// longer particles are divided: length over (length of the cell)/(particles per cell)
 constexpr double longest_particle = 1.25;
-// that of a pair that is united: not divided again when it moves a little
+// largest length of a united pair, which is not divided again after a small motion
 constexpr double longest_pair = 1.1;
 // Distance of two that are united, over their length along x and their spacing across
 constexpr double furthest_along = 1.5;
@@ -25,7 +25,7 @@ constexpr double furthest_across = 0.5;
 // Differences of two that are united, relative to the larger value
 constexpr double density_tolerance = 0.05;
 constexpr double state_tolerance = 0.1;
-// Differences that do not matter: of a strain, and the strain whose stress does not
+// negligible difference of a strain, and the strain of a negligible stress
 constexpr double strain_floor = 2e-3;
 constexpr double elastic_floor = 1e-5;
 

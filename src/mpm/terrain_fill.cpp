@@ -64,7 +64,7 @@ std::vector<double> begins_of(const std::vector<TerrainPatch>& patches) {
   return begins;
 }
 
-/// Likewise from the bottom of a trough down; none without one.
+/// Levels of particles from the bottom of a trough down; none without a trough.
 std::vector<ParticleLevel> make_levels_below(const TroughPlace& trough,
                                              const TerrainParameters& parameters,
                                              const std::vector<ParticleLevel>& beside) {

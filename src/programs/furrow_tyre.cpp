@@ -128,7 +128,7 @@ DarnellTyreSettings settings_of(const Request& request) {
   return settings;
 }
 
-// [Pa] what a tyre without air may carry by its own stiffness
+// [Pa] largest pressure that a tyre without air carries by its stiffness
 constexpr double own_stiffness = 100e3;
 
 constexpr const char* header =

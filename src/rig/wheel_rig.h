@@ -166,10 +166,10 @@ class WheelRig {
   SlipDefinition slip_definition_ = SlipDefinition::larger_speed;  // of the prescribed slip
   double slip_radius_ = 0.0;                                       // [m] of the rim speed in slip
   bool slip_by_total_speed_ = false;
-  bool lowers_ = false;       // the wheel to the ground, before the load grows
-  double start_ = 0.0;        // [s] of the settling; as all ramps, on the first pass's clock
-  Ramp lowering_ramp_;        // begins with the settling
-  double touching_z_ = 0.0;   // [m] of the axle when the wheel has come to the ground
+  bool lowers_ = false;      // true if the rig lowers the wheel to the ground before the load grows
+  double start_ = 0.0;       // [s] of the settling; as all ramps, on the first pass's clock
+  Ramp lowering_ramp_;       // begins with the settling
+  double touching_z_ = 0.0;  // [m] of the axle when the wheel has come to the ground
   double creep_speed_ = 0.0;  // [m/s] of a wheel that does not touch there
   double creep_end_ = 0.0;    // [s]
   Ramp load_ramp_;            // begins when the wheel is lowered

@@ -188,7 +188,7 @@ Brick8::Brick8(const Matrix3X& reference, std::vector<Hexahedron> bricks, const 
 void Brick8::add_kind(const Alike& alike, const VectorX& stiffness, const Rubber& rubber) {
   std::array<double, 8> mass;
   mass.fill(std::numeric_limits<double>::infinity());
-  for (const int e : alike.members)  // the least of all, as they are one kind
+  for (const int e : alike.members)  // minimum over the elements of one kind
     for (std::size_t n = 0; n < 8; ++n) {
       const int node = nodes_of(e)[n];
       mass[n] = std::min(mass[n], mass_[node] * alike.merged.stiffness(n) / stiffness[node]);

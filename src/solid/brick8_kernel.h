@@ -129,7 +129,7 @@ FURROW_INLINE void hand_over(const BrickBlock& block, const Brick8Places& places
       at[2] -= block.force[n].z[lane];
     }
     result.energy += block.energy[lane];
-    // one that is no number stays noted
+    // NaN is kept
     if (result.least_ratio == result.least_ratio &&
         !(block.least_ratio[lane] >= result.least_ratio)) {
       result.least_ratio = block.least_ratio[lane];

@@ -35,7 +35,7 @@ struct Course {
   double quarter(std::size_t n) const {
     return mean(n * values.size() / 4, (n + 1) * values.size() / 4);
   }
-  /// Does it grow for certain, by more than a share of its mean?
+  /// True if the growth is significant and larger than a share of the mean.
   bool grows(double share) const {
     const SteadyCriteria criteria{share, 2};
     const SteadyValue value = analyse_steady("", "", values, spacing, 0.0, criteria);

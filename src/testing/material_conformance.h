@@ -244,7 +244,7 @@ TEST_P(MaterialConformance, BlocksOfAnySizeAndAlignmentAgreeWithSinglePoints) {
   for (std::size_t i = 0; i < n; ++i) {
     VectorX point = some_state();
     for (std::size_t f = 0; f < fields; ++f) state[f][i + 1] = point[static_cast<Eigen::Index>(f)];
-    // one point strains much
+    // one point has a large strain
     const Matrix3 h = random_gradient(i == 5 ? 0.3 : strain_scale(point));
     for (std::size_t k = 0; k < 9; ++k)
       gradient[k][i + 1] = h(static_cast<Eigen::Index>(k / 3), static_cast<Eigen::Index>(k % 3));
@@ -326,7 +326,8 @@ TEST_P(MaterialConformance, StressStaysInsideTheYieldSurfaceAndHeatNeverFalls) {
       update(random_gradient(size), state, time_step_);
       ASSERT_TRUE(state.allFinite());
       const double scale = material_->stress_scale(state);
-      if (!material_->rate_dependent()) {  // whose stress may be beyond the surface for a time
+      if (!material_
+               ->rate_dependent()) {  // rate-dependent stress may exceed the surface for a time
         ASSERT_LE(material_->yield_function(state), 1e-8 * scale);
       }
       ASSERT_GE(state[field::dissipated_energy] - heat, -1e-14 * scale);
@@ -421,7 +422,7 @@ TEST_P(MaterialConformance, YieldFunctionIsZeroOnTheYieldSurface) {
     return;
   }
   EXPECT_GE(line.size(), 100u);
-  // Closed by a cap, or open: then it goes on straight.
+  // an open surface continues as a straight line
   const double end = line.back()[1], scale = material_->stress_scale(state);
   if (end > 1e-9 * scale) {
     VectorX beyond = state;

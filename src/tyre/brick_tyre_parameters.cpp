@@ -17,8 +17,9 @@ namespace {
 
 constexpr double least_base = 1e-3;      // [m] of rubber under a void
 constexpr double least_distance = 2e-3;  // [m] between places where the section changes
-constexpr double outline_slack = 2e-3;   // [m] by which the last zone may miss the outline's end
-constexpr double outline_wave = 1e-4;    // [m] by which the outline may rise on its way to the bead
+constexpr double outline_slack =
+    2e-3;  // [m] allowed distance of the last zone from the end of the outline
+constexpr double outline_wave = 1e-4;  // [m] allowed rise of the outline towards the bead
 constexpr int outline_samples = 500;
 
 /// Few points make a curve with waves, of which the belts would have a valley all round.

@@ -45,7 +45,7 @@ class CurveKind(enum.Enum):
         return "compression (density over that at the start) at equal stress"
 
     def level_text(self, level: float) -> str:
-        """A value of x for people."""
+        """Text of a value of x."""
         if self is CurveKind.PLATE:
             return f"{1e3 * level:.3g} mm"
         return f"{level / 1e3:.3g} kPa"
@@ -70,7 +70,7 @@ class Curve:
 
     @property
     def unknown(self) -> list[str]:
-        """Parts of its error that are unknown: "size of soft". A material point has none."""
+        """Unknown parts of the error, for example "size of soft"; none for a material point."""
         parts = ["domain"] if self.kind is CurveKind.PLATE else []
         if self.ground not in GROUNDS_OF_CELLS:
             parts.append("packing")

@@ -33,7 +33,7 @@ class RutDensities:
     shoulder: float
 
     def report(self) -> str:
-        """One line per density, and how they are meant."""
+        """Report: one line per density, and its definition."""
         names = ("undisturbed", "under the wheel", "greatest under the wheel", "in the rut behind", "at the shoulder")
         texts = (f"{value:6.0f} kg/m3" if np.isfinite(value) else "   not known" for value in vars(self).values())
         meaning = (

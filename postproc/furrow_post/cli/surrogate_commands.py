@@ -25,7 +25,7 @@ from ..surrogate.terrain_map import GO, NO_GO, UNCERTAIN, make_map, read_classes
 from ..surrogate.training import PULL, QUANTITIES, RADIUS, TORQUE, Training, read_training
 from .parameters import Given, argument, assignments, command, option, repeated, require_file, target_option
 
-CHOSEN = ("slip", "load", "slope")  # inputs that a map finds for itself
+CHOSEN = ("slip", "load", "slope")  # inputs that the map chooses
 QUANTILES = (2.5, 50.0, 97.5)
 
 

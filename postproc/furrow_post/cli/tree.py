@@ -14,7 +14,7 @@ from .parameters import Command
 
 @dataclass(frozen=True)
 class Entry:
-    """One command: its words, the module here that has it, and its former names."""
+    """Command: its arguments, its module in this folder, and its former names."""
 
     path: str
     module: str

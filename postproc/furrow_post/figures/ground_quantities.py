@@ -39,9 +39,9 @@ class Quantity:
 
 
 def quantities_of(motions: Sequence[Motion]) -> list[Quantity]:
-    """Those that a run has; first what all points of all runs have. @raises ResultsError"""
+    """Quantities of a run; those that all points of all runs have come first. @raises ResultsError"""
     samples: dict[str, list[Floats]] = {}
-    lacking: set[str] = set()  # what points of some cloud do not have at the end
+    lacking: set[str] = set()  # quantities that a cloud of points lacks at the end
     for motion in motions:
         for cloud in motion.clouds:
             for time in evenly_chosen(motion.times, SAMPLES):  # the last is the end

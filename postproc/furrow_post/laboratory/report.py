@@ -16,7 +16,7 @@ from .together import together
 
 @dataclass
 class LaboratoryReport:
-    """Tests of one kind, what they are laid beside, and what they say."""
+    """Report on tests of one kind: references and results."""
 
     tests: list[LaboratoryTest]
     measured: Oedometer | None

@@ -36,7 +36,7 @@ Residuals = Callable[[Floats], Floats]  # of the values of the parameters. @rais
 
 
 class NotComputed(ResultsError):
-    """There is no such material or tyre, or the model has no state."""
+    """Refusal of a trial: impossible parameters, or a model without a solution."""
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,7 @@ class Fitted:
     value: float
     deviation: float  # standard deviation, linearised; infinite where not determined, NaN: unknown
     determined: bool
-    remark: str  # why it is not determined, or that it stands at a bound
+    remark: str  # reason why the parameter is not determined, or its bound
     share: float = math.nan  # of the prior's variance that the data removed
 
     def interval(self, coverage: float = 0.95) -> tuple[float, float]:
@@ -152,7 +152,7 @@ class Fit:
     scatter: float  # s
     known: bool
     evaluations: int = 0
-    end: str = ""  # why the iteration ended
+    end: str = ""  # reason for the end of the iteration
     converged: bool = True
 
     @property
@@ -211,7 +211,7 @@ class _Problem:
         return np.array([p.value(one) for p, one in zip(self.parameters, z)])
 
     def at(self, z: Floats) -> Floats:
-        """All rows. @raises NotComputed"""
+        """Residuals of all rows. @raises NotComputed"""
         key = z.tobytes()
         if key not in self.cache:
             self.evaluations += 1
@@ -357,7 +357,7 @@ def judge(
         scatter = max(scatter, float(np.sqrt(np.mean(apart))))
 
     covariance = np.zeros((len(z), len(z)))
-    left_open: dict[int, str] = {}  # parameter -> why it is not determined
+    left_open: dict[int, str] = {}  # parameter -> reason why it is not determined
     names = [parameter.name for parameter in parameters]
     if priors:
         covariance = np.linalg.inv(information / scatter**2 + np.diag(weight**2))

@@ -20,7 +20,7 @@ TRIED = 1901  # values between the ends
 
 @dataclass(frozen=True)
 class Identified:
-    """The parameter, its range, and what is left of each quantity, rms."""
+    """Identified parameter, its range, and the rms residual of each quantity."""
 
     value: float
     low: float

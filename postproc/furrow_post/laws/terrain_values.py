@@ -22,7 +22,7 @@ class TerrainValues:
 
     name: str
     kind: str
-    pressure: str  # whose pressure-sinkage law: "bekker" or "reece"
+    pressure: str  # author of the pressure-sinkage law: "bekker" or "reece"
     k_1: float
     k_2: float
     n: float

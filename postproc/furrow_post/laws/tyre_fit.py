@@ -125,7 +125,7 @@ class TyreFit:
     parameters: list[FittedTyre]
     singular_values: Floats  # of J, falling
     correlation: Floats
-    stretch: float  # how much larger than assumed the misfit makes the tests' errors
+    stretch: float  # factor on the assumed errors of the tests, from the misfit
 
     def values(self) -> dict[str, float]:
         return {parameter.name: parameter.value for parameter in self.parameters}

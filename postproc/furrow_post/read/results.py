@@ -98,7 +98,7 @@ class Grains:
     x: Floats  # (n, 3) [m]
     radius: Floats  # (n) [m]
     period: Floats  # (3) [m], 0 along an axis that is not periodic
-    bed_level: float  # [m], NaN where the bed did not measure itself
+    bed_level: float  # [m], NaN for a bed that was not measured
     # (n, 3) [J] xx, yy, zz of stress times volume by contacts between grains, tension positive
     virial: Floats | None = None
 
@@ -143,7 +143,7 @@ class Style:
 
     id: str
     style: str  # e.g. "terrain/continuum"
-    kind: str  # e.g. "terrain": what it is, whatever its style
+    kind: str  # kind of the fix for any style, e.g. "terrain"
     options: dict[str, list[Option]]  # keyword -> its values, SI units and degrees
 
     def has(self, keyword: str) -> bool:
@@ -270,7 +270,7 @@ class Results:
 
     @property
     def effective_input(self) -> str:
-        """Styles with their values, and the script, for people."""
+        """Text of the styles with their values, and of the script."""
         return read_effective_input(self.file)
 
     @property

@@ -25,7 +25,7 @@ APPENDED = b'<AppendedData encoding="raw">'
 
 @dataclass(frozen=True)
 class Frames:
-    """Frames of one thing in the order of time: times[k] [s] is that of files[k]."""
+    """Frames of a body or of grains in the order of time: times[k] [s] belongs to files[k]."""
 
     times: Floats
     files: tuple[Path, ...]
@@ -110,7 +110,7 @@ def _unpacked(content: bytes, place: int, word: np.dtype[Any]) -> bytes:
 
 @contextmanager
 def _content_of(file: Path) -> Iterator[None]:
-    """content_of(), for what the parsers of XML and zlib raise as well."""
+    """Calls content_of() and converts errors of the parsers of XML and zlib too."""
     try:
         with content_of(file, REMEDY):
             yield

@@ -35,7 +35,7 @@ GROUNDS_OF_CELLS = ("continuum", "scm")  # nothing in them is random
 
 
 def cells_or_grains(ground: str) -> str:
-    """Whose size is that of a run."""
+    """Name of the elements that set the size of a run: "cells" or "grains"."""
     return "cells" if ground in GROUNDS_OF_CELLS else "grains"
 
 
@@ -252,7 +252,7 @@ def _read_grains(
     run.size, run.elements = float(2 * reference.radius.mean()), len(reference.id)
     level = reference.bed_level if np.isfinite(reference.bed_level) else run.ground_level
     low, high = reference.corners
-    inner: Floats = (high - low)[:2]  # what the grains fill: walls may stand outside of the bed
+    inner: Floats = (high - low)[:2]  # size of the region with grains; walls can lie outside the bed
     run.domain = (float(inner[0]), float(inner[1]))
     base = bed.number("base", 0.0) if bed else 0.0
     floor = float(low[2]) + base
@@ -327,5 +327,5 @@ def _read_cost(run: WheelRun) -> None:
     cost = run.results.cost
     run.wall_time = cost.get("wall_time", float("nan"))
     run.cpu_time = run.wall_time * cost.get("ranks", 1.0)
-    if record := read_record(run.folder / FINISHED):  # it does not count what other programs took
+    if record := read_record(run.folder / FINISHED):  # the CPU time of the record excludes other programs
         run.cpu_time = record.cpu_time

@@ -11,7 +11,7 @@ from ..formatting import duration
 from .process import ERRORS, SCREEN, show_line
 from .record import Record
 
-DONE = re.compile(rb"^\[[^\]]*\]\s+([\d.]+) %", re.MULTILINE)  # as fix progress says it
+DONE = re.compile(rb"^\[[^\]]*\]\s+([\d.]+) %", re.MULTILINE)  # line of fix progress
 TAIL = 4096  # [bytes] of a run's output that are looked at
 
 

@@ -31,7 +31,7 @@ class Request:
 
     options: Any
     folder: Path  # of the results
-    script: Path | None = None  # None: the runs without a scene
+    script: Path | None = None  # None for runs without a scene
     preset: Variables = field(default_factory=list)  # of --quick
     plan: Plan | None = None  # of --sweep
     former: Former | None = None  # of --continue

@@ -106,7 +106,7 @@ def _by_slurm(executor: Executor, cases: Sequence[Case], plan: Plan, at_a_time: 
 
 
 def _this_program() -> list[str]:
-    """furrow-post: beside the package in the source tree, in bin where it is installed."""
+    """Path of furrow-post: next to the package in the source tree, or in bin if installed."""
     beside = PACKAGE.parent / "furrow-post"
     return [sys.executable, str(beside if beside.is_file() else find_program("furrow-post"))]
 

@@ -29,7 +29,7 @@ class GrainCone:
 
 
 def widest(cones: Sequence[GrainCone]) -> list[GrainCone]:
-    """One for each packing."""
+    """Cones in the widest bed, one for each packing."""
     return [cone for cone in cones if cone.grains == max(each.grains for each in cones)]
 
 

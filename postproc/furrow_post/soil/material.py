@@ -18,7 +18,7 @@ from ..read.soil_card import contact_of
 from ..run.tools import answer
 
 OF_GRAINS = ".lig"  # ending of a ground of grains
-TYPICAL_PRESSURE = 1e4  # [Pa] where laws whose stiffness grows with pressure have their elastic constants
+TYPICAL_PRESSURE = 1e4  # [Pa] pressure of the elastic constants of laws with pressure-dependent stiffness
 
 
 @dataclass(frozen=True)

@@ -47,7 +47,7 @@ SMALL_K = (
 
 @dataclass(frozen=True)
 class Effort:
-    """How much a card costs. cells: across plate, ring and cone."""
+    """Cost settings of a card. cells: across plate, ring and cone."""
 
     plate_cells: int
     ring_cells: int

@@ -19,9 +19,9 @@ from ..csv_table import read_rows
 from ..errors import ResultsError, content_of, refuse_others
 
 DEFINITION = "study.yaml"
-RESULTS = "results.csv"  # table of a value that names none
+RESULTS = "results.csv"  # default table of a value
 LABELS = ("fitted", "known", "held out", "blind", "scored")
-REFERENCES = ("measured", "report", "formula", "ours", "program")  # who gives the reference
+REFERENCES = ("measured", "report", "formula", "ours", "program")  # kinds of sources of a reference
 SOURCES = (  # of errors
     "time average", "cells", "grain size", "domain", "packings", "parameters", "contact", "tests", "none",
 )  # fmt: skip
@@ -137,13 +137,13 @@ class Value:
     reference: float | Stored | None = None
     reference_error: float = 0.0  # standard error; of a mean of tests it follows from their scatter
     reference_scatter: float = 0.0  # standard deviation of one test
-    reference_tests: int = 1  # whose mean the reference is
+    reference_tests: int = 1  # number of tests in the mean of the reference
     reference_of: str = ""
     limit: str = ""
     label: str = "known"
     reason: str = ""
     remark: str = ""
-    hours: str = ""  # [h] that the source's computation took
+    hours: str = ""  # [h] duration of the computation of the source
     cost: Stored | None = None  # [s] of one core
     cheap: bool = False  # the test of seconds repeats it
     without: str = NOT_DONE
@@ -170,7 +170,7 @@ class Value:
         return self._sum([part for part in self.error or () if part.of in ("time average", TABLE)])
 
     def sources(self) -> str:
-        """Where the error comes from."""
+        """Sources of the error."""
         return "; ".join(part.of for part in self.error or ())
 
     def expected(self) -> float | None:

@@ -38,8 +38,8 @@ class Vehicle:
 
 
 UNITS = {  # of the mobility of a cell
-    "probability": "",  # that the wheel climbs
-    "pull": "N",  # that remains at the wanted speed, 0 where it does not climb
+    "probability": "",  # probability that the wheel climbs
+    "pull": "N",  # pull that remains at the wanted speed; 0 if the wheel does not climb
     "energy": "J/m",  # NaN where it does not climb, as all below
     "speed": "m/s",
     "slip": "",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The runs of a sweep: what is asked for, checked against the script, and their cases."""
+"""Runs of a sweep: the request, checked against the script, and its cases."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -23,9 +23,9 @@ class SweepRequest:
     """Request of the command line for a sweep."""
 
     script: Path
-    sweep: Sequence[str]  # as --sweep has them
-    given: Sequence[tuple[str, str]] = ()  # as -v has them
-    preset: Sequence[tuple[str, str]] = ()  # of --quick: what is given or swept comes first
+    sweep: Sequence[str]  # values of --sweep
+    given: Sequence[tuple[str, str]] = ()  # values of -v
+    preset: Sequence[tuple[str, str]] = ()  # values of --quick; given and swept values have priority
     packings: int = 1
     ranks: int = 1
     until_steady: float = 0.0

@@ -27,7 +27,7 @@ class ConeBand:
     line: Line
     soil: Soil
     formulas: tuple[Formulas | None, ...]  # of each point; None without an answer
-    note: str  # why points have none; empty: all have
+    note: str  # reason why points lack a band; empty if all have one
 
     @property
     def label(self) -> str:

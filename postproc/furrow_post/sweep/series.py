@@ -151,12 +151,12 @@ class Series:
     """The points of one folder."""
 
     label: str
-    variables: tuple[str, ...] = ()  # that were set; none for a folder without sweep.json
+    variables: tuple[str, ...] = ()  # variables that were set; none for a folder without sweep.json
     points: list[SweepPoint] = field(default_factory=list)
     failures: list[Remark] = field(default_factory=list)  # runs that stopped with an error
     missing: list[str] = field(default_factory=list)  # runs that did not come to their end
     unread: list[Remark] = field(default_factory=list)  # runs that gave no steady values
-    unsteady: list[Remark] = field(default_factory=list)  # what run_until_steady says of a run
+    unsteady: list[Remark] = field(default_factory=list)  # remarks of run_until_steady on a run
     makers: set[tuple[str, str]] = field(default_factory=set)  # digests of program and script of the runs
 
     @property
@@ -231,7 +231,7 @@ def _not_reached(folder: Path) -> list[str]:
 
 
 def uniquely_labelled(series: list[Series]) -> list[Series]:
-    """Where labels are equal each gets a number."""
+    """Labels with a number added to equal ones."""
     labels = [one.label for one in series]
     return [
         replace(one, label=f"{one.label} ({k + 1})") if labels.count(one.label) > 1 else one

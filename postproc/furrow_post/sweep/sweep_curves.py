@@ -62,7 +62,7 @@ SIDEWAYS = (
 
 @dataclass(frozen=True)
 class Curve:
-    """A named curve: what it shows against the condition."""
+    """Curve with a name: a quantity over the condition."""
 
     name: str
     y: Axis

@@ -55,7 +55,7 @@ class Wanted:
 
 @dataclass(frozen=True)
 class Result:
-    """A sweep as it is drawn."""
+    """Data of the figures of a sweep."""
 
     series: Sequence[Series]
     figure: Figure
@@ -64,7 +64,7 @@ class Result:
     measured: Sequence[MeasuredPoints]
 
     def remarks(self) -> list[str]:
-        """Remarks on what is not in the curves, a sentence each."""
+        """Remarks on runs that are not in the curves, one sentence each."""
         found = []
         for one in self.series:
             found += [f"{one.label}: {r.folder} failed: {r.text}" for r in one.failures]

@@ -54,7 +54,7 @@ class Plan:
 
 
 def read_plan(folder: Path) -> Plan | None:
-    """None where the folder is not that of a sweep. @raises ResultsError for a damaged file"""
+    """Plan of a sweep; None for another folder. @raises ResultsError for a damaged file"""
     path = folder / FILE
     if not path.is_file():
         return None

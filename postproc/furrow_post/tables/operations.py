@@ -70,7 +70,7 @@ def derive(frame: pandas.DataFrame, known: Known, /, **columns: Any) -> pandas.D
 
 
 def select(frame: pandas.DataFrame, known: Known, /, **columns: Any) -> pandas.DataFrame:
-    """These columns alone, row by row."""
+    """Rows with the chosen columns."""
     return pandas.DataFrame(of_rows(frame, known, columns, "columns"), columns=list(columns), dtype=object)
 
 

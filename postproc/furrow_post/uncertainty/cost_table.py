@@ -48,7 +48,7 @@ class Row:
     sinkage: float  # [m]
     sinkage_error: float  # standard error of the time average
     coefficient: float  # resistance coefficient
-    coefficient_error: float  # the same
+    coefficient_error: float  # standard error of the time average of the coefficient
     cpu_time: float  # [s]
 
     @property
@@ -125,7 +125,7 @@ class Family:
         return [row for row in self.rows if row.domain == self.domain]
 
     def convergence(self, key: str) -> Convergence | None:
-        """None with fewer than two sizes."""
+        """Convergence over the sizes; None with fewer than two sizes."""
         if key not in self._series:
             several = len({row.size for row in self.bases}) > 1
             self._series[key] = self._converged(key) if several else None
@@ -206,7 +206,7 @@ def families(rows: Iterable[Row]) -> dict[FamilyKey, Family]:
     return {key: Family(group) for key, group in grouped(rows, lambda row: row.family).items()}
 
 
-# ---- for people
+# ---- output as text
 
 
 def numerical_errors(rows: Iterable[Row]) -> list[tuple[Row, dict[str, Budget]]]:

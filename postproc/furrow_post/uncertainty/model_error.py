@@ -241,7 +241,7 @@ class Scored:
 
 
 def leave_one_study_out(tests: Sequence[Test]) -> list[Scored]:
-    """Tests whose quantity another study has measured."""
+    """Tests with the error that the other studies predict for them."""
     found = []
     for study in _studies(tests):
         others = regimes_of(test for test in tests if test.study != study[0].study)

@@ -71,7 +71,7 @@ class Entry:
     kind: str  # RUN, BEST, FORMULA, MEASURED
     note: str = ""
     cpu_time: float = math.nan
-    steady: bool = True  # else the time average has no error that is known
+    steady: bool = True  # false if the error of the time average is unknown
 
     @property
     def label(self) -> str:
@@ -85,7 +85,7 @@ class Entry:
 
     @property
     def uncertainty(self) -> float:
-        """NaN where nothing of it is known."""
+        """Standard uncertainty; NaN if no part is known."""
         return self.parts.total
 
     @property

@@ -264,9 +264,9 @@ class OverTests:
     name: str
     value: float
     error: float
-    missing: str  # what is not in the error
+    missing: str  # errors that are excluded
     sign: float  # of the tests' values: -1 where a run resists and the tests pull
-    tests: Sequence[Test]  # whose values are known
+    tests: Sequence[Test]  # tests with known values
     nearest: str  # regime; empty: no test is near
 
     @property
@@ -297,7 +297,7 @@ def over_tests(run: WheelRun) -> list[OverTests]:
     return found
 
 
-# ---- for people and programs
+# ---- output as text and as files
 
 IN_PEOPLES_UNITS = {"m": (1e3, "mm"), "": (1.0, "")}
 TITLES = {"drive_torque": "torque"}
@@ -322,7 +322,7 @@ def headline(folder: Path, known: Mapping[str, Budget] | None = None) -> str:
     """
     summary, values = Summary(folder), summary_values(folder)
     known = budgets_of(folder) if known is None else known
-    texts: dict[str, list[str]] = {}  # what is not in ± -> values
+    texts: dict[str, list[str]] = {}  # errors excluded from ± -> values
     for name in summary.headline:
         text = f"{TITLES.get(name, name.replace('_', ' '))} {value_text(name, values[name], known[name])}"
         texts.setdefault(known[name].missing_text(), []).append(text)

@@ -69,7 +69,7 @@ std::string doubt_of_strains(const PointHistory& history);
 /// segments.
 struct StepError {
   double p = 0.0;        ///< largest change of p, relative to the largest p or q of the run
-  double q = 0.0;        ///< the same of q
+  double q = 0.0;        ///< largest change of q, relative to the largest p or q of the run
   double eps_vol = 0.0;  ///< largest change of the volume strain
 };
 StepError step_error(const Material& material, const PointPath& path, const PointHistory& history);

@@ -116,7 +116,7 @@ struct NorSandKernel {
       const auto pressure = [&](const Lanes& at) __attribute__((always_inline)) {
         return (P_tr - c * at * t_tr) / (Lanes(1.0) - c * at * stress_ratio(at));
       };
-      // Where Deps_q = 0
+      // points with Deps_q = 0
       const Lanes no_flow = select(
           P_tr > Lanes(0.0),
           (Lanes(parameters.M) - t_tr / max(P_tr, 1e-290)) * Lanes(1.0 / (1.0 - parameters.N)),

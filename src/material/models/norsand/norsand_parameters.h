@@ -13,7 +13,7 @@ struct NorSandParameters {
   double N = 0.5;             ///< volumetric coupling
   double chi_i = 4.0;         ///< dilatancy over the state parameter of the image
   double H = 100.0;           ///< plastic hardening modulus at the reference pressure
-  double H_exponent = 0.0;    ///< exponent of its decrease with the image pressure
+  double H_exponent = 0.0;    ///< exponent of the decrease of H with the image pressure
   double H_psi = 0.0;         ///< its decrease with the state parameter of the image
   double gamma = 1.0;         ///< critical void ratio at p = 1 Pa, or at p = 0 with an exponent
   double lambda = 0.0;        ///< slope of the critical state line
