@@ -179,7 +179,7 @@ def residual(row: Row, value: float) -> float:
     return max(-NO_STATE, min(NO_STATE, found)) if math.isfinite(found) else NO_STATE
 
 
-def judged(record: Sequence[Row]) -> list[Row]:
+def compared_rows(record: Sequence[Row]) -> list[Row]:
     """The rows that a law is compared with: all but the moduli, which are elasticity's."""
     return [row for row in record if row.quantity != "modulus"]
 
@@ -200,7 +200,7 @@ def fit(
     law: SnowLaw, record: Sequence[Row], points: Points, start: Sequence[float] | None = None
 ) -> Material:
     """@raises ResultsError where no law is found at the start"""
-    rows = [row for row in judged(record) if is_fitted(row.test)]
+    rows = [row for row in compared_rows(record) if is_fitted(row.test)]
     weight = weights(rows)
 
     def residuals(shape: Floats) -> Floats:

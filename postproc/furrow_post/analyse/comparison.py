@@ -23,7 +23,7 @@ from ..run.summary import SteadyValue
 from ..uncertainty.budget import Budget
 from ..uncertainty.cost_table import FamilyKey, Row, families
 from ..uncertainty.verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, TRACK_DENSITY
-from ..uncertainty.verdict import Entry, Quantity, Verdict, conclusion, judge, summed_up
+from ..uncertainty.verdict import Entry, Quantity, Verdict, conclusion, summed_up, verdict_between
 from ..uncertainty.whole_error import Families, RunErrors
 from .conditions import TOLERANCES, Difference, incomparable, require_comparable, require_different_labels
 from .density import sections, track_density
@@ -116,10 +116,10 @@ def compare(
         result.entries += measured_entries(measured, runs[0])
     for quantity in QUANTITIES:
         of_runs, estimates = result.of(quantity, RUN), result.of(quantity, BEST)
-        result.verdicts += [judge(of_runs[0], other) for other in of_runs[1:]]
-        result.best_estimates += [judge(estimates[0], other) for other in estimates[1:]]
+        result.verdicts += [verdict_between(of_runs[0], other) for other in of_runs[1:]]
+        result.best_estimates += [verdict_between(estimates[0], other) for other in estimates[1:]]
         for reference in result.of(quantity, MEASURED):
-            result.verdicts += [judge(reference, run) for run in of_runs]
+            result.verdicts += [verdict_between(reference, run) for run in of_runs]
     result.remarks = [remark for other in runs[1:] for remark in _remarks(runs[0], other, result.tracks)]
     return result
 
@@ -150,7 +150,7 @@ def _remarks(first: WheelRun, other: WheelRun, tracks: dict[str, Entry]) -> list
     return sentences
 
 
-# ---- values
+# ---- values of the compared runs
 
 
 def entries_of_run(errors: RunErrors) -> list[Entry]:
@@ -252,7 +252,7 @@ def parts_cell(entry: Entry) -> str:
 
 
 def comparison_report(result: Comparison) -> str:
-    """The tables and the verdict for a person."""
+    """Text with the tables and the verdict."""
     wide = max([len(e.label) for e in result.entries] + [10])
     lines = ["Conditions"]
     for name in SHOWN_CONDITIONS:
@@ -279,7 +279,7 @@ def comparison_report(result: Comparison) -> str:
 
 
 def write_comparison(result: Comparison, folder: Path) -> None:
-    """compare.txt, compare.csv, compare.h5."""
+    """Writes compare.txt, compare.csv and compare.h5."""
     folder.mkdir(parents=True, exist_ok=True)
     report = comparison_report(result)
     (folder / "compare.txt").write_text(report + "\n", encoding="utf-8")

@@ -95,8 +95,8 @@ def card_export(given: Given) -> None:
         exported = given.card.with_name(file)
         write(card, exported)
         print(f"  {name:13} {exported}")
-    for doubt in card.doubts():
-        print(f"furrow-post card: warning: {doubt}", file=sys.stderr)
+    for warning in card.warnings():
+        print(f"furrow-post card: warning: {warning}", file=sys.stderr)
 
 
 @command(argument("cards", "files of cards", path, nargs=-1, required=True))

@@ -18,7 +18,7 @@ from ..arrays import Floats
 from ..errors import ResultsError
 from ..read.soil_card import mobilised_share
 from ..read.wheel_run import WheelRun
-from .prediction import Limit, OutOfRange, Prediction, Result
+from .prediction import Limit, OutOfRange, PredictedValue, Prediction
 from .prediction import report_of, require_positive, require_range, require_wheel
 from .terrain_values import TerrainValues, terrain, terrains
 
@@ -106,7 +106,7 @@ def nrmm(
         Limit("final over initial density", final / density, 1, math.inf, "", "snow does not swell"),
     ]
     outside = require_range("NRMM", limits, extrapolate)
-    resistance, extra = nrmm_resistance(density, width, radius, z), (Result("final density", final, "kg/m3"),)
+    resistance, extra = nrmm_resistance(density, width, radius, z), (PredictedValue("final density", final, "kg/m3"),)
     return Prediction("NRMM", NRMM_SOURCE, z, resistance, load, NRMM_SINKAGE_RMS, NRMM_COEFFICIENT_RMS, outside, extra)
 
 
@@ -136,7 +136,7 @@ class SnowTraction:
         return self.coefficient * self.load
 
     def report(self) -> str:
-        """Lines for a person."""
+        """Lines of the printed report."""
         rows = [
             ("contact pressure", f"{self.pressure / 1e3:.4g} kPa"),
             ("gross traction", f"{self.gross:.4g} N"),
@@ -250,10 +250,10 @@ def wong_reece(
     ]
     outside = require_range("Wong-Reece", limits, extrapolate)
     extra = (
-        Result("torque", torque, "N m"),
-        Result("drawbar pull", pull, "N"),
-        Result("entry angle", float(np.degrees(entry)), "deg"),
-        Result("slip", slip, ""),
+        PredictedValue("torque", torque, "N m"),
+        PredictedValue("drawbar pull", pull, "N"),
+        PredictedValue("entry angle", float(np.degrees(entry)), "deg"),
+        PredictedValue("slip", slip, ""),
     )
     return Prediction("Wong-Reece", WONG_REECE_SOURCE, z, -pull, load, outside=outside, extra=extra)
 

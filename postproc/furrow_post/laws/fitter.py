@@ -57,7 +57,7 @@ class Parameter:
 
     @property
     def bounded(self) -> bool:
-        """On both sides, in z."""
+        """True for a parameter with bounds on both sides, in z."""
         return math.isfinite(self.low) and math.isfinite(self.high)
 
     @property
@@ -177,7 +177,7 @@ class Fit:
     def with_samples(self, samples: Sequence[Floats]) -> "Fit":
         """Errors with the scatter of further samples: their residuals at the solution, of the rows that were fitted."""
         parameters = [fitted.parameter for fitted in self.parameters]
-        wider = judge(parameters, self.z, self.residuals, self.slope, self.known, None, samples)
+        wider = assess(parameters, self.z, self.residuals, self.slope, self.known, None, samples)
         kept = ("start", "held", "evaluations", "end", "converged")
         return replace(wider, **{name: getattr(self, name) for name in kept})
 
@@ -312,7 +312,7 @@ def fit(
     rows = problem.at(z)
     ends = {0: f"{search.evaluations} evaluations were not enough", 2: "the sum of squares no longer falls"}
     return replace(
-        judge(parameters, z, rows, found.jac[: len(rows[problem.fitted])], known, held),
+        assess(parameters, z, rows, found.jac[: len(rows[problem.fitted])], known, held),
         start=start,
         evaluations=problem.evaluations,
         end=ends.get(found.status, "the parameters no longer change"),
@@ -331,7 +331,7 @@ def slopes(parameters: Sequence[Parameter], residuals: Residuals, z: Floats, sea
     return problem.differences(z, problem.at(z))
 
 
-def judge(
+def assess(
     parameters: Sequence[Parameter],
     z: Floats,
     rows: Floats,

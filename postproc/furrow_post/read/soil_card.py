@@ -20,7 +20,7 @@ from ..errors import ResultsError, content_of
 from ..json_text import parse_json
 
 REMEDY = "write it with furrow-post card make"
-SCALES = {"": 1.0, "k": 1e3, "M": 1e6}  # before a unit
+SCALES = {"": 1.0, "k": 1e3, "M": 1e6}  # factors of the prefixes of a unit
 OTHER_UNITS = {  # unit of a parameter -> others, and their size
     "degree": {"degrees": 1.0, "deg": 1.0, "°": 1.0, "rad": math.degrees(1)},
     "m": {"cm": 1e-2, "mm": 1e-3, "in": 0.0254},
@@ -174,7 +174,7 @@ class SoilCard:
 
     @property
     def parts(self) -> dict[str, PressureSinkage | Shear | Cone | NoResult]:
-        """Section -> its result."""
+        """Results of the card by section."""
         return {name: getattr(self, name) for name in SECTIONS}
 
     def failures(self) -> dict[str, str]:
@@ -208,7 +208,7 @@ class SoilCard:
         """Text of the range of validity, for the reader and for files of other codes."""
         return f"holds in a gravity of {self.gravity:g} m/s2 only"
 
-    def doubts(self) -> list[str]:
+    def warnings(self) -> list[str]:
         """Warnings to read before a vehicle code takes the values."""
         plate = self.pressure_sinkage
         if isinstance(plate, NoResult) or plate.k_c.value >= 0.0:
@@ -225,11 +225,11 @@ class SoilCard:
         return {name: value for name, value in found.items() if isinstance(value, Fitted)}
 
     def texts(self) -> dict[str, str]:
-        """Name -> value and error for a person."""
+        """Parameter -> text of value and error."""
         return {name: shown(fitted) for name, fitted in self.parameters().items()}
 
     def ranges(self) -> list[tuple[str, Range, str]]:
-        """Meaning, range, unit."""
+        """Meaning, range and unit of the tested variables."""
         found = [
             (str(one.metadata["meaning"]).format(part), getattr(part, one.name), str(one.metadata["unit"]))
             for part in self.parts.values()
@@ -239,7 +239,7 @@ class SoilCard:
         return [one for one in found if math.isfinite(one[1].high)]
 
     def report(self) -> str:
-        """Lines for a person."""
+        """Lines of the printed report."""
         lines = [self.title]
         for name, text in self.texts().items():
             lines.append(f"  {name:12} {text:>22} {UNITS[name]}")

@@ -11,14 +11,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..errors import ResultsError
-from .values import Registry, Value, number
+from .values import Registry, StudyValue, number
 
 MARK = re.compile(r"(<!-- value: ([\w.+-]+)(?: (\w+))? -->)(.*?)(<!-- end value -->)", re.DOTALL)
 FORMS = ("value", "error", "reference", "verdict")
 LEFT_OUT = {"build", "results", ".git"}
 
 
-def shown(value: Value, form: str = "") -> str:
+def shown(value: StudyValue, form: str = "") -> str:
     """The text of a value: rounded to its error, with it; or one of its parts.
 
     @raises ResultsError where the value does not have that part

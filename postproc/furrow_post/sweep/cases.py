@@ -9,7 +9,7 @@ from pathlib import Path
 from ..errors import ResultsError
 from ..run.case import RESULTS, Case, scene_case
 from ..run.script import RESERVED, ScriptVariables, check_variables, require_files, script_variables
-from .sweep_plan import Plan, Point, points_of
+from .sweep_plan import PlannedRun, SweepPlan, points_of
 from .sampling import sampled
 from .sweep_values import further_seeds, parse_variables, product
 
@@ -33,7 +33,7 @@ class SweepRequest:
     samples: int = 0  # points in the box of the variables; 0: all combinations of values
 
 
-def plan_of(request: SweepRequest) -> tuple[Plan, list[str]]:
+def plan_of(request: SweepRequest) -> tuple[SweepPlan, list[str]]:
     """The plan, and warnings. @raises ResultsError for what the script does not take; OSError"""
     if request.samples:
         points = sampled(request.sweep, request.samples)
@@ -63,7 +63,7 @@ def plan_of(request: SweepRequest) -> tuple[Plan, list[str]]:
             f"folder; give the script 'variable {RESULTS} index ...' as the folder of its results"
         )
     seeds = _seeds(request, names, known, fixed)
-    plan = Plan(
+    plan = SweepPlan(
         str(request.script.resolve()),
         tuple(names),
         fixed,
@@ -108,7 +108,7 @@ def _seeds(
         raise ResultsError(f"--packings: '{SEED}' is '{first}', no whole number") from None
 
 
-def case_of(plan: Plan, point: Point) -> Case:
+def case_of(plan: SweepPlan, point: PlannedRun) -> Case:
     """The run of a point."""
     script = Path(plan.script)
     seed = {SEED: point.seed} if point.seed else {}

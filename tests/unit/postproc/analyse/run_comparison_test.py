@@ -15,7 +15,7 @@ from furrow_post.analyse.curves import Curve, CurveKind, compare_curves
 from furrow_post.analyse.density import height_left
 from furrow_post.laws.prediction import Prediction
 from furrow_post.uncertainty.verdict import BEST, COEFFICIENT, FORMULA, HUB_DROP, MEASURED, RUN
-from furrow_post.uncertainty.verdict import Agreement, Entry, Quantity, judge, remedies
+from furrow_post.uncertainty.verdict import Agreement, Entry, Quantity, remedies, verdict_between
 from furrow_post.errors import ResultsError
 from furrow_post.read.results import Results, Surface
 from furrow_post.run.summary import SteadyValue
@@ -31,47 +31,47 @@ def entry(
     return Entry(quantity, source, value, Budget(u, 0.0, 0.0, 0.0), kind)
 
 
-class JudgeTest(unittest.TestCase):
+class VerdictTest(unittest.TestCase):
     def test_limit_of_agreement_is_two_standard_deviations(self) -> None:
         a = entry("a", 0.100, 0.003)
-        near = judge(a, entry("b", 0.100 + 2 * 0.005 - 1e-6, 0.004))
-        far = judge(a, entry("b", 0.100 + 2 * 0.005 + 1e-6, 0.004))
+        near = verdict_between(a, entry("b", 0.100 + 2 * 0.005 - 1e-6, 0.004))
+        far = verdict_between(a, entry("b", 0.100 + 2 * 0.005 + 1e-6, 0.004))
         self.assertEqual((near.agreement, far.agreement), (Agreement.AGREE, Agreement.DIFFER))
         self.assertIn("a and b differ: b - a = +10 mm (+10 %), 10 allowed", far.sentence)
 
     def test_agreement_within_a_large_uncertainty_is_inconclusive(self) -> None:
-        verdict = judge(entry("a", 0.1, 0.02), entry("b", 0.11, 0.0))
+        verdict = verdict_between(entry("a", 0.1, 0.02), entry("b", 0.11, 0.0))
         self.assertEqual(verdict.agreement, Agreement.INCONCLUSIVE)
         self.assertIn("inconclusive, too large: time of a: b - a = +10 mm (+10 %), 40 allowed", verdict.sentence)
 
     def test_missing_uncertainty_is_inconclusive(self) -> None:
         other = Entry(HUB_DROP, "b", 0.1, Budget(), MEASURED)
-        verdict = judge(entry("a", 0.1, 0.001), other)
+        verdict = verdict_between(entry("a", 0.1, 0.001), other)
         self.assertEqual(verdict.agreement, Agreement.INCONCLUSIVE)
         self.assertIn("inconclusive, unknown: uncertainty of b", verdict.sentence)
 
     def test_unknown_part_of_the_error_is_inconclusive(self) -> None:
         for value in (0.1, 0.2):
             other = Entry(HUB_DROP, "b", value, Budget(time=0.001), RUN)
-            verdict = judge(entry("a", 0.1, 0.001), other)
+            verdict = verdict_between(entry("a", 0.1, 0.001), other)
             self.assertEqual(verdict.agreement, Agreement.INCONCLUSIVE)
             self.assertEqual(verdict.unknown, ("domain of b", "packing of b", "size of b"))
             self.assertIn("inconclusive, unknown: domain of b, packing of b, size of b", verdict.sentence)
             self.assertIn("2.8 allowed by the known parts", verdict.sentence)
 
     def test_unsteady_value_has_no_known_error_over_time(self) -> None:
-        verdict = judge(entry("a", 0.1, 0.001), replace(entry("b", 0.1, 0.001), steady=False))
+        verdict = verdict_between(entry("a", 0.1, 0.001), replace(entry("b", 0.1, 0.001), steady=False))
         self.assertEqual((verdict.agreement, verdict.unknown), (Agreement.INCONCLUSIVE, ("time of b",)))
         self.assertEqual(remedies(verdict.unknown), ["time average (b): a longer run"])
 
     def test_unknown_parts_list_the_run_that_determines_them(self) -> None:
         other = Entry(HUB_DROP, "b", 0.1, Budget(time=0.001), RUN)
-        sizes, ground, packings, command = remedies(judge(entry("a", 0.1, 0.001), other).unknown)
+        sizes, ground, packings, command = remedies(verdict_between(entry("a", 0.1, 0.001), other).unknown)
         self.assertRegex(sizes, r"^size of cells or grains \(b\): .*-v cell")
         self.assertRegex(ground, r"^size of the ground \(b\): .*-v width")
         self.assertRegex(packings, r"^packing of grains \(b\): .*-v seed")
         self.assertIn("furrow-post cost RUNS... --write errors.csv", command)
-        self.assertEqual(remedies(judge(entry("a", 0.1, 0.001), entry("b", 0.1, 0.001)).unknown), [])
+        self.assertEqual(remedies(verdict_between(entry("a", 0.1, 0.001), entry("b", 0.1, 0.001)).unknown), [])
 
 
 class CurvesTest(unittest.TestCase):
@@ -97,7 +97,7 @@ class OverallTest(unittest.TestCase):
     """The verdict comes from the enumeration, never from words."""
 
     def verdict(self, *pairs: tuple[Entry, Entry]) -> str:
-        return Comparison([], verdicts=[judge(a, b) for a, b in pairs]).overall()
+        return Comparison([], verdicts=[verdict_between(a, b) for a, b in pairs]).overall()
 
     def test_every_verdict_has_a_sentence(self) -> None:
         agree = entry("a", 0.1, 0.003), entry("b", 0.101, 0.003)
@@ -214,7 +214,7 @@ class CompareTest(FolderTest):
         self.assertEqual(best_estimates(other, known), [])  # of no family
 
         same = entry("b", 0.0521, 1e-3, kind=BEST)
-        verdict = judge(limit, same)
+        verdict = verdict_between(limit, same)
         self.assertIn("hub drop, best estimate: a and b agree", verdict.sentence)
         result = Comparison([run, other], [limit, same], best_estimates=[verdict])
         self.assertEqual(

@@ -20,7 +20,7 @@ sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
 
 import identify_snow
 import snow_strength
-from snow_laws import LAWS, Elastic, Material, fit, judged
+from snow_laws import LAWS, Elastic, Material, compared_rows, fit
 from snow_paths import Points, predicted
 from snow_record import Place, Row, read_record, record_of, write_record
 
@@ -150,7 +150,7 @@ class FitTest(FolderTest):
     def test_preset_is_the_fit_of_its_record(self) -> None:
         record = read_record(RECORD)
         material = fit(LAWS["cam_clay"], record, self.points())
-        rows = judged(record)
+        rows = compared_rows(record)
         values = predicted(material.sections(), rows, self.points())
         made = identify_snow.material_text("snow: fitted", RECORD, material, rows, values)
         title, made = made.split("\n", 1)
@@ -164,7 +164,7 @@ class FitTest(FolderTest):
     def test_preset_of_the_slab_has_its_stated_misfit(self) -> None:
         """Free sides at every density, which the clusters of snow_bonded do not give a law."""
         preset = MATERIALS / "snow_bonded_slab_cam_clay.yaml"
-        rows = judged(read_record(RECORDS / "snow_bonded_slab.csv"))
+        rows = compared_rows(read_record(RECORDS / "snow_bonded_slab.csv"))
         values = predicted(identify_snow.sections_of(preset), rows, self.points())
         found = identify_snow.deviations(rows, values)
         lines = preset.read_text(encoding="utf-8").splitlines()

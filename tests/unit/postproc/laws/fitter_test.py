@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from furrow_post.laws.fitter import NotComputed, Parameter, Search, fit, judge, plain
+from furrow_post.laws.fitter import NotComputed, Parameter, Search, assess, fit, plain
 from furrow_post.arrays import Floats
 
 X = np.linspace(0.1, 1.0, 10)
@@ -30,7 +30,7 @@ class FitterTest(unittest.TestCase):
 
     def test_parameter_without_data_is_its_prior(self) -> None:
         parameter = Parameter("a", "", 3.0, -math.inf, math.inf, spread=0.2)
-        (one,) = judge([parameter], np.array([1.0]), np.zeros(0), np.zeros((0, 1))).parameters
+        (one,) = assess([parameter], np.array([1.0]), np.zeros(0), np.zeros((0, 1))).parameters
         self.assertEqual((one.value, one.share), (3.0, 0.0))
         self.assertAlmostEqual(one.deviation, 0.6)  # of z, in units of the start
 

@@ -10,7 +10,7 @@ from furrow_post.uncertainty.budget import Budget
 from furrow_post.uncertainty.whole_error import RunErrors
 from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
 from furrow_post.scene import wanted_error
-from furrow_post.scene.wanted_error import Forecast, Plan, outcome
+from furrow_post.scene.wanted_error import ErrorPlan, Forecast, outcome
 from support.folder import FolderTest
 from support.runs import write_run
 
@@ -64,20 +64,20 @@ class PlanTest(FolderTest):
         self.assertAlmostEqual(made.cpu_time, 8.0 * 4 * 1.6**3.5)
 
     def test_limit_lists_part_tests_and_measurement(self) -> None:
-        lines = Plan(SERIES[3], self.pilot(), 0.05, math.inf).lines()
+        lines = ErrorPlan(SERIES[3], self.pilot(), 0.05, math.inf).lines()
         self.assertIn("  hub drop: 10 % (cells 2, model 10; ground, packing, step, contact, held, material unknown)", lines)
         self.assertEqual(
             lines[-1],
             "5 % is not within reach: the part 'model' leaves 10 % of the hub drop (nearest tests: made tests); measure the pull "
             "at one slip, or ring shear at your pressure",
         )
-        self.assertEqual(len(Plan(SERIES[3], self.pilot(), 0.2, math.inf).why_not()), 0)
-        self.assertIn("Nothing fits into 5 s", Plan(SERIES[0], self.pilot(), math.inf, 5.0).lines()[-1])
+        self.assertEqual(len(ErrorPlan(SERIES[3], self.pilot(), 0.2, math.inf).why_not()), 0)
+        self.assertIn("Nothing fits into 5 s", ErrorPlan(SERIES[0], self.pilot(), math.inf, 5.0).lines()[-1])
 
     def test_outcome_equals_that_of_the_run(self) -> None:
         write_run(self.folder / "run", torque=50.0)
         for wanted, state in ((0.9, "within 90 %"), (0.01, "above 1 %: the part 'model' leaves 82 %"), (math.inf, " of one core.")):
-            text = outcome(Plan(SERIES[0], self.pilot(), wanted, math.inf), self.folder / "run")[0]
+            text = outcome(ErrorPlan(SERIES[0], self.pilot(), wanted, math.inf), self.folder / "run")[0]
             self.assertIn(state, text)
 
 

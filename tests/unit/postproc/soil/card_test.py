@@ -179,12 +179,12 @@ class SoilCardTest(FolderTest):
     def test_negative_k_c_states_the_width_without_bearing_capacity(self) -> None:
         """k_c/b + k_phi is zero there."""
 
-        def doubts(k_c: float) -> list[str]:
-            return replace(CARD, pressure_sinkage=replace(PLATE, k_c=Fitted(k_c, 1.0))).doubts()
+        def warnings(k_c: float) -> list[str]:
+            return replace(CARD, pressure_sinkage=replace(PLATE, k_c=Fitted(k_c, 1.0))).warnings()
 
-        self.assertEqual(doubts(1.0), [])
-        (doubt,) = doubts(-0.02 * PLATE.k_phi.value)
-        self.assertIn("a contact of b = 0.02 m or less carries nothing", doubt)
+        self.assertEqual(warnings(1.0), [])
+        (warning,) = warnings(-0.02 * PLATE.k_phi.value)
+        self.assertIn("a contact of b = 0.02 m or less carries nothing", warning)
 
     def test_export_to_altair_has_the_angle_in_radians(self) -> None:
         target = self.folder / "road.rdf"

@@ -9,7 +9,7 @@ from pathlib import Path
 from furrow_post.cli.study_command import study_folders
 from furrow_post.errors import ResultsError
 from furrow_post.study.repeat import difference, known_cost
-from furrow_post.study.values import TABLE, Part, Registry, Stored, Value, values_of
+from furrow_post.study.values import TABLE, Part, Registry, Stored, StudyValue, values_of
 from support.command import SOURCE, run_post
 from support.folder import FolderTest
 
@@ -51,10 +51,10 @@ class GuardTest(FolderTest):
             folder.mkdir()
             (folder / "results.csv").write_text(text, encoding="utf-8")
         ours = Stored(stored / "results.csv", {"run": "a"}, "z")
-        value = Value("study.z", ours, reference=1.1)
+        value = StudyValue("study.z", ours, reference=1.1)
         known = Stored(ours.table, ours.row, "f")
-        limit = Value("study.z", ours, error=(Part(TABLE, known),), reference=1.1, limit="upper")
-        noisy = Value("study.z", ours, error=(Part(TABLE, Stored(ours.table, ours.row, "e")),), reference=1.1)
+        limit = StudyValue("study.z", ours, error=(Part(TABLE, known),), reference=1.1, limit="upper")
+        noisy = StudyValue("study.z", ours, error=(Part(TABLE, Stored(ours.table, ours.row, "e")),), reference=1.1)
         for number, (again, given, expected) in enumerate((
             ("1.02", value, ""),
             ("1.04", value, "1.04, not 1 ± 0.03"),

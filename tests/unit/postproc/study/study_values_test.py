@@ -13,7 +13,7 @@ from furrow_post.study.provenance import read_origins
 from furrow_post.study.values import (
     NEED_REASON,
     Registry,
-    Value,
+    StudyValue,
     limit_verdict,
     study_folders,
     values_of,
@@ -81,7 +81,7 @@ ENTRY = "values:\n  - {{id: z, row: {{run: {run}}}, column: z, scale: 100, unit:
 
 
 class EntryTest(unittest.TestCase):
-    def value(self, more: str = "", run: str = "a") -> Value:
+    def value(self, more: str = "", run: str = "a") -> StudyValue:
         return Study(self, ENTRY.format(run=run, more=more), TABLE).registry()["plate.z"]
 
     def test_scale_applies_to_value_and_error(self) -> None:

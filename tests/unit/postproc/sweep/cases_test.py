@@ -8,7 +8,7 @@ from pathlib import Path
 from furrow_post.errors import ResultsError
 from furrow_post.run.executor import Executor, State
 from furrow_post.sweep.cases import SweepRequest, case_of, plan_of
-from furrow_post.sweep.sweep_plan import Plan, read_plan
+from furrow_post.sweep.sweep_plan import SweepPlan, read_plan
 from support.fake import FakeTree
 from support.folder import FolderTest
 
@@ -45,7 +45,7 @@ class CasesTest(FolderTest):
         self.sand.write_text("loose")
         self.results = self.folder / "results"
 
-    def plan(self, *sweep: str, **more: object) -> Plan:
+    def plan(self, *sweep: str, **more: object) -> SweepPlan:
         return plan_of(replace(SweepRequest(self.tree.script, sweep), **more))[0]
 
     def executor(self) -> Executor:

@@ -22,7 +22,7 @@ from furrow_post.run.record import Record
 from furrow_post.sweep.sweep_curves import EFFICIENCY, PULL, HUB_DROP, TORQUE
 from furrow_post.sweep.drawing import draw_sweep
 from furrow_post.sweep.sweep_files import Named, Wanted, evaluate, report_lines, write_sweep
-from furrow_post.sweep.sweep_plan import Plan, Point
+from furrow_post.sweep.sweep_plan import PlannedRun, SweepPlan
 from furrow_post.sweep.series import read_series
 from support.command import SOURCE
 from support.folder import FolderTest
@@ -53,8 +53,8 @@ def write_pulling(folder: Path, sinkage: float = 0.05) -> None:
         name = f"slip_{slip:g}"
         write_run(folder / name, LOAD, sinkage, slip=slip, pull=pull, torque=torque)
         finished(folder / name)
-        points.append(Point(name, {"slip": f"{slip:g}"}))
-    Plan("scene.lig", ("slip",), points=tuple(points)).write(folder)
+        points.append(PlannedRun(name, {"slip": f"{slip:g}"}))
+    SweepPlan("scene.lig", ("slip",), points=tuple(points)).write(folder)
 
 
 class OutputTest(FolderTest):
@@ -125,8 +125,8 @@ class OutputTest(FolderTest):
             name = f"load_2000_{k}"
             write_run(self.folder / name, LOAD, sinkage)
             finished(self.folder / name)
-            points.append(Point(name, {"load": "2000"}, str(k) if k else ""))
-        Plan("scene.lig", ("load",), points=tuple(points)).write(self.folder)
+            points.append(PlannedRun(name, {"load": "2000"}, str(k) if k else ""))
+        SweepPlan("scene.lig", ("load",), points=tuple(points)).write(self.folder)
         result = evaluate([Named(self.folder)], Wanted())
         (point,) = result.series[0].points
         value = point.quantities["hub_drop"]
@@ -175,8 +175,8 @@ class OutputTest(FolderTest):
                 name = f"slip_{slip:g}_load_{load:g}"
                 write_run(self.folder / name, load, slip=slip)
                 finished(self.folder / name)
-                points.append(Point(name, {"slip": f"{slip:g}", "load": f"{load:g}"}))
-        Plan("scene.lig", ("slip", "load"), points=tuple(points)).write(self.folder)
+                points.append(PlannedRun(name, {"slip": f"{slip:g}", "load": f"{load:g}"}))
+        SweepPlan("scene.lig", ("slip", "load"), points=tuple(points)).write(self.folder)
         result = evaluate([Named(self.folder)], Wanted(formulas=["bekker:LETE sand"]))
         light, heavy = result.formulas
         self.assertEqual(light.label, "Bekker, LETE sand (load 1000)")
@@ -244,8 +244,8 @@ class OutputTest(FolderTest):
                 write_run(self.folder / name, load)
                 add_parts(self.folder / name, {"compaction": 0.1 * load, "friction": friction}, 1.0)
                 finished(self.folder / name)
-                points.append(Point(name, {"load": f"{load:g}"}, seed))
-        Plan("scene.lig", ("load",), points=tuple(points)).write(self.folder)
+                points.append(PlannedRun(name, {"load": f"{load:g}"}, seed))
+        SweepPlan("scene.lig", ("load",), points=tuple(points)).write(self.folder)
         result = evaluate([Named(self.folder)], Wanted())
         parts = result.series[0].points[1].parts
         assert parts is not None
@@ -316,8 +316,8 @@ class OutputTest(FolderTest):
         for k, name in enumerate(("loose.yaml", "dense.yaml")):
             write_run(self.folder / name, LOAD, 0.05 + 0.01 * k)
             finished(self.folder / name)
-            points.append(Point(name, {"material": name}))
-        Plan("scene.lig", ("material",), points=tuple(points)).write(self.folder)
+            points.append(PlannedRun(name, {"material": name}))
+        SweepPlan("scene.lig", ("material",), points=tuple(points)).write(self.folder)
         result = evaluate([Named(self.folder)], Wanted())
         self.assertEqual(result.figure.categories, ("loose.yaml", "dense.yaml"))
         write_sweep(result, self.folder)
