@@ -116,7 +116,7 @@ def misfit(test: Task, results: Sequence[LaboratoryTest]) -> list[float]:
 
 
 def misfit_of_quantity(found: float, value: float, deviation: float | str) -> float:
-    """Over its deviation; where that is a percentage, of the logarithm."""
+    """Misfit of a quantity over its deviation; of the logarithm for a deviation in percent."""
     if isinstance(deviation, str):
         return math.log(max(found / value, LEAST)) / fraction(deviation)
     return (found - value) / deviation

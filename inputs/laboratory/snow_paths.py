@@ -47,7 +47,7 @@ def confined(stresses: Iterable[float]) -> str:
 
 
 def end_of(columns: Columns, segment: int) -> int:
-    """Its last row; the first segment is 1."""
+    """Number of the last row of a segment; the first segment is 1."""
     return int(np.flatnonzero(columns["segment"] == segment)[-1])
 
 

@@ -23,7 +23,7 @@ OF_TEST = tuple(SCHEMA["$defs"]["of_test"])
 
 
 def read_task(path: Path) -> Task:
-    """With "tests", a list of one or more, each with all its "variables". @raises ResultsError; OSError without the file"""
+    """Reads a calibration with one or more "tests", each with all its "variables". @raises ResultsError; OSError without the file"""
     form = f"a calibration is {SCHEMA['description']}"
     try:
         task = parse_json(path.read_text(encoding="utf-8"), object_pairs_hook=_without_repetition)

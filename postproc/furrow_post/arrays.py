@@ -47,7 +47,7 @@ class Fields(Named[Floats]):
         super().__init__(file, {name: read_only(values) for name, values in arrays.items()}, remedy)
 
     def require_rows(self) -> int:
-        """Their common number of rows. @raises ResultsError where they differ"""
+        """Common number of rows of the arrays. @raises ResultsError where they differ"""
         lengths = {len(values) for values in self.values()}
         if len(lengths) > 1:
             raise ResultsError(

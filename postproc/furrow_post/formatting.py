@@ -42,7 +42,7 @@ def duration(seconds: float) -> str:
 
 
 def yaml_text(text: str) -> str:
-    """In quotes: a colon, a blank at the end or the word "no" stay what they are."""
+    """Text in quotes, which keep a colon, a blank at the end and the word "no"."""
     return json.dumps(text, ensure_ascii=False)
 
 

@@ -68,7 +68,7 @@ class Contact:
         return self.pressure * below_ellipse(depth, (radius, radius), ELASTIC)
 
     def ellipse_error(self, depth: Floats, concentration: float) -> Floats:
-        """By the error of the area [Pa]."""
+        """Error of ellipse() by the error of the area [Pa]."""
         less, more = (self.ellipse(depth, concentration, self.area + sign * self.area_error) for sign in (-1, 1))
         error: Floats = 0.5 * np.abs(less - more)
         return error
@@ -245,7 +245,7 @@ def write_compaction(runs: Sequence[Compaction], file: Path) -> None:
 
 
 def report(run: Compaction) -> list[str]:
-    """The contact of a run, for a person."""
+    """Lines of the report on the contact of a run."""
     contact = run.contact
     length, width = (200 * axis for axis in contact.semi_axes)
     lines = [

@@ -130,7 +130,7 @@ def _compression(point: PointRun) -> tuple[Floats, Floats]:
 
 
 def _oedometer(label: str, ground: str, stress: Floats, density: Floats, facts: dict[str, float]) -> Curve:
-    """Up to the greatest stress."""
+    """Curve of an oedometer up to the greatest stress."""
     end = int(np.argmax(stress)) + 1
     floor = 1e-3 if ground == "grains" else 1.0  # [Pa]
     rising = np.maximum.accumulate(stress[:end])
@@ -215,7 +215,7 @@ def _differences(curves: Sequence[Curve]) -> list[Difference]:
 
 
 def curve_report(result: CurveComparison) -> str:
-    """The table and what was found, for a person."""
+    """Text with the table and the result."""
     plate = result.kind is CurveKind.PLATE
     wide = max([len(c.label) for c in result.curves] + [12]) + 2
     scale, unit = (1e-3, "kPa") if plate else (1.0, "density over that at the start")
@@ -229,7 +229,7 @@ def curve_report(result: CurveComparison) -> str:
 
 
 def write_curves(result: CurveComparison, folder: Path) -> None:
-    """compare.txt, compare.csv, compare.h5."""
+    """Writes compare.txt, compare.csv and compare.h5."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "compare.txt").write_text(curve_report(result) + "\n", encoding="utf-8")
     names = ["level", *(c.label for c in result.curves)]

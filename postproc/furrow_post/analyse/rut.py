@@ -65,7 +65,7 @@ def rut_densities(terrain: Terrain, body: Outline) -> RutDensities:
 
 
 def rut_depth(terrain: Terrain, body: Outline) -> float:
-    """From the surface before to the highest particles of the finished rut [m].
+    """Depth from the initial surface to the highest particles of the finished rut [m].
 
     In the middle half of the wheel's width.
     """
@@ -130,7 +130,7 @@ class Displacements:
     raised: float
 
     def report(self) -> str:
-        """Lines for a person."""
+        """Lines of the printed report."""
         down = "  surface of the track        {surface_down} down, {surface_forward} forward\n"
         half = "  at half of the depth        {middle_down} down, {middle_forward} forward\n"
         beside = "  beside the wheel            {aside} outwards, {raised} up at most\n"

@@ -21,7 +21,7 @@ class Stage(enum.IntEnum):
 
 
 class CruiseHistory(NamedTuple):
-    """Over the travel from the start of the cruise on."""
+    """Histories over the travel since the start of the cruise."""
 
     distance: Floats  # [m], negative while it accelerates
     hub_drop: Floats  # [m]

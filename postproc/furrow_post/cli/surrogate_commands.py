@@ -82,7 +82,7 @@ def _report(surrogate: Surrogate, training: Training, held_out: Mapping[str, Hel
 
 
 def _prediction(surrogate: Surrogate, at: Mapping[str, float]) -> list[str]:
-    """With 95 % bands, also of pull and torque of this load."""
+    """Lines of a prediction with 95 % bands, including pull and torque at this load."""
     surrogate.require(at)
     x = surrogate.scaled(at).reshape(1, -1)
     rows = [["quantity", "value ± 95 % band"]]

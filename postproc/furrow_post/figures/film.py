@@ -71,7 +71,7 @@ class MovingPictures:
         self.pixel = float(2 * half[0] / self.width)
 
     def _parts(self, time: float) -> tuple[Floats, Floats, Floats, Surface | None]:
-        """Centres, radii, colours of spheres, and the bodies; x counted from the bodies' middle."""
+        """Centres, radii and colours of spheres, and the bodies; x is measured from the middle of the bodies."""
         bodies = [body.at(time) for body in self.motion.bodies]
         if self.motion.bodies_mirrored:
             bodies += [one.mirrored() for one in bodies]

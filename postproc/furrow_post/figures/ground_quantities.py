@@ -32,7 +32,7 @@ class Quantity:
     high: float
 
     def levels(self, values: Floats) -> Any:
-        """0 ... 254, or 255 where a value is NaN."""
+        """Levels 0 to 254 of values, and 255 for NaN."""
         share = (self.factor * values - self.low) / (self.high - self.low)
         level = np.round((COLOURS - 1) * np.clip(np.nan_to_num(share), 0, 1))
         return np.where(np.isfinite(values), level, COLOURS).astype(np.uint8)

@@ -155,7 +155,7 @@ def shear(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     rise = slice(0, peak + 1)
     start = (float(largest), float(max(travel[peak] / 3, 1e-6)))
     janosi = [Parameter("tau_max", "Pa", start[0], 0.0, np.inf), Parameter("K", "m", start[1], 1e-9, np.inf)]
-    top, length = fit(janosi, lambda x: x[0] * mobilised_share(travel[rise], x[1]) - tau[rise], known=False).parameters
+    top, length = fit(janosi, lambda x: float(x[0]) * mobilised_share(travel[rise], x[1]) - tau[rise], known=False).parameters
     reached = float(travel[np.argmax(tau > REACHED * largest)])
     gap = test.numbers.get("gap", math.nan)  # of results before there was one: none
     at_travel = f"at a displacement of {travel[peak] * 1e3:.2f} mm"

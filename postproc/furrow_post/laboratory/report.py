@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tests evaluated together: the report for a person, laboratory.json in each folder."""
+"""Tests evaluated together: printed report, and laboratory.json in each folder."""
 
 import json
 import math

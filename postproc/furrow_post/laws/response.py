@@ -44,7 +44,7 @@ class Response:
         return np.linspace(min(self.values), max(self.values), TRIED)
 
     def at(self, quantity: str, places: Sequence[float]) -> Floats:
-        """(value tried, place)"""
+        """Response of quantities at a tried value, for each place."""
         rows = np.array([np.interp(places, self.places, line) for line in self.quantities[quantity]])
         fits = np.polyfit(np.array(self.values) ** -2.0, rows, 2)
         return np.array([np.polyval(fit, self.tried() ** -2.0) for fit in fits.T]).T

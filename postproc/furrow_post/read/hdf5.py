@@ -47,7 +47,7 @@ def opened(file: Path) -> Iterator[Any]:
 
 @lru_cache(maxsize=None)
 def _require_sound(file: Path, modified: int, size: int) -> None:
-    """@raises ResultsError"""
+    """Requires a file that the child process can read completely. @raises ResultsError"""
     try:
         trouble = _reader_of(os.getpid()).trouble(file, size)
     except EOFError:  # perhaps not because of this file

@@ -77,7 +77,7 @@ class Surface(NamedTuple):
 
     @classmethod
     def together(cls, surfaces: Sequence["Surface"]) -> "Surface":
-        """Several as one."""
+        """Joins several surfaces into one."""
         first = np.cumsum([0, *(len(one.x) for one in surfaces)])
         return cls(
             np.concatenate([one.triangles + n for one, n in zip(surfaces, first)]),
@@ -85,7 +85,7 @@ class Surface(NamedTuple):
         )
 
     def mirrored(self) -> "Surface":
-        """Its image in y = 0."""
+        """Mirror image of the surface in y = 0."""
         # the other way round: normals stay outward
         return Surface(self.triangles[:, ::-1], self.x * MIRROR)
 

@@ -97,7 +97,7 @@ def read_vtp(file: Path) -> PolyData:
 
 
 def _unpacked(content: bytes, place: int, word: np.dtype[Any]) -> bytes:
-    """The blocks of zlib that start here: number, size, size of the last, packed sizes, data."""
+    """Unpacks blocks of zlib: number, size, size of the last, packed sizes, data."""
     blocks = int(np.frombuffer(content, word, 1, place)[0])
     sizes = np.frombuffer(content, word, blocks, place + 3 * word.itemsize)
     place += (3 + blocks) * word.itemsize

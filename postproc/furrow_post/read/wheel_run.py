@@ -31,7 +31,7 @@ STEADY_QUANTITIES = (
 FROM_CHANNELS = ("hub_drop", "force_z", "drawbar_pull", "drive_torque")
 SAME_MEAN = 0.02  # relative difference of means over one window: rows at its ends
 ANGLES = ("slip_angle", "camber", "slope", "side_slope")  # of a rig
-GROUNDS_OF_CELLS = ("continuum", "scm")  # nothing in them is random
+GROUNDS_OF_CELLS = ("continuum", "scm")  # grounds without random packing
 
 
 def cells_or_grains(ground: str) -> str:
@@ -48,7 +48,7 @@ class Condition:
 
     @property
     def number(self) -> float:
-        """NaN for a word."""
+        """Number of a condition; NaN for a word."""
         return self.value if isinstance(self.value, float) else float("nan")
 
     def text(self) -> str:

@@ -52,7 +52,7 @@ class Run:
 
     @property
     def seconds(self) -> float:
-        """Core seconds, to a tenth."""
+        """Core time in seconds, rounded to a tenth."""
         return round(self.record.cpu_time, 1)
 
     def number(self, variable: str, default: float = 0.0) -> float:

@@ -110,7 +110,7 @@ class Processes:
             send(process, number)
 
     def require_no_signal(self) -> None:
-        """@raises Stopped after a signal"""
+        """Ends the program if a signal has arrived. @raises Stopped after a signal"""
         if self._signal:
             raise Stopped(self._signal)
 

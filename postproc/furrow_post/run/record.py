@@ -69,7 +69,7 @@ class Record:
         return str(self.job.get("program", ""))
 
     def variable(self, name: str) -> str:
-        """As the last attempt had it. @raises KeyError"""
+        """Value of a variable in the last attempt. @raises KeyError"""
         variables = self.job["variables"]
         assert isinstance(variables, Mapping)
         return str({**variables, **self.changes}[name])

@@ -35,7 +35,7 @@ class PlateCurve:
     pressure: Floats
 
     def used(self) -> "PlateCurve":
-        """Without first touch and what lies beyond the greatest sinkage."""
+        """Curve without first touch and without the rows after the greatest sinkage."""
         use = (self.sinkage > FIRST * self.sinkage.max()) & (self.pressure > 0)
         return PlateCurve(self.radius, self.sinkage[use], self.pressure[use])
 
@@ -84,7 +84,7 @@ class ConeCurve:
     angle: float
 
     def down_to(self, depth: float) -> "ConeCurve":
-        """Without what lies deeper [m]."""
+        """Curve down to a sinkage [m]."""
         use = self.depth <= depth
         return ConeCurve(self.depth[use], self.pressure[use], self.size, self.angle)
 

@@ -23,7 +23,7 @@ class GrainCone:
     weight: float
 
     def scaled(self) -> Fitted:
-        """Index over the weight."""
+        """Cone index over the weight per volume [m]."""
         index = cone_index(self.curve).index
         return Fitted(index.value / self.weight, index.error / self.weight)
 

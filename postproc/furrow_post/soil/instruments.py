@@ -149,7 +149,7 @@ def mean_radius(outer: float, inner: float) -> float:
 
 
 def ring_curve(rows: Floats, outer: float, inner: float, speed: float, pressure: float) -> ShearCurve:
-    """From the torque, which a uniform shear stress has: tau = T / (2 pi integral r^2 dr). Radii in m."""
+    """Shear curve from the torque, with a uniform shear stress: tau = T / (2 pi integral r^2 dr). Radii in m."""
     middle = mean_radius(outer, inner)
     turning = rows[rows[:, 5] > 0]
     tau = -turning[:, 4] / (2 / 3 * math.pi * (outer**3 - inner**3))

@@ -230,7 +230,7 @@ class SoilClass:
 
     @property
     def coarse(self) -> bool:
-        """Without cohesion: the cone index measures the friction angle."""
+        """True for ground without cohesion, in which the cone index measures the friction angle."""
         return self.c == 0
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Where the tables and figures of a study come from: provenance.csv beside them, a row per file."""
+"""Provenance of tables and figures of a study: a row per file in provenance.csv next to them."""
 
 import shlex
 import sys

@@ -230,7 +230,7 @@ class Engine:
         return all(self.is_of_stored(one) for one in (*panels.listed(spec["of"]), *joined))
 
     def derived(self, name: str, tables: Tables) -> pandas.DataFrame:
-        """A table made of others."""
+        """Computes a table from other tables."""
         spec = self.tables[name]
         sources = [spec["of"]] if isinstance(spec["of"], str) else spec["of"]
         texts = spec.get("texts") or []

@@ -142,7 +142,7 @@ def wall_lean(points: Sequence[Point], wall: tuple[int, int]) -> float:
 
 
 def rib_lean(run: Run, pressure: float, height: Sequence[float], lean: float, places: Sequence[str] = ()) -> list[Row]:
-    """By how much each load leans the walls of ribs below the axle: leans[PLACE] [degrees]. places: names of the walls by
+    """Lean of the walls of ribs below the axle under each load: leans[PLACE] [degrees]. places: names of the walls by
     their y [cm], of another pressure."""
     unloaded = below_axle(run.folder / f"{pressure:.0f}kPa_0N.vtp")
     found = walls(unloaded, height, lean)

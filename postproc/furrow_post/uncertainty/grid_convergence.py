@@ -58,7 +58,7 @@ class Convergence:
         return math.hypot(self.index_error, self.noise)
 
     def at(self, size: float) -> float:
-        """On the curve, or straight between the values."""
+        """Value of a size on the curve, or by a straight line between the values."""
         if self.extrapolated:
             return float(self.value + self.slope * size**self.used_order)
         return float(np.interp(size, self.sizes, self.values))
@@ -177,7 +177,7 @@ def noise_of(value: float, error: float, packing: float) -> float:
 
 
 def same_size(a: float, b: float) -> bool:
-    """Within 2 %: grains of another packing have another mean. Not known is no difference."""
+    """True for sizes within 2 %, as packings have different means, or if one is not known."""
     return not abs(a - b) > 0.02 * abs(b)
 
 

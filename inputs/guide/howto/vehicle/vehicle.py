@@ -133,7 +133,7 @@ class Drive:
 
 
 def open_wheels(vehicle: Vehicle, **variables: object) -> Wheels:
-    """One process for each wheel."""
+    """Starts one process for each wheel."""
     return Wheels([{"x": x, "y": y, "z": z, **variables} for x, y, z in vehicle.poses()[:, :3]])
 
 
