@@ -24,7 +24,7 @@ namespace furrow::coupling {
 namespace {
 
 constexpr double min_steps_of_ramp = 10;
-constexpr double least_damping_ratio = 0.01, least_torque = 1e-3;  // over load x radius
+constexpr double minimum_damping_ratio = 0.01, minimum_torque = 1e-3;  // over load x radius
 constexpr double never = -1.0;  // [s] time of a change that has not been
 
 /// The columns of the table, each over the time. @throws InputError
@@ -150,7 +150,7 @@ void FixWheelRig::warn_of_soft_spring() {
                    options().where("suspension_stiffness"), stiffness, weight, deflection,
                    wheel_fix_.id, radius));
   const double ratio = 0.5 * damping / std::sqrt(stiffness * mass);
-  if (damping > 0.0 && ratio < least_damping_ratio)
+  if (damping > 0.0 && ratio < minimum_damping_ratio)
     warn(*lmp,
          fmt::format("{} is {:g} N s/m, {:.1g} of critical damping; vehicles have 0.2 to 0.4; give "
                      "N s/m, not kN s/m",
@@ -163,7 +163,7 @@ void FixWheelRig::warn_of_small_torque() {
   if (warned_of_torque_ || !options().given("torque")) return;
   warned_of_torque_ = true;
   const double torque = std::abs(options().number("torque"));
-  if (torque > 0.0 && torque < least_torque * full)
+  if (torque > 0.0 && torque < minimum_torque * full)
     warn(*lmp, fmt::format(
                    "{} is {:g} N m, {:.1g} of load x radius: it hardly turns the wheel; give N m, "
                    "not kN m",

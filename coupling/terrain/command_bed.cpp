@@ -228,8 +228,8 @@ CommandBed::Request CommandBed::read_request(const std::vector<std::string>& wor
   check_bed_parameters(options);
   BedSurface surface(options, script_folder(*lmp));
   check_script(script, surface);
-  for (const std::string& doubt : doubts_of_bed(options)) warn(*lmp, doubt);
-  for (const std::string& doubt : surface.doubts()) warn(*lmp, doubt);
+  for (const std::string& warning : bed_warnings(options)) warn(*lmp, warning);
+  for (const std::string& warning : surface.warnings()) warn(*lmp, warning);
   const std::string values = values_of(options, surface);
   return {std::move(script), std::move(surface), options.text("from"), std::move(parameters),
           values};
@@ -348,9 +348,9 @@ void CommandBed::read(const Request& request, const KeptBed& bed) {
   while (file >> name >> value && name[0] != '#') {
     set_variable(*lmp, name, value);
     if (name == "bed_surface_rms")
-      if (const std::string doubt = request.surface.doubt_of_settled(std::stod(value));
-          !doubt.empty())
-        warn(*lmp, doubt);
+      if (const std::string warning = request.surface.settled_warning(std::stod(value));
+          !warning.empty())
+        warn(*lmp, warning);
   }
 }
 

@@ -25,7 +25,7 @@ namespace furrow::coupling {
 namespace {
 
 constexpr int good_cells_in_depth = 4;
-constexpr int most_empty_cells = 20;  // above the surface, over those below
+constexpr int maximum_empty_cells = 20;  // above the surface, over those below
 constexpr double many_particles = 1e6;
 constexpr double seconds_of_particle = 5e-8;  // of one core for a step, measured
 constexpr long check_every = 100;             // steps between checks of the energy
@@ -104,9 +104,9 @@ std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& opt
   }
   for (const TerrainLayer& layer : parameters.layers)
     for (const std::string& warning : layer.warnings) warn(lammps, warning);
-  for (const std::string& doubt : parameters.relief.doubts(
+  for (const std::string& warning : parameters.relief.warnings(
            options.number("length"), options.number("cell"), options.given("follow")))
-    warn(lammps, fmt::format("{}: {}", options.subject(), doubt));
+    warn(lammps, fmt::format("{}: {}", options.subject(), warning));
   if (const std::string note = parameters.relief.note(); !note.empty())
     warn(lammps, fmt::format("{}: {}", options.where("heightmap"), note));
   if (const double particles = size_of(parameters).particles; particles > many_particles)
@@ -303,7 +303,7 @@ void FixTerrainContinuum::warn_of_extremes() {
     warn(*lmp, fmt::format("{} is given without 'surface_mesh yes': no grains can lie on the "
                            "terrain, whose stress starts as if they did; remove it",
                            options().where("surcharge")));
-  if (above > most_empty_cells * below)
+  if (above > maximum_empty_cells * below)
     warn(*lmp, fmt::format("{}: {} layers of cells reach {:.4g} m above the surface, {} lie below: "
                            "they stay empty and cost time; make clearance_above smaller",
                            name(), above, z.upper() - surface, below));

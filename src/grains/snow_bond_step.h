@@ -101,10 +101,10 @@ inline void SnowBondStep::break_bond(SnowBondResponse& response) {
 /// lies below the root, and no later one exceeds it. @param there the excess at the start
 template <class Function>
 inline double SnowBondStep::solve(double start, Excess there, Function&& excess) {
-  constexpr int most_iterations = 60;
+  constexpr int maximum_iterations = 60;
   constexpr double tolerance = 1e-6;  // of x; the error is of the order of its square
   double x = start - there.value / there.slope;
-  for (int n = 0; n < most_iterations; ++n) {
+  for (int n = 0; n < maximum_iterations; ++n) {
     const Excess here = excess(x);
     const double change = -here.value / here.slope;
     x += change;

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr double flush_interval = 5.0;  // [s] between flushes that come by themselves
-constexpr double least_flush_ratio =
+constexpr double minimum_flush_ratio =
     100.0;  // least ratio of the flush interval to the duration of a flush
 // former and present name of a channel
 constexpr std::pair<const char*, const char*> former_channels[] = {{"phase", stage_channel},
@@ -176,7 +176,7 @@ void HistoryFile::append(const std::vector<double>& row) {
                                  row[0], *last_time_));
   rows_.append(row);
   last_time_ = row[0];
-  if (seconds_since(last_flush_) >= std::max(flush_interval, least_flush_ratio * flush_duration_))
+  if (seconds_since(last_flush_) >= std::max(flush_interval, minimum_flush_ratio * flush_duration_))
     flush();
 }
 

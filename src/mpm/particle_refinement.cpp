@@ -78,7 +78,7 @@ ParticleRefinement::ParticleRefinement(const TerrainParameters& parameters, cons
                                        const std::string& where)
     : x_(grid.axis(0)),
       particles_per_cell_(parameters.particles_per_cell),
-      most_parts_(1L << parameters.halvings) {
+      maximum_parts_(1L << parameters.halvings) {
   check_refined_ground(parameters, where);
 }
 
@@ -136,7 +136,7 @@ bool ParticleRefinement::unite(ParticleGroup& group) const {
   std::vector<Half> halves;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const long mine = parts(particles, p);
-    if (mine < most_parts_ &&
+    if (mine < maximum_parts_ &&
         4.0 * particles.data(column::half_x)[p] <= longest_pair * length_wanted(particles, p))
       halves.push_back(
           {static_cast<std::int64_t>(particles.data(column::id)[p]) / (2 * mine), mine, p});

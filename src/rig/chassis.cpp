@@ -13,9 +13,9 @@ namespace furrow {
 
 namespace {
 
-constexpr double apart = 1e-6;          // [m] wheels that are closer are in one line
-constexpr double most_radii = 10.0;     // of a wheel, of heights above the axles
-constexpr double least_support = 1e-6;  // of the stiffest coordinate
+constexpr double apart = 1e-6;            // [m] wheels that are closer are in one line
+constexpr double maximum_radii = 10.0;    // of a wheel, of heights above the axles
+constexpr double minimum_support = 1e-6;  // of the stiffest coordinate
 
 /// Centre of the sprung masses in x and y [m].
 Vector2 centre_of_mass(const std::vector<WheelRig*>& rigs) {
@@ -91,7 +91,7 @@ SprungBody Chassis::make_body(const Options& options, const std::vector<WheelRig
   for (int k = 1; k < 3; ++k)
     if (inertia[k] == 0.0) support(k, k) = support(0, 0);
   const Vector3 values = Eigen::SelfAdjointEigenSolver<Matrix3>(support).eigenvalues();
-  if (!(values[0] > least_support * values[2]))
+  if (!(values[0] > minimum_support * values[2]))
     throw InputError(options.where("rigs"),
                      "has wheels that do not support the body in roll and "
                      "pitch",
@@ -107,10 +107,10 @@ Chassis::Chassis(const Options& options, std::vector<WheelRig*> rigs)
   double radius = 0.0;
   for (const WheelRig* rig : rigs_) radius = std::max(radius, rig->wheel().nominal_radius());
   for (const char* key : {"height", "guide_height"})
-    if (std::abs(options.number(key)) > most_radii * radius)
+    if (std::abs(options.number(key)) > maximum_radii * radius)
       throw InputError(options.where(key), fmt::format("is {:g} m", options.number(key)),
                        fmt::format("-{0:.3g} to {0:.3g} m, {1:g} radii of the largest wheel",
-                                   most_radii * radius, most_radii),
+                                   maximum_radii * radius, maximum_radii),
                        "give m, not cm or mm");
   for (WheelRig* rig : rigs_) rig->join();
 }

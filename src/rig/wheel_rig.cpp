@@ -14,7 +14,7 @@ namespace {
 
 // Share of the load that the ground bears when a lowered wheel has come down on it.
 constexpr double touching_share = 0.02;
-constexpr double least_share = 0.05;  // least part of a growing load for it
+constexpr double minimum_share = 0.05;  // least part of a growing load for it
 // dt^2 k/m and dt c/m of a suspension, whose force is constant over a step
 constexpr double largest_spring_step = 0.1, largest_damper_step = 0.2;
 
@@ -163,7 +163,7 @@ bool WheelRig::lower(double time, double dt) {
   const double middle = time + 0.5 * dt;
   if (middle >= speed_ramp_.start || (has_suspension() && middle >= load_ramp_.start)) return false;
   const double share = load_ramp_.value(time), force = wheel_.ground_wrench().force.z();
-  const bool touches = force > touching_share * load_ * std::max(share, least_share);
+  const bool touches = force > touching_share * load_ * std::max(share, minimum_share);
   const bool loads = middle >= load_ramp_.start && force <= -share * load_ * down().z();
   if (touches && loads) return false;
   if (!touches && middle >= creep_end_) return false;
@@ -188,13 +188,13 @@ Vector3 WheelRig::down() const {
 /// Weight of the wheel and force of the suspension, while a share of the weights acts. Along the
 /// ground the axle carries all of the load.
 void WheelRig::press_by_suspension(double share, double dt) {
-  const double least_mass = std::min(sprung_mass_, wheel_.total_mass());
-  if (dt * dt * strut_.stiffness > largest_spring_step * least_mass ||
-      dt * strut_.damping > largest_damper_step * least_mass)
+  const double minimum_mass = std::min(sprung_mass_, wheel_.total_mass());
+  if (dt * dt * strut_.stiffness > largest_spring_step * minimum_mass ||
+      dt * strut_.damping > largest_damper_step * minimum_mass)
     throw StateError(fmt::format(
         "wheel rig: a step of {:g} s is too long for a suspension of {:g} N/m and {:g} N s/m on "
         "{:.4g} kg; write a smaller timestep",
-        dt, strut_.stiffness, strut_.damping, least_mass));
+        dt, strut_.stiffness, strut_.damping, minimum_mass));
   const double own = share * wheel_weight_;
   sprung_weight_ = (share * load_ - own) * down();
   Vector3 load = share * load_ * down();

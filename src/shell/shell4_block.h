@@ -45,7 +45,7 @@ struct Shell4Result {
   double volume = 0.0;  ///< [m^3] a third of the integral of x . n dA
   /// smallest 4 cos^2(angle/2) of a node's rotation relative to its element: 4 without bending, 1
   /// at 120 degrees
-  double least_four_cos2 = 4.0;
+  double minimum_four_cos2 = 4.0;
   std::size_t most_rotated = 0;  ///< place of this element
   bool finite = true;
 };

@@ -35,7 +35,7 @@ struct Brick8Places {
 
 struct Brick8Result {
   double energy = 0.0;            ///< [J]
-  double least_ratio = 1e30;      ///< smallest det F at a Gauss point
+  double minimum_ratio = 1e30;    ///< smallest det F at a Gauss point
   std::size_t most_squeezed = 0;  ///< place of this element
   double highest_rate = 0.0;      ///< estimate of the largest omega^2 of an element now [1/s^2]
   bool finite = true;

@@ -99,7 +99,7 @@ class NodalTyre : public Tyre {
   void place_beads();
   double potential() const { return elastic_ - pressure_ * volume_; }
   void count_stored_energy() { stored_ = potential() - zero_; }
-  Wrench of_whole(const Wrench& computed) const;
+  Wrench to_whole(const Wrench& computed) const;
 
   Relaxation relax(RigidPlane* plane, const SettleOptions& options) override;
   NaturalModes modes_with(const std::vector<int>& held, int count) override;

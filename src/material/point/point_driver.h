@@ -63,7 +63,7 @@ PointChannel find_point_channel(const Material& material, const std::string& nam
 PointHistory drive_point(const Material& material, const PointPath& path);
 
 /// A warning about strains that no ground reaches; empty without.
-std::string doubt_of_strains(const PointHistory& history);
+std::string strain_warning(const PointHistory& history);
 
 /// Error of the step size: comparison with the same path with every step halved, at the ends of the
 /// segments.

@@ -31,8 +31,8 @@ WheelGeometry drum() {
 std::unique_ptr<RigidWheel> wheel_of(const Surface& surface, const std::string& line) {
   const Options options =
       mesh_wheel_schema("fix wheel/mesh").read(test::words("file wheel.stl " + line));
-  std::vector<std::string> doubts;
-  return make_mesh_wheel(options, solid(surface, "wheel.stl"), doubts);
+  std::vector<std::string> warnings;
+  return make_mesh_wheel(options, solid(surface, "wheel.stl"), warnings);
 }
 
 std::string refusal(const Surface& surface, const std::string& line) {

@@ -106,7 +106,7 @@ TEST_F(MaterialFileTest, ConeIndexInOtherUnitsIsRefusedOrWarnedOf) {
   const auto warnings = read_material_file(file(sand + "cone_index: 131\n")).warnings;
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_THAT(warnings[0], AllOf(HasSubstr("line 16"), HasSubstr("kPa times 1000")));
-  // The doubts about the law stay
+  // the warnings about the law stay
   const auto both =
       read_material_file(file(with(sand, "E: 689e6", "E: 689") + "cone_index: 131\n"));
   EXPECT_GE(both.warnings.size(), 2u);

@@ -302,7 +302,7 @@ TEST(GradedWindow, UndisturbedGroundSettlesAsInEvenCells) {
   even_cells.x = even(-0.8, 0.8, cell);
   even_cells.halvings = 0;
   struct Result {
-    double stress[2], top, speed, most_particles;
+    double stress[2], top, speed, maximum_particles;
   };
   const auto travel = [&](const TerrainParameters& parameters) {
     ContinuumTerrain ground(parameters, Communicator());
@@ -312,7 +312,7 @@ TEST(GradedWindow, UndisturbedGroundSettlesAsInEvenCells) {
       ground.follow(n * stride);
       const double dt = ground.stable_time_step();
       for (int step = 0; step < 48; ++step) ground.advance(dt);
-      result.most_particles = std::max(result.most_particles, ground.particle_count());
+      result.maximum_particles = std::max(result.maximum_particles, ground.particle_count());
     }
     EXPECT_NEAR(ground.travelled(), 24 * stride, 1.01 * stride);
     EXPECT_NEAR(sums_of(ground).mass, mass, 1e-9 * mass);
@@ -338,8 +338,8 @@ TEST(GradedWindow, UndisturbedGroundSettlesAsInEvenCells) {
   EXPECT_NEAR(one.top, other.top, 1e-5);
   EXPECT_LT(one.speed, 1.1 * other.speed);
   // as many as at the start, and half of those in even cells
-  EXPECT_EQ(one.most_particles, 8704);
-  EXPECT_EQ(other.most_particles, 16384);
+  EXPECT_EQ(one.maximum_particles, 8704);
+  EXPECT_EQ(other.maximum_particles, 16384);
 }
 
 TEST(GradedWindow, GroundThatLongParticlesCannotFillIsRefused) {

@@ -235,13 +235,13 @@ TEST(ScmPlate, ValuesInOtherUnitsAreRefusedOrWarnedOf) {
   const std::map<std::string, double> sand = {{"k_c", 15600.0}, {"k_phi", 2407400.0},
                                               {"n", 1.1},       {"c", 250.0},
                                               {"phi", 31.9},    {"K", 0.0114}};
-  EXPECT_TRUE(doubts(soil_from(schema.read(none), sand)).empty());
-  const auto doubts_with = [&](const std::vector<std::string>& words) {
-    return doubts(soil_from(schema.read(words), sand)).size();
+  EXPECT_TRUE(plausibility_warnings(soil_from(schema.read(none), sand)).empty());
+  const auto warnings_with = [&](const std::vector<std::string>& words) {
+    return plausibility_warnings(soil_from(schema.read(words), sand)).size();
   };
-  EXPECT_EQ(doubts_with({"c", "0.25"}), 1u);
-  EXPECT_EQ(doubts_with({"c", "2e-16"}), 0u);  // result of a fit for 0
-  EXPECT_EQ(doubts_with({"K", "4.3e-5"}), 1u);
+  EXPECT_EQ(warnings_with({"c", "0.25"}), 1u);
+  EXPECT_EQ(warnings_with({"c", "2e-16"}), 0u);  // result of a fit for 0
+  EXPECT_EQ(warnings_with({"K", "4.3e-5"}), 1u);
   for (const auto& [key, value] : std::map<std::string, double>{
            {"k_phi", 2407.4}, {"phi", 0.557}, {"K", 11.4}, {"c", 2.5e6}, {"stiffness", 1e5}}) {
     auto other = sand;

@@ -188,7 +188,7 @@ TEST(BrickTyre, HalfAndWholeModelCarryTheLoadOnAPlane) {
     const ContactPatch patch = contact_patch(tyre, plane);
     EXPECT_NEAR(patch.force, 5000.0, 10.0);
     EXPECT_GT(patch.perimeter_area, 0.01);
-    EXPECT_GT(tyre.least_volume_ratio(), 0.5);
+    EXPECT_GT(tyre.minimum_volume_ratio(), 0.5);
     EXPECT_GT(tyre.section_width(), 0.22);
   }
   EXPECT_NEAR(deflections[0] / deflections[1], 1.0, 5e-3);

@@ -176,7 +176,7 @@ TEST(Brick8, FreeSpinKeepsItsMomentum) {
     model.x += dt * v;
   }
   EXPECT_LT((momentum() - start).norm(), 1e-10 * start.norm());
-  EXPECT_NEAR(model.mesh.least_volume_ratio(), 1.0, 1e-3);
+  EXPECT_NEAR(model.mesh.minimum_volume_ratio(), 1.0, 1e-3);
 }
 
 /// Displacement upwards of the middle of the loaded side of Cook's membrane.
@@ -460,7 +460,7 @@ TEST(Brick8, CompressionTo40PercentOfTheHeightIsSolved) {
   model.forces();
   for (double time = 0.0; time < 1.2 * end;) {
     const Matrix3X f = model.forces();
-    least = std::min(least, model.mesh.least_volume_ratio());
+    least = std::min(least, model.mesh.minimum_volume_ratio());
     const double dt = 0.8 * model.mesh.stable_time_step();
     time += dt;
     v = (1.0 - 500.0 * dt) * v + dt * f * mass.cwiseInverse().asDiagonal();

@@ -31,7 +31,7 @@ struct NorSandParameters {
   double largest_D() const { return M / (1.0 - N); }
 
   static constexpr double reference_pressure = 1e5;  ///< of G and H [Pa]
-  static constexpr double least_hardening = 0.1;     ///< share of H that remains in loose sand
+  static constexpr double minimum_hardening = 0.1;   ///< share of H that remains in loose sand
   static constexpr double loosest = 3.0;             ///< bound of D_l over largest_D()
 };
 
