@@ -105,7 +105,7 @@ void ParticleRefinement::refine(std::vector<ParticleGroup>& groups) const {
 void ParticleRefinement::divide(ParticleGroup& group) const {
   Particles& particles = group.particles;
   const auto width = group.material->find_field("band_width");
-  // halves that are appended have their turn too
+  // the loop also reaches the halves that it appends
   for (std::size_t p = 0; p < particles.size(); ++p)
     while (parts(particles, p) > 1 && particles.is_idle(p) &&
            2.0 * particles.data(column::half_x)[p] >

@@ -19,7 +19,7 @@ from .restart import continuation, write_command
 
 # values of inputs/guide/howto/cluster.md
 GAIN_FROM_PARTICLES, GAIN_FROM_GRAINS = 30_000, 20_000
-SHARE_OF_A_CORE = 0.3  # of the last rank, that may be busy
+SHARE_OF_A_CORE = 0.3  # busy share of a core that does not exclude a rank
 
 
 @dataclass(frozen=True)

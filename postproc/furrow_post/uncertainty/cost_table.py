@@ -112,7 +112,7 @@ class Family:
         self.domain = commonest([r.domain for r in rows])
         self.seed = commonest([r.seed for r in rows])
         bases = [r for r in rows if r.domain == self.domain and r.seed == self.seed]
-        self.bases = sorted(bases, key=lambda r: -r.size)  # the finest last
+        self.bases = sorted(bases, key=lambda r: -r.size)  # from the coarsest to the finest
         self._series: dict[str, Convergence | None] = {}
 
     @property
