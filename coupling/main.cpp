@@ -31,16 +31,16 @@ using namespace furrow::coupling;
 constexpr int wrong_command_line = 2;
 
 /// @return a status that ends the program, or nothing
-std::optional<int> read_words(int argc, char** argv, bool tells) {
+std::optional<int> read_words(int argc, char** argv, bool prints) {
   try {
     const CommandLine line = read_command_line({argv + 1, argv + argc});
-    if (tells && line.help) std::fputs(usage().c_str(), stdout);
-    if (tells && line.version)
+    if (prints && line.help) std::fputs(usage().c_str(), stdout);
+    if (prints && line.version)
       std::printf("furrow %s with LIGGGHTS %s\n", furrow::version().c_str(), liggghts_version);
     if (line.help || line.version) return 0;
     on_first_rank(MPI_COMM_WORLD, [&] { check_command_line(line); });
   } catch (const std::exception& problem) {
-    if (tells) std::fprintf(stderr, "ERROR: %s\n", problem.what());
+    if (prints) std::fprintf(stderr, "ERROR: %s\n", problem.what());
     return wrong_command_line;
   }
   return std::nullopt;

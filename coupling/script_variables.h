@@ -13,7 +13,7 @@ namespace furrow::coupling {
 struct ScriptVariables {
   /// Names with values as written, which the command line can replace.
   std::vector<std::pair<std::string, std::string>> defaults;
-  std::set<std::string> computed;   ///< variables that the script makes itself
+  std::set<std::string> computed;   ///< variables that the script computes
   std::set<std::string> mentioned;  ///< ${name}, $n, v_name, "variable name" and "next name"
   std::set<std::string> in_paths;   ///< variables on which the paths of included files depend
   std::vector<std::string> files;   ///< the script and what it includes

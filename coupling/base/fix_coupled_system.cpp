@@ -128,7 +128,7 @@ void FixCoupledSystem::pre_initial_integrate() {
 
 void FixCoupledSystem::initial_integrate(int) {
   with_collective_errors(*error, [&] {
-    // those of the set-up, which LIGGGHTS computes after this fix has had its turn
+    // forces of the set-up, which LIGGGHTS computes after this fix
     if (!forces_complete_) sum_and_audit_forces();
     set_loads_and_motions();
     advance_bodies();

@@ -62,14 +62,14 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   /// True if any force has acted on a body since the process started.
   bool touched(const Body& body) { return load(body).touched; }
 
-  double time() const { return time_; }            ///< of the scene [s], also after a restart
-  bool has_run() const { return has_run_; }        ///< also no steps, in this process
-  bool restored() const { return restored_; }      ///< from a checkpoint
+  double time() const { return time_; }        ///< of the scene [s], also after a restart
+  bool has_run() const { return has_run_; }    ///< true also after a run of 0 steps in this process
+  bool restored() const { return restored_; }  ///< from a checkpoint
   double sub_steps() const { return sub_steps_; }  ///< of the bodies, since the process started
   /// Warns of targets of a rig as a run does that begins with them. @throws InputError for those
   /// that it would refuse. Collective.
   void check_targets() { scene_watch_->after_change_of_targets(); }
-  /// Limit by the body whose stable step is the smallest now. Collective.
+  /// Limit by the body with the smallest present stable step. Collective.
   CoupledSystem::StepLimit step_limit() const { return system_.step_limit(); }
   const Communicator& communicator() const { return communicator_; }
 

@@ -36,7 +36,7 @@ void FurrowFix::post_create() {
 }
 
 void FurrowFix::pre_delete(bool unfixing) {
-  if (!unfixing) return;  // all fixes are going
+  if (!unfixing) return;  // LIGGGHTS deletes all fixes
   collectively([&] { forbid_removal_while_used(*modify, *this); });
   if (parts_.empty()) return;
   FixCoupledSystem& system = FixCoupledSystem::of(*lmp);

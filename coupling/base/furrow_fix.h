@@ -107,12 +107,12 @@ class FurrowFix : public LAMMPS_NS::Fix,
   /// True if the state depends on these options. A run is then continued with the same ones, except
   /// for those that may_change().
   virtual bool state_needs_options() const { return true; }
-  /// Runs an action that all ranks run alike; what it throws becomes the error of all.
+  /// Runs an action that all ranks run alike; an exception becomes the error of all.
   template <class Action>
   void collectively(Action&& action) const {
     with_collective_errors(*error, action);
   }
-  /// Runs an action that may fail on this rank alone; what it throws stops all ranks.
+  /// Runs an action that may fail on this rank alone; an exception stops all ranks.
   template <class Action>
   void on_this_rank(Action&& action) const {
     with_local_errors(*error, action);

@@ -45,7 +45,7 @@ fs::path existing_folder(const std::string& name) {
 
 }  // namespace
 
-Found checkpoints_have_one_run(const Scene& scene) {
+CheckResult checkpoints_have_one_run(const Scene& scene) {
   const Communicator ranks(&scene.lammps.world);
   for (const std::string& name : checkpoint_names(scene.lammps))
     if (ranks.any(ranks.rank() == 0 && belongs_to_another_run(name)))
@@ -56,7 +56,7 @@ Found checkpoints_have_one_run(const Scene& scene) {
   return {};
 }
 
-Found checkpoints_have_room(const Scene& scene) {
+CheckResult checkpoints_have_room(const Scene& scene) {
   const std::vector<std::string> names = checkpoint_names(scene.lammps);
   if (names.empty()) return {};
   const Communicator ranks(&scene.lammps.world);
@@ -83,7 +83,7 @@ Found checkpoints_have_room(const Scene& scene) {
                   names[0]));
 }
 
-Found bed_fits_a_record(const Scene& scene, const FixBedWindow& window) {
+CheckResult bed_fits_a_record(const Scene& scene, const FixBedWindow& window) {
   const double grains =
       checkpoint_names(scene.lammps).empty() ? 0.0 : GrainBed(scene.lammps).checkpoint_size();
   if (grains <= longest_record) return {};

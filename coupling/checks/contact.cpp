@@ -117,7 +117,7 @@ bool replaces(LAMMPS_NS::PrimitiveWall& wall, const Vector3& centre, const Vecto
               const Radii& radii) {
   Vector3 point = centre, to_wall = Vector3::Zero();
   const double off = behind * radii.smallest;
-  point -= off * normal;  // a plane in the mesh itself would have no direction
+  point -= off * normal;  // a point in the plane of the mesh has no direction
   wall.resolveContact(point.data(), 0.0, to_wall.data());
   const double along = to_wall.dot(normal);
   return along >= aligned * to_wall.norm() && along > 0.0 && along - off <= 2.0 * radii.largest;
@@ -132,7 +132,7 @@ bool touches_grains(const LAMMPS_NS::LAMMPS& lammps, const FixBody& body) {
   });
 }
 
-Found stock_wall_has_no_body(const Scene&, const LAMMPS_NS::FixWallGran& wall) {
+CheckResult stock_wall_has_no_body(const Scene&, const LAMMPS_NS::FixWallGran& wall) {
   if (!wall.is_mesh_wall() || dynamic_cast<const FixWallGranBody*>(&wall)) return {};
   for (int m = 0; m < wall.n_meshes(); ++m)
     if (const auto* mesh = dynamic_cast<const FixMeshBody*>(wall.mesh_list()[m]))
@@ -146,7 +146,7 @@ Found stock_wall_has_no_body(const Scene&, const LAMMPS_NS::FixWallGran& wall) {
 }
 
 /// LIGGGHTS runs one mesh wall; its own error says no more.
-Found one_wall_has_all_meshes(const Scene& scene, const FixWallGranBody& wall) {
+CheckResult one_wall_has_all_meshes(const Scene& scene, const FixWallGranBody& wall) {
   for (const auto* other : fixes_of<LAMMPS_NS::FixWallGran>(*scene.lammps.modify))
     if (other != &wall && other->is_mesh_wall())
       return refusal(
@@ -157,7 +157,7 @@ Found one_wall_has_all_meshes(const Scene& scene, const FixWallGranBody& wall) {
   return {};
 }
 
-Found mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh) {
+CheckResult mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh) {
   if (in_a_wall(*scene.lammps.modify, mesh)) return {};
   return warning(
       fmt::format("fix mesh/body '{}' is in no wall/gran/body: grains do not feel it; add 'fix "
@@ -165,7 +165,7 @@ Found mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh) {
                   mesh.id, mesh.id));
 }
 
-Found something_presses_on_terrain(const Scene& scene, const FixTerrain& terrain) {
+CheckResult something_presses_on_terrain(const Scene& scene, const FixTerrain& terrain) {
   if (has_contact(*scene.lammps.modify, terrain) || touches_grains(scene.lammps, terrain) ||
       terrain.options().flag("surface_mesh"))
     return {};
@@ -173,7 +173,7 @@ Found something_presses_on_terrain(const Scene& scene, const FixTerrain& terrain
       fmt::format("nothing presses on {}: no contact/continuum names it", terrain.name()));
 }
 
-Found surface_mesh_is_in_a_wall(const Scene& scene, const FixTerrain& terrain) {
+CheckResult surface_mesh_is_in_a_wall(const Scene& scene, const FixTerrain& terrain) {
   if (!terrain.options().flag("surface_mesh") || touches_grains(scene.lammps, terrain)) return {};
   return warning(
       fmt::format("{} has a surface mesh that no wall/gran/body lists: grains fall through it; add "
@@ -181,7 +181,7 @@ Found surface_mesh_is_in_a_wall(const Scene& scene, const FixTerrain& terrain) {
                   terrain.name()));
 }
 
-Found no_wall_replaces_the_surface_mesh(const Scene& scene, const FixTerrain& terrain) {
+CheckResult no_wall_replaces_the_surface_mesh(const Scene& scene, const FixTerrain& terrain) {
   if (!touches_grains(scene.lammps, terrain)) return {};
   const Surface& mesh = terrain.body().surface();
   const Radii radii = radii_of_grains(scene.lammps);
@@ -208,7 +208,7 @@ Found no_wall_replaces_the_surface_mesh(const Scene& scene, const FixTerrain& te
 }
 
 /// A continuum that starts with another load than its grains settles, or springs back.
-Found surcharge_is_the_grains_weight(const Scene& scene, const FixTerrain& terrain) {
+CheckResult surcharge_is_the_grains_weight(const Scene& scene, const FixTerrain& terrain) {
   const double surcharge = terrain.options().number("surcharge");
   if (surcharge == 0.0 || scene.time() > 0.0 || !touches_grains(scene.lammps, terrain)) return {};
   const TerrainParameters& parameters = terrain.terrain().parameters();
@@ -237,7 +237,7 @@ Found surcharge_is_the_grains_weight(const Scene& scene, const FixTerrain& terra
                   terrain.options().where("surcharge"), surcharge, weight, weight));
 }
 
-Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& terrain) {
+CheckResult half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& terrain) {
   if (!terrain.half_model() || !touches_grains(scene.lammps, terrain) ||
       scene.lammps.domain->boxlo[1] >= 0.0)
     return {};
@@ -247,7 +247,7 @@ Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& ter
                   terrain.name()));
 }
 
-Found body_touches_something(const Scene& scene, FixBody& body) {
+CheckResult body_touches_something(const Scene& scene, FixBody& body) {
   if (dynamic_cast<const Ground*>(&body) || touches_grains(scene.lammps, body) ||
       has_contact(*scene.lammps.modify, body))
     return {};
@@ -281,7 +281,7 @@ std::string expected(const BoundaryEffects& effects, double x, PressedBy tool) {
   return fmt::format("{}", fmt::join(parts, " and "));
 }
 
-/// Source of the expectation, and what the remedy leaves of it.
+/// Text of the source of the expectation, and of its remaining part after the remedy.
 std::string source(GroundKind kind) {
   return fmt::format("estimate of the study ground_size on {}; its limits are 2 % and 0.01",
                      name_of(kind));
@@ -290,7 +290,7 @@ std::string source(GroundKind kind) {
 }  // namespace
 
 /// Over a hard base the stress of a load fades within the depth (ground_under_wheel.h).
-Found terrain_is_wide_enough(const Scene&, FixContactContinuum& contact) {
+CheckResult terrain_is_wide_enough(const Scene&, FixContactContinuum& contact) {
   const Pair pair = describe(contact);
   const Options& options = pair.terrain.options();
   const double body = pair.body_y.length(), ground = pair.terrain_y.length();
@@ -313,7 +313,7 @@ Found terrain_is_wide_enough(const Scene&, FixContactContinuum& contact) {
 }
 
 /// A line that names its base states what lies below.
-Found terrain_is_deep_enough(const Scene&, FixContactContinuum& contact) {
+CheckResult terrain_is_deep_enough(const Scene&, FixContactContinuum& contact) {
   const Pair pair = describe(contact);
   const Options& options = pair.terrain.options();
   const double depth = options.number("depth"), body = pair.body_y.length();
@@ -343,7 +343,7 @@ std::optional<double> planned_travel(const Scene& scene, const FixBody& body) {
 }  // namespace
 
 /// Grousers that cells do not resolve act as a smooth rim of some radius between rim and tip.
-Found cells_show_the_grousers(const Scene&, FixGroundContact& contact) {
+CheckResult cells_show_the_grousers(const Scene&, FixGroundContact& contact) {
   const FixBody& body = contact.body_fix();
   const Options& ground = contact.ground().line();
   const auto* wheel = dynamic_cast<const WheelHub*>(&body.body());
@@ -366,7 +366,7 @@ Found cells_show_the_grousers(const Scene&, FixGroundContact& contact) {
 }
 
 /// Blades, and grousers: ground reaches both sides of no other part.
-Found thin_parts_divide_the_ground(const Scene&, FixContactContinuum& contact) {
+CheckResult thin_parts_divide_the_ground(const Scene&, FixContactContinuum& contact) {
   const TerrainParameters& parameters = contact.terrain_fix().terrain().parameters();
   const FixBody& body = contact.body_fix();
   const auto* tool = dynamic_cast<const FixPlateRigid*>(&body);
@@ -398,7 +398,7 @@ Found thin_parts_divide_the_ground(const Scene&, FixContactContinuum& contact) {
 }
 
 /// Checked after a run in which the wheel has rolled.
-Found cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact) {
+CheckResult cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact) {
   const FixTerrain& terrain = contact.terrain_fix();
   const TerrainParameters& parameters = terrain.terrain().parameters();
   if (!is_wheel(contact.body_fix()) || !parameters.relief.flat()) return {};
@@ -417,13 +417,13 @@ Found cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact) {
   return {};
 }
 
-Found travel_stays_on_terrain(const Scene& scene, FixContactContinuum& contact) {
+CheckResult travel_stays_on_terrain(const Scene& scene, FixContactContinuum& contact) {
   const Pair pair = describe(contact);
   const std::optional<double> travel = planned_travel(scene, pair.body);
   if (!travel || pair.terrain.moves()) return {};
   const double end = 0.5 * (pair.body_x.lower + pair.body_x.upper) + *travel,
                limit = pair.terrain_x.upper - near_end * pair.body_x.length();
-  if (end <= limit || end - *travel > limit) return {};  // it stands there: during the run
+  if (end <= limit || end - *travel > limit) return {};  // the body stops there during the run
   return warning(fmt::format(
       "this run brings the axle of '{}' to x = {:.4g} m, and near the end of terrain '{}' at x = "
       "{:.4g} m the end resists it; shorten the run by {:.3g} m of travel, lengthen the ground, or "
@@ -431,7 +431,7 @@ Found travel_stays_on_terrain(const Scene& scene, FixContactContinuum& contact) 
       pair.body.id, end, pair.terrain.id, pair.terrain_x.upper, end - limit, pair.body.id));
 }
 
-Found travel_stays_on_the_field(const Scene& scene, FixFieldContact& contact) {
+CheckResult travel_stays_on_the_field(const Scene& scene, FixFieldContact& contact) {
   const std::optional<double> travel = planned_travel(scene, contact.body_fix());
   if (!travel) return {};
   const auto [lower, upper] = contact.body_fix().body().surface().bounds();
@@ -446,7 +446,7 @@ Found travel_stays_on_the_field(const Scene& scene, FixFieldContact& contact) {
 }
 
 /// LIGGGHTS loses a mesh that leaves the box.
-Found travel_stays_in_the_box(const Scene& scene, const FixMeshBody& mesh) {
+CheckResult travel_stays_in_the_box(const Scene& scene, const FixMeshBody& mesh) {
   const LAMMPS_NS::Domain& domain = *scene.lammps.domain;
   const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
   if (domain.xperiodic || !in_a_wall(modify, mesh) || !fixes_of<const FixBedWindow>(modify).empty())
@@ -467,7 +467,7 @@ Found travel_stays_in_the_box(const Scene& scene, const FixMeshBody& mesh) {
 }
 
 /// In 0.3 radii more the resistance on dry sand grows by a tenth, at one radius 2 times.
-Found wheel_stays_off_the_end(const Scene&, FixContactContinuum& contact) {
+CheckResult wheel_stays_off_the_end(const Scene&, FixContactContinuum& contact) {
   const Pair pair = describe(contact);
   if (!is_wheel(pair.body) || pair.terrain.moves()) return {};
   const double left = pair.terrain_x.upper - 0.5 * (pair.body_x.lower + pair.body_x.upper);
@@ -480,7 +480,7 @@ Found wheel_stays_off_the_end(const Scene&, FixContactContinuum& contact) {
 }
 
 /// Compares lengths; a wheel may touch with less than its diameter.
-Found terrain_is_long_enough(const Scene&, FixContactContinuum& contact) {
+CheckResult terrain_is_long_enough(const Scene&, FixContactContinuum& contact) {
   const Pair pair = describe(contact);
   const double body = pair.body_x.length(), ground = (1.0 + round_off) * pair.terrain_x.length();
   if (body <= ground) return {};
@@ -494,7 +494,7 @@ Found terrain_is_long_enough(const Scene&, FixContactContinuum& contact) {
       fmt::format("{} {}; its ends restrain the ground: make it longer", where, problem));
 }
 
-Found terrain_has_the_size_of_a_wheels(const Scene&, FixContactContinuum& contact) {
+CheckResult terrain_has_the_size_of_a_wheels(const Scene&, FixContactContinuum& contact) {
   const Pair pair = describe(contact);
   if (!is_wheel(pair.body)) return {};
   const Options& options = pair.terrain.options();
@@ -514,7 +514,7 @@ Found terrain_has_the_size_of_a_wheels(const Scene&, FixContactContinuum& contac
 }
 
 /// Counts cells across a body, and in the radius of a wheel or along a plate.
-Found cells_show_the_body(const Scene&, FixGroundContact& contact) {
+CheckResult cells_show_the_body(const Scene&, FixGroundContact& contact) {
   const FixBody& body = contact.body_fix();
   const Options& ground = contact.ground().line();
   const auto [lower, upper] = whole_bounds(body.body());
@@ -537,7 +537,7 @@ Found cells_show_the_body(const Scene&, FixGroundContact& contact) {
                              problem, good_cells, remedy));
 }
 
-Found wheel_on_a_field_has_no_camber(const Scene& scene, FixContactScm& contact) {
+CheckResult wheel_on_a_field_has_no_camber(const Scene& scene, FixContactScm& contact) {
   for (const DrivenBody& driven : driven_bodies(*scene.lammps.modify))
     if (&driven.body == &contact.body_fix() && driven.options.has("camber") &&
         driven.options.number("camber") != 0.0)
@@ -550,7 +550,7 @@ Found wheel_on_a_field_has_no_camber(const Scene& scene, FixContactScm& contact)
   return {};
 }
 
-Found sides_on_a_field_carry_little(const Scene&, FixContactScm& contact) {
+CheckResult sides_on_a_field_carry_little(const Scene&, FixContactScm& contact) {
   const auto* wheel = dynamic_cast<const WheelHub*>(&contact.body_fix().body());
   if (!wheel || wheel->half_model()) return {};
   const ScmContact::Step& step = contact.contact().step();
@@ -566,7 +566,7 @@ Found sides_on_a_field_carry_little(const Scene&, FixContactScm& contact) {
 }
 
 /// Resistive force theory adds the forces of all grousers, however close they are.
-Found sand_pulls_less_than_the_load(const Scene&, FixContactRft& contact) {
+CheckResult sand_pulls_less_than_the_load(const Scene&, FixContactRft& contact) {
   const auto* wheel = dynamic_cast<const WheelHub*>(&contact.body_fix().body());
   if (!wheel) return {};
   const Vector3 along(wheel->velocity().x(), wheel->velocity().y(), 0.0);
@@ -579,7 +579,7 @@ Found sand_pulls_less_than_the_load(const Scene&, FixContactRft& contact) {
       contact.options().subject(), contact.body_fix().id, largest_pull));
 }
 
-Found card_reaches_the_sinkage(const Scene&, FixContactScm& contact) {
+CheckResult card_reaches_the_sinkage(const Scene&, FixContactScm& contact) {
   const std::optional<SoilCard>& card = contact.terrain_fix().card();
   if (!card || contact.contact().step().sinkage <= card->deepest) return {};
   return warning(
@@ -588,7 +588,7 @@ Found card_reaches_the_sinkage(const Scene&, FixContactScm& contact) {
                   contact.options().subject(), contact.body_fix().id, card->deepest));
 }
 
-Found card_reaches_the_pressure(const Scene&, FixContactScm& contact) {
+CheckResult card_reaches_the_pressure(const Scene&, FixContactScm& contact) {
   const std::optional<SoilCard>& card = contact.terrain_fix().card();
   if (!card || contact.contact().step().pressure <= card->largest_pressure) return {};
   return warning(
@@ -599,7 +599,7 @@ Found card_reaches_the_pressure(const Scene&, FixContactScm& contact) {
 }
 
 /// A wheel may stand over an end of the ground, but not over its side.
-Found body_is_over_terrain(const Scene&, FixContactContinuum& contact) {
+CheckResult body_is_over_terrain(const Scene&, FixContactContinuum& contact) {
   const Pair pair = describe(contact);
   const double slack = round_off * pair.body_y.length();
   const auto over = [&](const Span& body, const Span& ground) {
@@ -616,7 +616,7 @@ Found body_is_over_terrain(const Scene&, FixContactContinuum& contact) {
                   pair.terrain_y.lower, pair.terrain_y.upper));
 }
 
-Found sidewalls_touch_the_terrain(const Scene&, FixContactContinuum& contact) {
+CheckResult sidewalls_touch_the_terrain(const Scene&, FixContactContinuum& contact) {
   const FixBody& fix = contact.body_fix();
   const auto* tyre = dynamic_cast<const DarnellTyre*>(&fix.body());
   if (tyre == nullptr || tyre->settings().sidewall_rows > 0) return {};
@@ -629,7 +629,7 @@ Found sidewalls_touch_the_terrain(const Scene&, FixContactContinuum& contact) {
 }
 
 /// Ground enters a groove, or the gap between two bars, with particles that are narrower.
-Found cells_enter_grooves(const Scene&, FixContactContinuum& contact) {
+CheckResult cells_enter_grooves(const Scene&, FixContactContinuum& contact) {
   const Pair pair = describe(contact);
   const auto* tyre = dynamic_cast<const FixTyreBrick*>(&pair.body);
   if (tyre == nullptr) return {};
@@ -650,7 +650,7 @@ Found cells_enter_grooves(const Scene&, FixContactContinuum& contact) {
       pair.body.id, groove, rib, count * narrowest));
 }
 
-Found turning_plate_has_whole_terrain(const Scene&, FixContactContinuum& contact) {
+CheckResult turning_plate_has_whole_terrain(const Scene&, FixContactContinuum& contact) {
   const auto* plate = dynamic_cast<const FixPlateRigid*>(&contact.body_fix());
   if (plate == nullptr || !plate->turns() || !contact.terrain_fix().half_model()) return {};
   return refusal(plate->options().where("spin"),

@@ -30,7 +30,7 @@ namespace {
 
 constexpr char move_all[] = "write 'fix move all nve/sphere'";
 // Downward share of gravity: a slope of 60 degrees, steeper than any ground stands.
-constexpr double least_downward_share = 0.5;
+constexpr double minimum_downward_share = 0.5;
 constexpr double straight = 1.0;  // [degrees] of gravity from straight down
 // Gravity [m/s^2] of planets and moons that a vehicle may roll on, by a wide margin.
 const Range usual_gravity = Range::closed(0.05, 30.0);
@@ -56,8 +56,8 @@ struct GivenSpeed {
 };
 
 /// Refuses a share of a limit, or warns of it.
-Found judge(double share, double warned, double limit, const GivenSpeed& speed,
-            const std::string& finding, const std::string& remedy) {
+CheckResult check_share(double share, double warned, double limit, const GivenSpeed& speed,
+                        const std::string& finding, const std::string& remedy) {
   const std::string where = speed.options.where(speed.key);
   const std::string problem = fmt::format("is {:.4g} {}, {}", speed.value(), speed.unit, finding);
   if (share > limit)
@@ -138,7 +138,7 @@ std::vector<DrivenBody> driven_bodies(const LAMMPS_NS::Modify& modify) {
   return driven;
 }
 
-Found moved_mesh_has_no_body(const Scene&, LAMMPS_NS::FixMoveMesh& motion) {
+CheckResult moved_mesh_has_no_body(const Scene&, LAMMPS_NS::FixMoveMesh& motion) {
   const auto* mesh = dynamic_cast<const FixMeshBody*>(motion.fixMesh());
   if (!mesh) return {};
   return refusal(fmt::format("fix {} '{}'", motion.style, motion.id),
@@ -146,7 +146,7 @@ Found moved_mesh_has_no_body(const Scene&, LAMMPS_NS::FixMoveMesh& motion) {
                  "a mesh that no body has", "drive the body: by a wheel/rig, or as a plate/rigid");
 }
 
-Found grains_turn(const Scene& scene, const LAMMPS_NS::Fix& mover) {
+CheckResult grains_turn(const Scene& scene, const LAMMPS_NS::Fix& mover) {
   if (scene.lammps.atom->natoms == 0 || mover.style != std::string("nve")) return {};
   return warning(fmt::format(
       "fix nve '{}' moves grains and does not turn them, whatever torque they have; write "
@@ -154,7 +154,7 @@ Found grains_turn(const Scene& scene, const LAMMPS_NS::Fix& mover) {
       mover.id));
 }
 
-Found one_fix_moves_a_grain(const Scene& scene) {
+CheckResult one_fix_moves_a_grain(const Scene& scene) {
   const LAMMPS_NS::Atom& atom = *scene.lammps.atom;
   std::vector<const LAMMPS_NS::Fix*> movers;
   for (const auto* fix : fixes_of<const LAMMPS_NS::Fix>(*scene.lammps.modify))
@@ -179,7 +179,7 @@ Found one_fix_moves_a_grain(const Scene& scene) {
   return {};
 }
 
-Found bed_has_one_weight(const Scene& scene) {
+CheckResult bed_has_one_weight(const Scene& scene) {
   const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
   if (scene.grains < GrainBedLimits::min_grains || fixes_of<const FixWallGranBody>(modify).empty())
     return {};
@@ -193,7 +193,7 @@ Found bed_has_one_weight(const Scene& scene) {
   return {};
 }
 
-Found some_fix_moves_a_grain(const Scene& scene) {
+CheckResult some_fix_moves_a_grain(const Scene& scene) {
   const LAMMPS_NS::Atom& atom = *scene.lammps.atom;
   int moved_or_frozen = 0;  // bits of their groups
   for (const auto* fix : fixes_of<const LAMMPS_NS::Fix>(*scene.lammps.modify))
@@ -216,7 +216,7 @@ Found some_fix_moves_a_grain(const Scene& scene) {
                   still, scene.grains, move_all));
 }
 
-Found weight_pulls_down(const Scene& scene, LAMMPS_NS::FixGravity& gravity) {
+CheckResult weight_pulls_down(const Scene& scene, LAMMPS_NS::FixGravity& gravity) {
   if (scene.lammps.atom->natoms == 0) return {};
   Vector3 weight;
   gravity.get_gravity(weight.data());
@@ -225,14 +225,14 @@ Found weight_pulls_down(const Scene& scene, LAMMPS_NS::FixGravity& gravity) {
         fmt::format("fix gravity '{}' is 0: grains have no weight and bear nothing; write 9.80665, "
                     "or remove the line if that is meant",
                     gravity.id));
-  if (-weight.z() >= least_downward_share * weight.norm()) return {};
+  if (-weight.z() >= minimum_downward_share * weight.norm()) return {};
   return warning(
       fmt::format("fix gravity '{}' is {:.4g} {:.4g} {:.4g} m/s^2, which does not pull grains "
                   "down; down is 'vector 0 0 -1'",
                   gravity.id, weight.x(), weight.y(), weight.z()));
 }
 
-Found scene_has_one_gravity(const Scene& scene) {
+CheckResult scene_has_one_gravity(const Scene& scene) {
   const std::vector<GivenGravity> given = gravities(scene);
   const double largest_gravity = admissible_gravity().upper;
   for (const GivenGravity& each : given)
@@ -259,7 +259,7 @@ Found scene_has_one_gravity(const Scene& scene) {
 }
 
 /// A rig's slope turns the gravity of terrain and grains, which a tilted vector would turn again.
-Found slope_is_given_once(const Scene& scene) {
+CheckResult slope_is_given_once(const Scene& scene) {
   if (scene.grains == 0.0) return {};
   const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
   for (auto* fix : fixes_of<LAMMPS_NS::FixGravity>(modify)) {
@@ -284,7 +284,7 @@ Found slope_is_given_once(const Scene& scene) {
               "one direction for grains and terrain",
               "write 'vector 0 0 -1', and for a slope 'slope' in the line of the rig");
     const double across = degrees(std::asin(std::abs(gravity.y()) / gravity.norm()));
-    if (across > straight && -gravity.z() >= least_downward_share * gravity.norm())
+    if (across > straight && -gravity.z() >= minimum_downward_share * gravity.norm())
       return warning(fmt::format(
           "{} {}: the ground slopes across the travel; if that is not meant, write 'vector 0 0 -1'",
           where, problem));
@@ -293,7 +293,7 @@ Found slope_is_given_once(const Scene& scene) {
 }
 
 /// Terrain that follows a row of wheels is where their middle is.
-Found wheels_on_moving_terrain_keep_pace(const Scene& scene, const FixTerrain& terrain) {
+CheckResult wheels_on_moving_terrain_keep_pace(const Scene& scene, const FixTerrain& terrain) {
   if (!terrain.moves()) return {};
   const FixWheelRig* first = nullptr;
   for (const auto* rig : fixes_of<const FixWheelRig>(*scene.lammps.modify)) {
@@ -313,7 +313,7 @@ Found wheels_on_moving_terrain_keep_pace(const Scene& scene, const FixTerrain& t
   return {};
 }
 
-Found body_sets_off(const Scene& scene, const DrivenBody& driven) {
+CheckResult body_sets_off(const Scene& scene, const DrivenBody& driven) {
   const double start = driven.options.number("start");
   if (start < scene.end()) return {};
   return warning(
@@ -322,7 +322,7 @@ Found body_sets_off(const Scene& scene, const DrivenBody& driven) {
                   driven.options.where("start"), start, driven.body.id));
 }
 
-Found body_comes_to_its_speed(const Scene& scene, const DrivenBody& driven) {
+CheckResult body_comes_to_its_speed(const Scene& scene, const DrivenBody& driven) {
   const double end = scene.end();
   const bool stands = driven.options.has("speed") && !(driven.options.number("speed") > 0.0);
   if (driven.options.number("start") >= end || stands ||
@@ -334,28 +334,29 @@ Found body_comes_to_its_speed(const Scene& scene, const DrivenBody& driven) {
                   driven.options.subject(), driven.body.id, driven.full_speed, driven.stages));
 }
 
-Found waves_outrun_body(const Scene& scene, FixContactContinuum& contact) {
+CheckResult waves_outrun_body(const Scene& scene, FixContactContinuum& contact) {
   for (const DrivenBody& driven : driven_bodies(*scene.lammps.modify)) {
-    // free travel has no speed: it is an answer
+    // the speed of free travel is a result
     if (&contact.body_fix() != &driven.body) continue;
     const double wave = wave_speed(contact.terrain_fix().terrain());
-    const auto judged = [&](const GivenSpeed& speed, double radius) {
+    const auto check_speed = [&](const GivenSpeed& speed, double radius) {
       const double share = std::abs(speed.value()) * radius / wave;
-      return judge(share, mach_warning, mach_limit, speed,
-                   fmt::format("{:.2g} of the speed of waves in the terrain '{}', {:.4g} m/s",
-                               share, contact.terrain_fix().id, wave),
-                   "choose a lower speed, or a modulus_scale nearer to 1");
+      return check_share(share, mach_warning, mach_limit, speed,
+                         fmt::format("{:.2g} of the speed of waves in the terrain '{}', {:.4g} m/s",
+                                     share, contact.terrain_fix().id, wave),
+                         "choose a lower speed, or a modulus_scale nearer to 1");
     };
     if (driven.options.has("speed"))
-      if (const Found found = judged({driven.options, "speed", "m/s"}, 1.0)) return found;
+      if (const CheckResult found = check_speed({driven.options, "speed", "m/s"}, 1.0))
+        return found;
     const auto* wheel = dynamic_cast<const WheelHub*>(&driven.body.body());
     if (wheel && driven.options.has("spin_rate"))
-      return judged({driven.options, "spin_rate", "rad/s"}, wheel->nominal_radius());
+      return check_speed({driven.options, "spin_rate", "rad/s"}, wheel->nominal_radius());
   }
   return {};
 }
 
-Found speed_suits_the_ground(const Scene& scene, const DrivenBody& driven) {
+CheckResult speed_suits_the_ground(const Scene& scene, const DrivenBody& driven) {
   const Options& options = driven.options;
   const auto* wheel = dynamic_cast<const WheelHub*>(&driven.body.body());
   const bool moves = options.has("speed");
@@ -381,7 +382,7 @@ Found speed_suits_the_ground(const Scene& scene, const DrivenBody& driven) {
       units));
 }
 
-Found sinkage_ends_above_the_base(const Scene& scene, FixContactContinuum& contact) {
+CheckResult sinkage_ends_above_the_base(const Scene& scene, FixContactContinuum& contact) {
   const double depth = contact.terrain_fix().options().number("depth");
   for (const DrivenBody& driven : driven_bodies(*scene.lammps.modify)) {
     if (&contact.body_fix() != &driven.body || !driven.options.has("sinkage")) continue;
@@ -395,7 +396,7 @@ Found sinkage_ends_above_the_base(const Scene& scene, FixContactContinuum& conta
   return {};
 }
 
-Found load_suits_the_body(const Scene&, const DrivenBody& driven) {
+CheckResult load_suits_the_body(const Scene&, const DrivenBody& driven) {
   const Options& options = driven.options;
   const char* key = key_of_load(options);
   if (!*key) return {};
@@ -411,7 +412,7 @@ Found load_suits_the_body(const Scene&, const DrivenBody& driven) {
       options.where(key), load, pressure, driven.body.id, usual_pressure.text()));
 }
 
-Found mass_suits_the_load(const Scene&, const DrivenBody& driven) {
+CheckResult mass_suits_the_load(const Scene&, const DrivenBody& driven) {
   const auto* wheel = dynamic_cast<const WheelHub*>(&driven.body.body());
   if (!wheel || !*key_of_load(driven.options)) return {};
   const double radius = wheel->nominal_radius(), mass = wheel->total_mass(),
@@ -425,14 +426,14 @@ Found mass_suits_the_load(const Scene&, const DrivenBody& driven) {
       driven.body.id, mass, density / solid_steel, weight / load, load));
 }
 
-Found body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& driven) {
+CheckResult body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& driven) {
   if (!driven.options.has("speed") || !touches_grains(scene.lammps, driven.body)) return {};
   const LAMMPS_NS::Atom& atom = *scene.lammps.atom;
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < atom.nlocal; ++i) smallest = std::min(smallest, atom.radius[i]);
   smallest = -Communicator(&scene.lammps.world).max(-smallest);
   const double share = driven.options.number("speed") * scene.step() / smallest;
-  return judge(
+  return check_share(
       share, travel_warning, travel_limit, {driven.options, "speed", "m/s"},
       fmt::format("so that the body moves by {:.2g} radii of the smallest grain in a step", share),
       "choose a lower speed or a shorter timestep");

@@ -164,8 +164,8 @@ std::optional<Level> level_at_start(const Scene& scene, const DrivenBody& driven
 }
 
 /// A keyword that gives the level of the ground under a body that sets off.
-Found judge_level(const Scene& scene, const DrivenBody& driven, const Options& options,
-                  const std::string& key, const std::string& use) {
+CheckResult judge_level(const Scene& scene, const DrivenBody& driven, const Options& options,
+                        const std::string& key, const std::string& use) {
   const double given = options.number(key), size = size_of_body(driven.body.body());
   const auto level = level_at_start(scene, driven, given);
   if (!level || excess(*level, given) <= 0.0) return {};
@@ -193,7 +193,7 @@ double count_grains(const LAMMPS_NS::LAMMPS& lammps) {
 }
 
 /// Boxes that follow their grains, or that a fix deforms, change on purpose.
-Found box_is_as_it_was(const Scene& scene) {
+CheckResult box_is_as_it_was(const Scene& scene) {
   const Box now = edges_of_box(scene.lammps);
   if (now == scene.box_of_bodies || fixes_of<const FixBody>(*scene.lammps.modify).empty() ||
       changes_on_purpose(scene.lammps))
@@ -205,7 +205,7 @@ Found box_is_as_it_was(const Scene& scene) {
 }
 
 /// Checked before the first step of a scene.
-Found grains_are_above_terrain(const Scene& scene, FixTerrain& terrain) {
+CheckResult grains_are_above_terrain(const Scene& scene, FixTerrain& terrain) {
   if (scene.time() > 0.0) return {};
   const LAMMPS_NS::Atom& atom = *scene.lammps.atom;
   double below = 0.0;
@@ -225,7 +225,7 @@ Found grains_are_above_terrain(const Scene& scene, FixTerrain& terrain) {
                   count, terrain.name()));
 }
 
-Found grains_have_a_floor(const Scene& scene) {
+CheckResult grains_have_a_floor(const Scene& scene) {
   const LAMMPS_NS::LAMMPS& lammps = scene.lammps;
   if (lammps.atom->natoms == 0 || lammps.domain->zperiodic || !are_pulled_down(lammps)) return {};
   const Floors floors = find_floors(lammps);
@@ -251,7 +251,7 @@ Found grains_have_a_floor(const Scene& scene) {
 }
 
 /// A bed/window removes grains on purpose.
-Found grains_stay_in_the_box(const Scene& scene) {
+CheckResult grains_stay_in_the_box(const Scene& scene) {
   const double lost = scene.grains - count_grains(scene.lammps);
   if (lost <= 0.0 || !fixes_of<const FixBedWindow>(*scene.lammps.modify).empty()) return {};
   return warning(
@@ -260,7 +260,7 @@ Found grains_stay_in_the_box(const Scene& scene) {
                   lost, scene.grains));
 }
 
-Found body_starts_above_the_field(const Scene& scene, FixContactScm& contact) {
+CheckResult body_starts_above_the_field(const Scene& scene, FixContactScm& contact) {
   const auto [lower, upper] = contact.body_fix().body().surface().bounds();
   const double sinkage = contact.contact().step().sinkage;
   if (scene.lammps.update->ntimestep > 1 || sinkage <= deep_start * (upper.z() - lower.z()))
@@ -271,7 +271,7 @@ Found body_starts_above_the_field(const Scene& scene, FixContactScm& contact) {
                   contact.body_fix().id, sinkage, contact.terrain_fix().id));
 }
 
-Found axle_stays_above_the_field(const Scene&, FixContactScm& contact) {
+CheckResult axle_stays_above_the_field(const Scene&, FixContactScm& contact) {
   if (!dynamic_cast<const FixWheelHub*>(&contact.body_fix())) return {};
   const auto [lower, upper] = contact.body_fix().body().surface().bounds();
   if (contact.contact().step().sinkage <= 0.5 * (upper.z() - lower.z())) return {};
@@ -281,7 +281,7 @@ Found axle_stays_above_the_field(const Scene&, FixContactScm& contact) {
                   contact.body_fix().id, contact.terrain_fix().id));
 }
 
-Found bodies_are_apart(const Scene& scene, const FixBody& body) {
+CheckResult bodies_are_apart(const Scene& scene, const FixBody& body) {
   const auto is_terrain = [](const FixBody& fix) {
     return dynamic_cast<const Ground*>(&fix) != nullptr;
   };
@@ -302,7 +302,7 @@ Found bodies_are_apart(const Scene& scene, const FixBody& body) {
   return {};
 }
 
-Found plane_is_below_terrain(const Scene& scene, FixContactContinuum& contact) {
+CheckResult plane_is_below_terrain(const Scene& scene, FixContactContinuum& contact) {
   for (const auto* plane : fixes_of<FixContactPlane>(*scene.lammps.modify)) {
     const double level = plane->options().number("level"),
                  base = contact.terrain_fix().terrain().grid().axis(2).lower();
@@ -316,7 +316,7 @@ Found plane_is_below_terrain(const Scene& scene, FixContactContinuum& contact) {
   return {};
 }
 
-Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven) {
+CheckResult body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven) {
   const auto level = level_at_start(scene, driven, driven.options.number("ground_level"));
   const auto [lower, upper] = driven.body.body().surface().bounds();
   if (!level) {
@@ -348,19 +348,19 @@ Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven) {
   return {};
 }
 
-Found ground_level_is_the_ground(const Scene& scene, const DrivenBody& driven) {
+CheckResult ground_level_is_the_ground(const Scene& scene, const DrivenBody& driven) {
   return judge_level(scene, driven, driven.options, "ground_level",
                      "it is the datum of the sinkage");
 }
 
-Found track_is_at_the_ground(const Scene& scene, const FixGrainWork& work) {
+CheckResult track_is_at_the_ground(const Scene& scene, const FixGrainWork& work) {
   for (const DrivenBody& driven : driven_bodies(*scene.lammps.modify))
     if (work.uses(driven.body))
       return judge_level(scene, driven, work.options(), "level", "the track begins there");
   return {};
 }
 
-Found body_stays_off_the_base(const Scene&, FixContactContinuum& contact) {
+CheckResult body_stays_off_the_base(const Scene&, FixContactContinuum& contact) {
   const ContinuumTerrain& terrain = contact.terrain_fix().terrain();
   const Options& options = contact.terrain_fix().options();
   const std::string& kind = options.text("base");
@@ -375,7 +375,7 @@ Found body_stays_off_the_base(const Scene&, FixContactContinuum& contact) {
 }
 
 /// All ranks agree, because surfaces are replicated.
-Found body_stays_off_the_surface_mesh(const Scene&, const FixWallGranBody& wall) {
+CheckResult body_stays_off_the_surface_mesh(const Scene&, const FixWallGranBody& wall) {
   const std::vector<const Body*> bodies = wall.bodies();
   const auto is_terrain = [](const Body* body) {
     return dynamic_cast<const ContinuumTerrain*>(body) != nullptr;

@@ -31,22 +31,22 @@ using Report = std::function<void(const Finding&)>;
 /// Applies a rule to all that it looks at: the scene, each fix of a class or each driven body.
 template <auto rule>
 struct Apply;
-template <Found (*rule)(const Scene&)>
+template <CheckResult (*rule)(const Scene&)>
 struct Apply<rule> {
   static void to(const Scene& scene, const Report& report) {
-    if (const Found found = rule(scene)) report(*found);
+    if (const CheckResult found = rule(scene)) report(*found);
   }
 };
-template <class Item, Found (*rule)(const Scene&, Item&)>
+template <class Item, CheckResult (*rule)(const Scene&, Item&)>
 struct Apply<rule> {
   static void to(const Scene& scene, const Report& report) {
     const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
     if constexpr (std::is_same_v<Item, const DrivenBody>) {
       for (Item& body : driven_bodies(modify))
-        if (const Found found = rule(scene, body)) report(*found);
+        if (const CheckResult found = rule(scene, body)) report(*found);
     } else {
       for (Item* fix : fixes_of<Item>(modify))
-        if (const Found found = rule(scene, *fix)) report(*found);
+        if (const CheckResult found = rule(scene, *fix)) report(*found);
     }
   }
 };
@@ -175,7 +175,7 @@ class SceneChecks : public SceneWatch {
     if (first_step_ || scene_.lammps.update->ntimestep % watch_every == 0) apply(When::during_run);
     first_step_ = false;
     if (likely_cause_.empty() && sub_steps > many_sub_steps)
-      if (const Found found = sub_steps_are_few(scene_)) report(*found);
+      if (const CheckResult found = sub_steps_are_few(scene_)) report(*found);
   }
 
   void after_run() override { apply(When::after_run); }

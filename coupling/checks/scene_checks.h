@@ -35,7 +35,7 @@ using Box = std::array<double, 6>;
 
 struct Scene {
   LAMMPS_NS::LAMMPS& lammps;
-  Box box_of_bodies;    ///< when the first body was made
+  Box box_of_bodies;    ///< box at the creation of the first body
   double grains = 0.0;  ///< of all ranks, at the start of the run
 
   double time() const;  ///< [s]
@@ -52,136 +52,136 @@ struct DrivenBody {
 };
 std::vector<DrivenBody> driven_bodies(const LAMMPS_NS::Modify& modify);
 
-using Found = std::optional<Finding>;
+using CheckResult = std::optional<Finding>;
 
 // ---- lines of the script and the step (step.cpp)
 /// LIGGGHTS takes "ten" for 0 steps and "1e5" for 1.
-Found run_has_whole_numbers(const Scene& scene);
-Found timestep_is_given(const Scene& scene);
-Found timestep_is_no_zero(const Scene& scene);
+CheckResult run_has_whole_numbers(const Scene& scene);
+CheckResult timestep_is_given(const Scene& scene);
+CheckResult timestep_is_no_zero(const Scene& scene);
 /// Bodies take as many sub-steps in a step as their stable step asks for.
-Found sub_steps_are_few(const Scene& scene);
-Found step_suits_grains(const Scene& scene);
+CheckResult sub_steps_are_few(const Scene& scene);
+CheckResult step_suits_grains(const Scene& scene);
 /// Friction below zero would drive the grains, and cohesion push them apart.
-Found properties_are_not_negative(const Scene& scene);
+CheckResult properties_are_not_negative(const Scene& scene);
 /// Finds degrees or percent in the place of a coefficient.
-Found friction_is_a_coefficient(const Scene& scene);
-Found grains_have_the_density_of_matter(const Scene& scene);
-Found grain_work_looks_in_the_run(const Scene& scene, const FixGrainWork& work);
-Found arc_is_written_in_the_run(const Scene& scene, const FixWheelArc& arc);
+CheckResult friction_is_a_coefficient(const Scene& scene);
+CheckResult grains_have_the_density_of_matter(const Scene& scene);
+CheckResult grain_work_looks_in_the_run(const Scene& scene, const FixGrainWork& work);
+CheckResult arc_is_written_in_the_run(const Scene& scene, const FixWheelArc& arc);
 
 // ---- what moves (motion.cpp)
 /// A mesh/body would return to its body in every step.
-Found moved_mesh_has_no_body(const Scene& scene, LAMMPS_NS::FixMoveMesh& motion);
+CheckResult moved_mesh_has_no_body(const Scene& scene, LAMMPS_NS::FixMoveMesh& motion);
 /// LIGGGHTS's `nve` leaves out what turns a grain.
-Found grains_turn(const Scene& scene, const LAMMPS_NS::Fix& mover);
+CheckResult grains_turn(const Scene& scene, const LAMMPS_NS::Fix& mover);
 /// A grain that two fixes move goes twice as far.
-Found one_fix_moves_a_grain(const Scene& scene);
-Found bed_has_one_weight(const Scene& scene);
-Found some_fix_moves_a_grain(const Scene& scene);
+CheckResult one_fix_moves_a_grain(const Scene& scene);
+CheckResult bed_has_one_weight(const Scene& scene);
+CheckResult some_fix_moves_a_grain(const Scene& scene);
 /// Checks in a step, when a gravity of variables has its value.
-Found weight_pulls_down(const Scene& scene, LAMMPS_NS::FixGravity& gravity);
+CheckResult weight_pulls_down(const Scene& scene, LAMMPS_NS::FixGravity& gravity);
 /// Compares gravity of terrain, of grains, and of the load that a rig makes of a mass.
-Found scene_has_one_gravity(const Scene& scene);
-Found slope_is_given_once(const Scene& scene);
-Found wheels_on_moving_terrain_keep_pace(const Scene& scene, const FixTerrain& terrain);
+CheckResult scene_has_one_gravity(const Scene& scene);
+CheckResult slope_is_given_once(const Scene& scene);
+CheckResult wheels_on_moving_terrain_keep_pace(const Scene& scene, const FixTerrain& terrain);
 /// A run may be the first of several: warnings.
-Found body_sets_off(const Scene& scene, const DrivenBody& driven);
-Found body_comes_to_its_speed(const Scene& scene, const DrivenBody& driven);
+CheckResult body_sets_off(const Scene& scene, const DrivenBody& driven);
+CheckResult body_comes_to_its_speed(const Scene& scene, const DrivenBody& driven);
 /// Beyond the waves' speed the ground ahead answers as to an impact, not to a roll.
-Found waves_outrun_body(const Scene& scene, FixContactContinuum& contact);
+CheckResult waves_outrun_body(const Scene& scene, FixContactContinuum& contact);
 /// Finds kilometres per hour or centimetres per second in the place of metres per second.
-Found speed_suits_the_ground(const Scene& scene, const DrivenBody& driven);
-Found sinkage_ends_above_the_base(const Scene& scene, FixContactContinuum& contact);
+CheckResult speed_suits_the_ground(const Scene& scene, const DrivenBody& driven);
+CheckResult sinkage_ends_above_the_base(const Scene& scene, FixContactContinuum& contact);
 /// Finds a load in grams, or a body in millimetres.
-Found load_suits_the_body(const Scene& scene, const DrivenBody& driven);
+CheckResult load_suits_the_body(const Scene& scene, const DrivenBody& driven);
 /// Finds a wheel or tyre with a mass in grams; plates have no mass.
-Found mass_suits_the_load(const Scene& scene, const DrivenBody& driven);
-Found body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& driven);
+CheckResult mass_suits_the_load(const Scene& scene, const DrivenBody& driven);
+CheckResult body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& driven);
 
 // ---- where things are (place.cpp)
 Box edges_of_box(const LAMMPS_NS::LAMMPS& lammps);
 /// Grains of all ranks. Collective.
 double count_grains(const LAMMPS_NS::LAMMPS& lammps);
 /// `change_box` moves and stretches grains; bodies and terrain stay.
-Found box_is_as_it_was(const Scene& scene);
-Found grains_are_above_terrain(const Scene& scene, FixTerrain& terrain);
+CheckResult box_is_as_it_was(const Scene& scene);
+CheckResult grains_are_above_terrain(const Scene& scene, FixTerrain& terrain);
 /// Checks in a step, when gravity is known: grains with no wall, mesh or standing grain below them.
-Found grains_have_a_floor(const Scene& scene);
+CheckResult grains_have_a_floor(const Scene& scene);
 /// Checks after a run: LIGGGHTS drops grains that leave the box without an error.
-Found grains_stay_in_the_box(const Scene& scene);
+CheckResult grains_stay_in_the_box(const Scene& scene);
 /// Finds two wheels that a copied line has put into one another. @return of the first such body
-Found bodies_are_apart(const Scene& scene, const FixBody& body);
-Found body_starts_above_the_field(const Scene& scene, FixContactScm& contact);
-Found axle_stays_above_the_field(const Scene& scene, FixContactScm& contact);
+CheckResult bodies_are_apart(const Scene& scene, const FixBody& body);
+CheckResult body_starts_above_the_field(const Scene& scene, FixContactScm& contact);
+CheckResult axle_stays_above_the_field(const Scene& scene, FixContactScm& contact);
 /// A road below the base is a hard bottom; above it, it carries what the terrain should.
-Found plane_is_below_terrain(const Scene& scene, FixContactContinuum& contact);
+CheckResult plane_is_below_terrain(const Scene& scene, FixContactContinuum& contact);
 // Checks in the run in which a body sets off; later there is a rut. A continuum and a plane know
 // their level; of grains the highest under the body counts.
-Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven);
-Found ground_level_is_the_ground(const Scene& scene, const DrivenBody& driven);
-Found track_is_at_the_ground(const Scene& scene, const FixGrainWork& work);
+CheckResult body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven);
+CheckResult ground_level_is_the_ground(const Scene& scene, const DrivenBody& driven);
+CheckResult track_is_at_the_ground(const Scene& scene, const FixGrainWork& work);
 /// Checks during a run that the base of a terrain does not carry a body.
-Found body_stays_off_the_base(const Scene& scene, FixContactContinuum& contact);
+CheckResult body_stays_off_the_base(const Scene& scene, FixContactContinuum& contact);
 /// Checks during a run that no body comes through the grains to the surface mesh of the terrain
 /// that carries them.
-Found body_stays_off_the_surface_mesh(const Scene& scene, const FixWallGranBody& wall);
+CheckResult body_stays_off_the_surface_mesh(const Scene& scene, const FixWallGranBody& wall);
 
 // ---- what touches what (contact.cpp)
 /// True if a mesh of this body is in a wall/gran/body.
 bool touches_grains(const LAMMPS_NS::LAMMPS& lammps, const FixBody& body);
 /// A stock wall would move grains without moving the body.
-Found stock_wall_has_no_body(const Scene& scene, const LAMMPS_NS::FixWallGran& wall);
-Found one_wall_has_all_meshes(const Scene& scene, const FixWallGranBody& wall);
+CheckResult stock_wall_has_no_body(const Scene& scene, const LAMMPS_NS::FixWallGran& wall);
+CheckResult one_wall_has_all_meshes(const Scene& scene, const FixWallGranBody& wall);
 // A wheel may be meant to be free, and a mesh to be drawn only: warnings.
-Found mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh);
-Found something_presses_on_terrain(const Scene& scene, const FixTerrain& terrain);
-Found surface_mesh_is_in_a_wall(const Scene& scene, const FixTerrain& terrain);
+CheckResult mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh);
+CheckResult something_presses_on_terrain(const Scene& scene, const FixTerrain& terrain);
+CheckResult surface_mesh_is_in_a_wall(const Scene& scene, const FixTerrain& terrain);
 /// A wall of LIGGGHTS in the place of the surface mesh carries the grains.
-Found no_wall_replaces_the_surface_mesh(const Scene& scene, const FixTerrain& terrain);
-Found surcharge_is_the_grains_weight(const Scene& scene, const FixTerrain& terrain);
-Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& terrain);
-Found body_touches_something(const Scene& scene, FixBody& body);
+CheckResult no_wall_replaces_the_surface_mesh(const Scene& scene, const FixTerrain& terrain);
+CheckResult surcharge_is_the_grains_weight(const Scene& scene, const FixTerrain& terrain);
+CheckResult half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& terrain);
+CheckResult body_touches_something(const Scene& scene, FixBody& body);
 // Checks that continuum terrain is large enough, and fine enough, for the bodies that press on it.
-Found terrain_is_wide_enough(const Scene& scene, FixContactContinuum& contact);
-Found terrain_is_deep_enough(const Scene& scene, FixContactContinuum& contact);
-Found terrain_is_long_enough(const Scene& scene, FixContactContinuum& contact);
+CheckResult terrain_is_wide_enough(const Scene& scene, FixContactContinuum& contact);
+CheckResult terrain_is_deep_enough(const Scene& scene, FixContactContinuum& contact);
+CheckResult terrain_is_long_enough(const Scene& scene, FixContactContinuum& contact);
 /// Compares terrain with the place to which the rig will bring a wheel by the end of the run.
-Found travel_stays_on_terrain(const Scene& scene, FixContactContinuum& contact);
-Found travel_stays_on_the_field(const Scene& scene, FixFieldContact& contact);
-Found travel_stays_in_the_box(const Scene& scene, const FixMeshBody& mesh);
+CheckResult travel_stays_on_terrain(const Scene& scene, FixContactContinuum& contact);
+CheckResult travel_stays_on_the_field(const Scene& scene, FixFieldContact& contact);
+CheckResult travel_stays_in_the_box(const Scene& scene, const FixMeshBody& mesh);
 /// Checks terrain that does not follow its wheel.
-Found wheel_stays_off_the_end(const Scene& scene, FixContactContinuum& contact);
+CheckResult wheel_stays_off_the_end(const Scene& scene, FixContactContinuum& contact);
 /// Finds terrain in centimetres in the place of metres.
-Found terrain_has_the_size_of_a_wheels(const Scene& scene, FixContactContinuum& contact);
-Found cells_show_the_body(const Scene& scene, FixGroundContact& contact);
-Found cells_show_the_grousers(const Scene& scene, FixGroundContact& contact);
-Found thin_parts_divide_the_ground(const Scene& scene, FixContactContinuum& contact);
+CheckResult terrain_has_the_size_of_a_wheels(const Scene& scene, FixContactContinuum& contact);
+CheckResult cells_show_the_body(const Scene& scene, FixGroundContact& contact);
+CheckResult cells_show_the_grousers(const Scene& scene, FixGroundContact& contact);
+CheckResult thin_parts_divide_the_ground(const Scene& scene, FixContactContinuum& contact);
 /// Checks after a run, when the sinkage is known.
-Found cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact);
+CheckResult cells_show_the_sinkage(const Scene& scene, FixContactContinuum& contact);
 /// The soil contact model has no pressure on upright faces. With camber a side of a wheel is not
 /// upright.
-Found wheel_on_a_field_has_no_camber(const Scene& scene, FixContactScm& contact);
+CheckResult wheel_on_a_field_has_no_camber(const Scene& scene, FixContactScm& contact);
 /// Checks during a run that soil at the sides of a wheel does not push it along its axle.
-Found sides_on_a_field_carry_little(const Scene& scene, FixContactScm& contact);
+CheckResult sides_on_a_field_carry_little(const Scene& scene, FixContactScm& contact);
 /// Checks during a run that the theory of the contact holds for its grousers.
-Found sand_pulls_less_than_the_load(const Scene& scene, FixContactRft& contact);
+CheckResult sand_pulls_less_than_the_load(const Scene& scene, FixContactRft& contact);
 /// Checks during a run that the ground is used where its card was tested.
-Found card_reaches_the_sinkage(const Scene& scene, FixContactScm& contact);
-Found card_reaches_the_pressure(const Scene& scene, FixContactScm& contact);
-Found body_is_over_terrain(const Scene& scene, FixContactContinuum& contact);
+CheckResult card_reaches_the_sinkage(const Scene& scene, FixContactScm& contact);
+CheckResult card_reaches_the_pressure(const Scene& scene, FixContactScm& contact);
+CheckResult body_is_over_terrain(const Scene& scene, FixContactContinuum& contact);
 /// A tread without sidewalls is open: ground that flows over its edges is inside of the tyre.
-Found sidewalls_touch_the_terrain(const Scene& scene, FixContactContinuum& contact);
-Found cells_enter_grooves(const Scene& scene, FixContactContinuum& contact);
-Found turning_plate_has_whole_terrain(const Scene& scene, FixContactContinuum& contact);
+CheckResult sidewalls_touch_the_terrain(const Scene& scene, FixContactContinuum& contact);
+CheckResult cells_enter_grooves(const Scene& scene, FixContactContinuum& contact);
+CheckResult turning_plate_has_whole_terrain(const Scene& scene, FixContactContinuum& contact);
 
 // ---- checkpoints of the lines 'restart' (checkpoints.cpp)
 /// Two runs with one name would replace each other's files.
-Found checkpoints_have_one_run(const Scene& scene);
+CheckResult checkpoints_have_one_run(const Scene& scene);
 /// Compares the room on the disk with the checkpoints, before the hours until the first one.
-Found checkpoints_have_room(const Scene& scene);
+CheckResult checkpoints_have_room(const Scene& scene);
 /// LIGGGHTS reads the length of a record as an int: 2 GiB.
-Found bed_fits_a_record(const Scene& scene, const FixBedWindow& window);
+CheckResult bed_fits_a_record(const Scene& scene, const FixBedWindow& window);
 
 inline constexpr double many_sub_steps = 100;  ///< beyond, a step of LIGGGHTS is a long pause
 

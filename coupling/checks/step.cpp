@@ -43,7 +43,8 @@ bool is_whole_number(const std::string& word) {
 
 /// Checks the interval of a fix that acts once in so many steps. A script of many short runs may
 /// mean it.
-Found interval_fits(const Scene& scene, const Options& options, const std::string& consequence) {
+CheckResult interval_fits(const Scene& scene, const Options& options,
+                          const std::string& consequence) {
   const long every = options.integer("every"), steps = scene.lammps.update->nsteps;
   if (every <= steps) return {};
   return warning(fmt::format("{} is {} steps, and this run has {}: {}; write a smaller number",
@@ -52,7 +53,7 @@ Found interval_fits(const Scene& scene, const Options& options, const std::strin
 
 }  // namespace
 
-Found run_has_whole_numbers(const Scene& scene) {
+CheckResult run_has_whole_numbers(const Scene& scene) {
   const std::vector<std::string> words = current_command(scene.lammps);
   if (words.empty() || words[0] != "run") return {};
   // Behind "every" and its number come commands.
@@ -67,7 +68,7 @@ Found run_has_whole_numbers(const Scene& scene) {
   return {};
 }
 
-Found timestep_is_given(const Scene& scene) {
+CheckResult timestep_is_given(const Scene& scene) {
   if (scene.lammps.update->timestep_set || scene.lammps.modify->n_fixes_style("dt/reset") > 0)
     return {};
   return refusal("timestep",
@@ -75,14 +76,14 @@ Found timestep_is_given(const Scene& scene) {
                  "a step that the scene chooses", "write 'timestep <seconds>' before the run");
 }
 
-Found timestep_is_no_zero(const Scene& scene) {
+CheckResult timestep_is_no_zero(const Scene& scene) {
   if (scene.step() >= shortest_step) return {};
   return refusal("timestep", fmt::format("is {} s", scene.step()),
                  fmt::format("a number >= {:g} [s]", shortest_step),
                  "write 'timestep <seconds>' before the run");
 }
 
-Found sub_steps_are_few(const Scene& scene) {
+CheckResult sub_steps_are_few(const Scene& scene) {
   const CoupledSystem::StepLimit limit = FixCoupledSystem::of(scene.lammps).step_limit();
   const double step = scene.step(), sub_steps = step / limit.step;
   if (sub_steps <= many_sub_steps) return {};
@@ -102,7 +103,7 @@ Found sub_steps_are_few(const Scene& scene) {
 }
 
 /// Checks grains that a wall/gran/body or a cell/servo holds.
-Found step_suits_grains(const Scene& scene) {
+CheckResult step_suits_grains(const Scene& scene) {
   const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
   for (const auto* wall : fixes_of<const FixWallGranBody>(modify))
     return check_time_step(scene.lammps, fmt::format("fix wall/gran/body '{}'", wall->id));
@@ -111,15 +112,15 @@ Found step_suits_grains(const Scene& scene) {
   return {};
 }
 
-Found grain_work_looks_in_the_run(const Scene& scene, const FixGrainWork& work) {
+CheckResult grain_work_looks_in_the_run(const Scene& scene, const FixGrainWork& work) {
   return interval_fits(scene, work.options(), "it counts no work");
 }
 
-Found arc_is_written_in_the_run(const Scene& scene, const FixWheelArc& arc) {
+CheckResult arc_is_written_in_the_run(const Scene& scene, const FixWheelArc& arc) {
   return interval_fits(scene, arc.options(), "it writes no profile");
 }
 
-Found friction_is_a_coefficient(const Scene& scene) {
+CheckResult friction_is_a_coefficient(const Scene& scene) {
   const int types = scene.lammps.atom->ntypes;
   for (const char* name : {"coefficientFriction", "coefficientRollingFriction"}) {
     auto* property = property_of_pairs(scene.lammps, name);
@@ -134,7 +135,7 @@ Found friction_is_a_coefficient(const Scene& scene) {
   return {};
 }
 
-Found grains_have_the_density_of_matter(const Scene& scene) {
+CheckResult grains_have_the_density_of_matter(const Scene& scene) {
   const LAMMPS_NS::Atom& atom = *scene.lammps.atom;
   if (scene.grains == 0.0) return {};
   double lightest = std::numeric_limits<double>::infinity(), heaviest = 0.0;
@@ -154,7 +155,7 @@ Found grains_have_the_density_of_matter(const Scene& scene) {
       lightest, heaviest, snow ? "snow" : "solid matter", lightest_grain, most));
 }
 
-Found properties_are_not_negative(const Scene& scene) {
+CheckResult properties_are_not_negative(const Scene& scene) {
   const int types = scene.lammps.atom->ntypes;
   for (const char* name : not_negative) {
     auto* property = property_of_pairs(scene.lammps, name);

@@ -14,7 +14,7 @@ namespace furrow::coupling {
 namespace {
 
 // Snow has 0.05 m [Wong2008], rubber on three soils 0.006 to 0.009 m [KRC]
-constexpr double least_slip_length = 2e-4, largest_slip_length = 0.15;
+constexpr double minimum_slip_length = 2e-4, largest_slip_length = 0.15;
 
 /// True for a contact law whose line takes a largest shear stress.
 bool takes_shear_limit(const Options& options) {
@@ -50,12 +50,12 @@ std::string body_material(const Options& options, const FixBody& body) {
 void warn_of_slip_length(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   if (!options.given("slip_length")) return;
   const double length = options.number("slip_length");
-  if (length > largest_slip_length || (length > 0.0 && length < least_slip_length))
+  if (length > largest_slip_length || (length > 0.0 && length < minimum_slip_length))
     warn(lammps,
          fmt::format(
              "{} is {:g} m; surfaces need {:g} to {:g} m to mobilise their friction; give m, or "
              "0 for friction without a slip length",
-             options.where("slip_length"), length, least_slip_length, largest_slip_length));
+             options.where("slip_length"), length, minimum_slip_length, largest_slip_length));
 }
 
 BodyContact contact_with(LAMMPS_NS::LAMMPS& lammps, const Options& options, const FixBody& body,

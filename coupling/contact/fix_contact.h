@@ -38,7 +38,7 @@ class FixContact : public FurrowFix, public LossLedger {
   /// Factor from a sum over the computed half to outputs, which are those of the whole body.
   double symmetry_factor() const { return body().half_model() ? 2.0 : 1.0; }
   /// A force on the whole body, from that on the part that is computed.
-  Vector3 of_whole(const Vector3& force) const {
+  Vector3 to_whole(const Vector3& force) const {
     return body().half_model() ? Vector3(2.0 * force.x(), 0.0, 2.0 * force.z()) : force;
   }
 

@@ -25,11 +25,11 @@ const Outputs<FixContactContinuum>& FixContactContinuum::outputs() {
   using Fix = FixContactContinuum;
   static const Outputs<Fix> list = {
       {"force_x", "N", "force on the body in the last sub-step",
-       [](Fix& fix) { return fix.of_whole(fix.contact_.force()).x(); }},
+       [](Fix& fix) { return fix.to_whole(fix.contact_.force()).x(); }},
       {"force_y", "N", "force on the body in the last sub-step",
-       [](Fix& fix) { return fix.of_whole(fix.contact_.force()).y(); }},
+       [](Fix& fix) { return fix.to_whole(fix.contact_.force()).y(); }},
       {"force_z", "N", "force on the body in the last sub-step",
-       [](Fix& fix) { return fix.of_whole(fix.contact_.force()).z(); }},
+       [](Fix& fix) { return fix.to_whole(fix.contact_.force()).z(); }},
       {"contacts", "", "particles in contact",
        [](Fix& fix) { return fix.symmetry_factor() * fix.contact_.contacts(); }},
       {"area", "m^2", "surface area of the particles in contact",

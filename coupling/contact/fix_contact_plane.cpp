@@ -60,11 +60,11 @@ const Outputs<FixContactPlane>& FixContactPlane::outputs() {
   using Fix = FixContactPlane;
   static const Outputs<Fix> list = {
       {"force_x", "N", "force on the body",
-       [](Fix& fix) { return fix.of_whole(fix.contact_.plane.total_force()).x(); }},
+       [](Fix& fix) { return fix.to_whole(fix.contact_.plane.total_force()).x(); }},
       {"force_y", "N", "force on the body",
-       [](Fix& fix) { return fix.of_whole(fix.contact_.plane.total_force()).y(); }},
+       [](Fix& fix) { return fix.to_whole(fix.contact_.plane.total_force()).y(); }},
       {"force_z", "N", "force on the body",
-       [](Fix& fix) { return fix.of_whole(fix.contact_.plane.total_force()).z(); }},
+       [](Fix& fix) { return fix.to_whole(fix.contact_.plane.total_force()).z(); }},
       {"pressure", "Pa", "largest pressure at a node",
        [](Fix& fix) { return fix.contact_.plane.pressure().maxCoeff(); }},
       {"area", "m^2", "area of the touching nodes",

@@ -18,8 +18,8 @@ namespace furrow::coupling {
 namespace {
 
 // Contact width over the shorter and the longer side of a body
-constexpr double least_width = 0.05, largest_width = 1.5;
-constexpr char soil[] = "soil";  // between grousers it shears on itself
+constexpr double minimum_width = 0.05, largest_width = 1.5;
+constexpr char soil[] = "soil";  // soil between grousers shears on soil
 
 bool has_grousers(const FixBody& body) {
   const auto* wheel = dynamic_cast<const WheelHub*>(&body.body());
@@ -57,11 +57,11 @@ const Outputs<FixContactScm>& FixContactScm::outputs() {
   using Fix = FixContactScm;
   static const Outputs<Fix> list = {
       {"force_x", "N", "force on the body in the last sub-step",
-       [](Fix& fix) { return fix.of_whole(fix.contact_.step().force).x(); }},
+       [](Fix& fix) { return fix.to_whole(fix.contact_.step().force).x(); }},
       {"force_y", "N", "force on the body in the last sub-step",
-       [](Fix& fix) { return fix.of_whole(fix.contact_.step().force).y(); }},
+       [](Fix& fix) { return fix.to_whole(fix.contact_.step().force).y(); }},
       {"force_z", "N", "force on the body in the last sub-step",
-       [](Fix& fix) { return fix.of_whole(fix.contact_.step().force).z(); }},
+       [](Fix& fix) { return fix.to_whole(fix.contact_.step().force).z(); }},
       {"area", "m^2", "contact area, seen from above",
        [](Fix& fix) { return fix.symmetry_factor() * fix.contact_.step().area; }},
       {"width", "m", "width b in k_c/b; 0 without contact or k_c",
@@ -96,7 +96,7 @@ double FixContactScm::contact_width() const {
   const auto [lower, upper] = body().surface().bounds();
   const double across = (body().half_model() ? 2.0 : 1.0) * (upper.y() - lower.y()),
                along = upper.x() - lower.x(), largest = largest_width * std::max(across, along),
-               least = least_width * std::min(across, along);
+               least = minimum_width * std::min(across, along);
   if (width < least || width > largest)
     throw InputError(options().where("contact_width"),
                      fmt::format("is {:g} m, and '{}' is {:.4g} m wide and {:.4g} m long", width,

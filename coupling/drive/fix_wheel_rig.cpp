@@ -24,7 +24,7 @@ namespace furrow::coupling {
 namespace {
 
 constexpr double min_steps_of_ramp = 10;
-constexpr double least_damping_ratio = 0.01, least_torque = 1e-3;  // over load x radius
+constexpr double minimum_damping_ratio = 0.01, minimum_torque = 1e-3;  // over load x radius
 constexpr double never = -1.0;  // [s] time of a change that has not been
 
 /// The columns of the table, each over the time. @throws InputError
@@ -137,26 +137,24 @@ int FixWheelRig::setmask() { return on_slope() ? LAMMPS_NS::FixConst::POST_FORCE
 
 /// Warns once, before a run, of a spring that gives by more than the radius.
 void FixWheelRig::warn_of_soft_spring() {
-  const Suspension* const suspension = rig_.suspension();
-  if (!suspension || warned_of_spring_) return;
+  if (!rig_.has_suspension() || warned_of_spring_) return;
   warned_of_spring_ = true;
-  const double weight = suspension->mass() * options().number("gravity"),
-               deflection = weight / suspension->stiffness(),
-               radius = wheel_fix_.hub().nominal_radius();
+  const double mass = rig_.sprung_mass(), stiffness = rig_.strut().stiffness,
+               damping = rig_.strut().damping, weight = mass * options().number("gravity"),
+               deflection = weight / stiffness, radius = wheel_fix_.hub().nominal_radius();
   if (deflection > radius)
     warn(*lmp, fmt::format(
                    "{} is {:g} N/m: under the sprung weight of {:.4g} N it gives by {:.3g} m, more "
                    "than the radius of '{}', {:.3g} m; springs of vehicles give by a tenth of it; "
                    "give N/m, not N/mm",
-                   options().where("suspension_stiffness"), suspension->stiffness(), weight,
-                   deflection, wheel_fix_.id, radius));
-  const double ratio =
-      0.5 * suspension->damping() / std::sqrt(suspension->stiffness() * suspension->mass());
-  if (suspension->damping() > 0.0 && ratio < least_damping_ratio)
+                   options().where("suspension_stiffness"), stiffness, weight, deflection,
+                   wheel_fix_.id, radius));
+  const double ratio = 0.5 * damping / std::sqrt(stiffness * mass);
+  if (damping > 0.0 && ratio < minimum_damping_ratio)
     warn(*lmp,
          fmt::format("{} is {:g} N s/m, {:.1g} of critical damping; vehicles have 0.2 to 0.4; give "
                      "N s/m, not kN s/m",
-                     options().where("suspension_damping"), suspension->damping(), ratio));
+                     options().where("suspension_damping"), damping, ratio));
 }
 
 /// Warns once, before a run, of a torque that turns nothing.
@@ -165,7 +163,7 @@ void FixWheelRig::warn_of_small_torque() {
   if (warned_of_torque_ || !options().given("torque")) return;
   warned_of_torque_ = true;
   const double torque = std::abs(options().number("torque"));
-  if (torque > 0.0 && torque < least_torque * full)
+  if (torque > 0.0 && torque < minimum_torque * full)
     warn(*lmp, fmt::format(
                    "{} is {:g} N m, {:.1g} of load x radius: it hardly turns the wheel; give N m, "
                    "not kN m",

@@ -49,7 +49,7 @@ class FixWheelRig : public FixRig, public MotionController {
   FixWheelHub& wheel_fix_;
   const Courses table_;
   WheelRig rig_;
-  const Options line_;                          // as the script wrote it
+  const Options line_;                          // line of the script
   std::map<std::string, std::string> changed_;  // targets, and their last values
   std::optional<double> last_change_;           // of targets [s]
   bool warned_ = false;                         // of short ramps

@@ -103,7 +103,7 @@ class WheelComponent : public Component {
   fmi2Status get_state(fmi2FMUstate* state) override {
     return guarded("GetFMUstate", [&] {
       std::unique_ptr<WheelFmu::Snapshot> made = fmu_->snapshot();
-      delete static_cast<WheelFmu::Snapshot*>(*state);  // one that is to be overwritten
+      delete static_cast<WheelFmu::Snapshot*>(*state);  // snapshot to be overwritten
       *state = made.release();
     });
   }
@@ -186,7 +186,7 @@ Component* make(fmi2String name, fmi2String guid, fmi2String resources,
 
 /// Maker of the copy that was loaded first: LIGGGHTS calls the functions of that one.
 Maker first_maker() {
-  constexpr char variable[] = "FURROW_FMU_IN_PROCESS_1";  // another number for other functions
+  constexpr char variable[] = "FURROW_FMU_IN_PROCESS_1";  // a changed interface gets another number
   const std::string found = shared_text(variable);
   if (!found.empty())
     return reinterpret_cast<Maker>(static_cast<std::uintptr_t>(std::stoull(found)));

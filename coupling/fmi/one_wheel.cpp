@@ -31,7 +31,7 @@ constexpr double largest_turn = 0.5;  // in a step [rad]
 constexpr double same_place = 0.1;    // of a radius, between the script and the first step
 constexpr double same_step = 1e-6;    // error of a multiple of the time step
 constexpr char checkpoint[] = "state";
-constexpr double most_steps = 1e9;
+constexpr double maximum_steps = 1e9;
 // Limits as those of a rig: load over weight, torque over load x radius, and rim speed [m/s]
 constexpr double largest_load = 1e5, largest_torque = 100.0, largest_rim_speed = 1000.0;
 
@@ -167,7 +167,7 @@ void OneWheel::check_inputs(const WheelHub& wheel, const Values& values) {
 double OneWheel::advance(double step, Values& values) {
   const double own = session_->liggghts()->update->dt;
   const double count = std::round(step / own);
-  if (!(count >= 1 && count <= most_steps) || std::abs(step - count * own) > same_step * step)
+  if (!(count >= 1 && count <= maximum_steps) || std::abs(step - count * own) > same_step * step)
     throw InputError("DoStep: communicationStepSize", fmt::format("is {} s", step),
                      fmt::format("multiples of the script's time step of {} s", own));
   for (const Real each : {load, spin_torque, spin_rate})

@@ -74,7 +74,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// One variable of modelDescription.xml.
+/// Element of modelDescription.xml for one variable.
 std::string real(unsigned i, int version) {
   const Variable& each = reals[i];
   const bool given = i < first_output;

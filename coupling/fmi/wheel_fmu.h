@@ -71,7 +71,7 @@ class WheelFmu {
   std::set<std::string> warned_;
 };
 
-/// @return the bytes of a snapshot, and back. @throws Error for other bytes
+/// Converts a snapshot to bytes, and back. @throws Error for other bytes
 std::vector<std::uint8_t> pack(const WheelFmu::Snapshot& snapshot);
 std::unique_ptr<WheelFmu::Snapshot> unpack(const fmi2Byte* bytes, std::size_t size);
 

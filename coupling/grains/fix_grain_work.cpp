@@ -104,7 +104,7 @@ void FixGrainWork::end_of_step() {
   const Track where = track();
   double between_grains = 0.0;
   for_each_pair_contact(*lmp, [&](const PairContact& contact) {
-    // the other rank sees a contact with one of its grains too
+    // another rank computes a contact with its grain too
     const double share = contact.j < atom->nlocal ? 1.0 : 0.5;
     const Taken power_taken = power(contact);
     work_.slide += share * interval * power_taken.slide;

@@ -54,7 +54,7 @@ class FixGrainWork : public FurrowFix, public LossLedger {
   double kinetic_energy() const;
   double over_ranks(double value) const;
 
-  Body& body_;    // whose track divides the grains
+  Body& body_;    // body whose track divides the grains
   double level_;  // [m]
   long every_;
   LAMMPS_NS::FixPropertyGlobal* friction_ = nullptr;  // of pairs of types

@@ -111,10 +111,10 @@ void remove_sets(const std::string& checkpoint, const std::string& set, bool oth
       unwanted.push_back(entry->path());
   }
   for (const fs::path& file : unwanted) fs::remove(file, ignored);
-  if (!unwanted.empty()) fs::remove(folder, ignored);  // if nothing is left in it
+  if (!unwanted.empty()) fs::remove(folder, ignored);  // removes an empty folder only
 }
 
-/// While LIGGGHTS writes.
+/// Marks a file while LIGGGHTS writes it.
 class BeingWritten {
  public:
   BeingWritten(const std::string& path, const std::string& set) {

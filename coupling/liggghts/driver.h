@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Where a program gets its turn that runs LIGGGHTS in its own process, such as Python.
+/// Callbacks of a program that runs LIGGGHTS in its process, such as Python.
 
 #include <string>
 

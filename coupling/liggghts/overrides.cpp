@@ -50,7 +50,7 @@ std::string fix_text(const LAMMPS_NS::Fix& fix, const char* style, const char* t
 constexpr char cut_short[] = "The restart file ends too early: it is cut short";
 
 constexpr int deepest = 200;  // brackets and variables within a formula
-int formulas = 0;             // that are being evaluated
+int formulas = 0;             // formulas in evaluation
 
 int depth_of_brackets(const char* text) {
   int depth = 0, largest = 0;
@@ -157,7 +157,8 @@ FURROW_EXPORTED void Integrate::ev_set(bigint step) {
 
 /// True if neighbour lists are made in this step.
 FURROW_EXPORTED int Neighbor::decide() {
-  static const auto original = next_function<int(Neighbor*)>(symbol::decide);  // every step
+  static const auto original =
+      next_function<int(Neighbor*)>(symbol::decide);  // LIGGGHTS calls it in every step
   const bool due = original(this) != 0;
   return furrow::coupling::follow_signals(*lmp, due) || due;
 }

@@ -26,7 +26,7 @@ pybind11::array view(const Owner& owner, const Number* data, std::vector<pybind1
   return std::move(array);
 }
 
-/// One number for each of `count`.
+/// Array of `count` numbers.
 template <class Number>
 pybind11::array view(const Owner& owner, const Number* data, std::size_t count) {
   return view(owner, data, {static_cast<pybind11::ssize_t>(count)}, {1});

@@ -37,7 +37,7 @@ void FixExpectedStates::add_if_needed(LAMMPS_NS::LAMMPS& lammps) {
     add_fix(lammps, {expected_id, "all", "furrow/expected_states"});
 }
 
-/// The system compares the others' states with their lines, if it is there in time itself.
+/// Leaves the comparison of states with lines to furrow/system, if it exists in time.
 void FixExpectedStates::init() {
   with_collective_errors(*error, [&] {
     const FixCoupledSystem* system = FixCoupledSystem::find(*lmp);

@@ -231,7 +231,7 @@ void Session::before_step(LAMMPS_NS::LAMMPS& lammps) {
   MPI_Comm_size(ranks_, &size);
   interrupted_now_ = size == 1 && asks_to_stop();
   if (left_ == 0 || interrupted_now_) {
-    --lammps.update->ntimestep;  // which has not begun for those outside
+    --lammps.update->ntimestep;  // the step has not begun for the callers
     pause();
     ++lammps.update->ntimestep;
     if (ending_) return;

@@ -25,10 +25,10 @@ namespace furrow::coupling {
 namespace {
 
 constexpr int good_cells_in_depth = 4;
-constexpr int most_empty_cells = 20;  // above the surface, over those below
+constexpr int maximum_empty_cells = 20;  // above the surface, over those below
 constexpr double many_particles = 1e6;
 constexpr double seconds_of_particle = 5e-8;  // of one core for a step, measured
-constexpr long check_every = 100;             // steps between looks at the energy
+constexpr long check_every = 100;             // steps between checks of the energy
 // [J/kg] of the terrain, its weight lifted by 0.1 mm: below it an imbalance does not matter
 constexpr double energy_floor = 1e-3;
 constexpr double edge_refinement = 3.0;  // of the cells along the sides of a body
@@ -46,7 +46,7 @@ std::optional<GroundSize> size_by_wheel(LAMMPS_NS::LAMMPS& lammps, const Options
   GroundSize size =
       ground_under_wheel(wheel->nominal_radius(), wheel->nominal_width(), options.number("depth"));
   if (options.given("width") || options.flag("surface_mesh"))
-    size.fine_width = 0.0;  // all is fine
+    size.fine_width = 0.0;  // the whole ground has fine cells
   else                      // whole cells on either side, as long as they were asked for
     size.fine_width = 2.0 * cell * std::ceil(0.5 * size.fine_width / cell * (1.0 - same_length));
   return size;
@@ -104,9 +104,9 @@ std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& opt
   }
   for (const TerrainLayer& layer : parameters.layers)
     for (const std::string& warning : layer.warnings) warn(lammps, warning);
-  for (const std::string& doubt : parameters.relief.doubts(
+  for (const std::string& warning : parameters.relief.warnings(
            options.number("length"), options.number("cell"), options.given("follow")))
-    warn(lammps, fmt::format("{}: {}", options.subject(), doubt));
+    warn(lammps, fmt::format("{}: {}", options.subject(), warning));
   if (const std::string note = parameters.relief.note(); !note.empty())
     warn(lammps, fmt::format("{}: {}", options.where("heightmap"), note));
   if (const double particles = size_of(parameters).particles; particles > many_particles)
@@ -292,7 +292,7 @@ void FixTerrainContinuum::warn_of_extremes() {
     warn(*lmp, fmt::format("{} is given without 'surface_mesh yes': no grains can lie on the "
                            "terrain, whose stress starts as if they did; remove it",
                            options().where("surcharge")));
-  if (above > most_empty_cells * below)
+  if (above > maximum_empty_cells * below)
     warn(*lmp, fmt::format("{}: {} layers of cells reach {:.4g} m above the surface, {} lie below: "
                            "they stay empty and cost time; make clearance_above smaller",
                            name(), above, z.upper() - surface, below));

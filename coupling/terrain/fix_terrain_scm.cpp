@@ -68,12 +68,13 @@ FixTerrainScm::FixTerrainScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     warn(*lmp, fmt::format("{} states no gravity: Furrow takes its values as they are",
                            options().where("card")));
   std::vector<std::string> all =
-      field().parameters().relief.doubts(options().number("length"), field().cell(), false);
-  if (soils() && options().warnings().empty())  // else the line has a value to mend first
+      field().parameters().relief.warnings(options().number("length"), field().cell(), false);
+  if (soils() &&
+      options().warnings().empty())  // otherwise the user must first correct a value of the line
     for (const Soil& soil : soils()->all())
-      for (const std::string& doubt : doubts(soil)) all.push_back(doubt);
-  for (const std::string& doubt : all)
-    warn(*lmp, fmt::format("{}: {}", options().subject(), doubt));
+      for (const std::string& warning : plausibility_warnings(soil)) all.push_back(warning);
+  for (const std::string& warning : all)
+    warn(*lmp, fmt::format("{}: {}", options().subject(), warning));
   refuse_overlap();
   if (comm->me == 0 && screen)
     fmt::print(screen, "Height field: {} x {} cells of {:.4g} m, z = {:.4g} m\n", field().columns(),

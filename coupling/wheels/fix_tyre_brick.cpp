@@ -55,8 +55,8 @@ FixTyreBrick::FixTyreBrick(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 
 void FixTyreBrick::init() {
   FixTyre::init();
-  if (const std::string doubt = wrinkling(tyre().parameters()); !doubt.empty())
-    warn(*lmp, fmt::format("{}: {}", name(), doubt));
+  if (const std::string warning = wrinkling(tyre().parameters()); !warning.empty())
+    warn(*lmp, fmt::format("{}: {}", name(), warning));
   if (find_user(*modify, "mesh/body", *this)) warn_of_bridging();
 }
 

@@ -27,9 +27,9 @@ const Outputs<FixWheelMesh>& FixWheelMesh::outputs() {
 
 FixWheelMesh::FixWheelMesh(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixWheelHub(lammps, narg, arg, schema(), [lammps](const Options& options) {
-        std::vector<std::string> doubts;
-        auto wheel = make_mesh_wheel(options, mesh_of_file(*lammps, options), doubts);
-        for (const std::string& doubt : doubts) warn(*lammps, doubt);
+        std::vector<std::string> warnings;
+        auto wheel = make_mesh_wheel(options, mesh_of_file(*lammps, options), warnings);
+        for (const std::string& warning : warnings) warn(*lammps, warning);
         return wheel;
       }) {
   provide(outputs());

@@ -34,7 +34,7 @@ class Planned:
 
     @property
     def is_check(self) -> bool:
-        """True for a check of the base, which is none of itself."""
+        """True for a run that checks the base; false for the base."""
         return self.role != BASE and self.kind in CHECKS
 
     @property
@@ -55,7 +55,7 @@ def plan() -> list[Planned]:
 
 
 def make_case(row: Mapping[str, str]) -> Case:
-    """Scripts of this folder get its path in the variable `here`, for what they include."""
+    """Case of a script of this folder, whose path the variable `here` has for its include lines."""
     role = row["role"].replace("=", "_").replace(" ", "_")
     name = f"{row['case']}/{row['ground']}_{role}"
     script = (HERE / f"{row['script']}.lig").resolve()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The same test on grains and on continuum, side by side: results.csv, the page's table, figures.
+"""A test on grains and on continuum, side by side: results.csv, the page's table, figures.
 
 Grounds are compared with furrow-post's own comparison. Stages are the cases.
 """

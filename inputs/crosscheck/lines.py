@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from furrow_post.uncertainty.budget import Budget
 from furrow_post.analyse.plates import pressure_at
 from furrow_post.uncertainty.verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN
-from furrow_post.uncertainty.verdict import Agreement, Entry, Quantity, judge
+from furrow_post.uncertainty.verdict import Agreement, Entry, Quantity, verdict_between
 from furrow_post.formatting import in_unit, percent
 from furrow_post.csv_table import markdown
 
@@ -87,7 +87,7 @@ def is_point(line: Mapping[str, str]) -> bool:
 
 
 def series_value(line: Mapping[str, str], name: str) -> float | None:
-    """The value of this condition at a point of its series; None of other lines."""
+    """Value of this condition at a point of a series; None for lines without a series."""
     own, _, value = line["place"].partition("=")
     return float(value) if own == name else None
 
@@ -113,7 +113,7 @@ def table(lines: Iterable[Mapping[str, str]]) -> list[str]:
 
 
 def entries(group: Iterable[Mapping[str, str]], kind: str) -> dict[str, Entry]:
-    """By source."""
+    """Entries of the cross-check by source."""
     return {line["source"]: entry_of(line) for line in group if line["kind"] == kind}
 
 
@@ -128,7 +128,7 @@ def answers(own: Mapping[str, Entry]) -> list[str]:
         allowed = COVERAGE * math.hypot(first.uncertainty, other.uncertainty) / abs(first.value)
         limit = f" ({100 * allowed:.0f} %)" if math.isfinite(allowed) else ""
         name = f"{other.source}: " if len(others) > 1 else ""
-        verdict = judge(first, other)
+        verdict = verdict_between(first, other)
         lacking = f", unknown: {', '.join(verdict.unknown)}" if verdict.unknown else ""
         difference = percent(other.value / first.value - 1)
         found.append(f"{name}{ANSWERS[verdict.agreement]}, {difference}{limit}{lacking}")

@@ -58,7 +58,7 @@ class PlateCase:
             yield Entry(plates.pressure_at(level), line.label, pressure, Budget(), FORMULA)
 
     def formula_lines(self) -> list[Line]:
-        """On sand; b of a round plate is its radius."""
+        """Formulas for the plate on sand; b of a round plate is its radius."""
         if "sand" not in self.case:
             return []
         z = np.linspace(1e-3, max(LEVELS[self.case]), 60)

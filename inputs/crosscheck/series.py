@@ -33,7 +33,7 @@ BASES = {  # conditions of the bases, SI; that on snow is towed, and finds its s
 def lines_of_series(
     made: Made, table: Sequence[Row], bases: Sequence[Mapping[str, str]]
 ) -> Iterator[OutputRow]:
-    """At the points' size, and the best estimates where that of the base is known.
+    """Lines of a series at the size of its points, and best estimates if that of the base is known.
 
     table: runs of the base; bases: its lines
     """

@@ -23,7 +23,7 @@ from furrow_post.figures.flow_figure import draw_flow
 from furrow_post.read.wheel_run import WheelRun, read_wheel_run
 from furrow_post.study.study_files import Output
 
-GROUNDS = ("continuum", "grains")  # what a case compares at least
+GROUNDS = ("continuum", "grains")  # grounds that every case has
 HYBRID = "hybrid"
 MEASURED_WHEELS = INPUTS / "validation" / "snow_wheel" / "reference.csv"
 PRESSURE = 179e3  # [Pa] for NRMM
@@ -125,7 +125,7 @@ class WheelCase:
             yield number_line(self.case, FLOW, name, getattr(result, name))
 
     def draw(self, output: Output) -> None:
-        """The case's figure, and the table of its runs, which furrow-post cost reads."""
+        """Draws the figure of a case and writes the table of its runs for furrow-post cost."""
         draw_comparison(self.compared(BASE), output.path(f"{self.case}.png"))
         comment = "# Runs of the case with their size, domain, packing: what its errors come from."
         cost_table.write_table(output.path(f"{self.case}_runs.csv"), self.table, [comment])

@@ -82,7 +82,7 @@ class Trials:
         return np.array(found)
 
     def cases_of(self, test: Task, name: str, parameters: Task) -> list[Case]:
-        """One run, or one for each value of the series."""
+        """Cases of a test: one run, or one for each value of the series."""
         cases = []
         for confinement in test.get("series") or [None]:
             given = {**test["variables"], "ground": self.task["ground"], **parameters}
@@ -93,7 +93,7 @@ class Trials:
 
 
 def targets(test: Task) -> list[str]:
-    """Names of the quantities of its residuals."""
+    """Names of the quantities that the residuals compare."""
     if "reference" in test:
         return [f"{test['test']} at {rho:g} kg/m3" for rho, _ in reference_of(test)]
     return [f"{test['test']} {name}" for name in test["quantities"]]
@@ -116,7 +116,7 @@ def misfit(test: Task, results: Sequence[LaboratoryTest]) -> list[float]:
 
 
 def misfit_of_quantity(found: float, value: float, deviation: float | str) -> float:
-    """Over its deviation; where that is a percentage, of the logarithm."""
+    """Misfit of a quantity over its deviation; of the logarithm for a deviation in percent."""
     if isinstance(deviation, str):
         return math.log(max(found / value, LEAST)) / fraction(deviation)
     return (found - value) / deviation
@@ -145,7 +145,7 @@ def misfit_of_curve(test: Task, result: LaboratoryTest) -> list[float]:
 
 
 def calibrate(task: Task, trials: Trials) -> dict[str, Any]:
-    """The result, as it is written."""
+    """Result of the calibration as written to its file."""
     parameters = [
         Parameter(name, "", start, lower, upper, *prior) for name, (start, lower, upper, *prior) in task["parameters"].items()
     ]

@@ -57,7 +57,7 @@ MATCH = {
 
 
 def warn_of_short_tests(tests: Sequence[LaboratoryTest]) -> None:
-    """Warns of tests whose end is not yet the critical state."""
+    """Warns of tests that end before the critical state."""
     for test in tests:
         reached = float(np.max(np.abs(cell_curve(test.curve())[0][:, 2])))
         if reached < CRITICAL_STRAIN:
@@ -102,7 +102,7 @@ class CapStress:
 
 
 def cap_stress(pa: float | Floats, R: float | Floats, tangent: float, d: float) -> CapStress:
-    """At the evolution pressure pa [Pa]; tangent: of beta; d [Pa]."""
+    """Stress on the cap at the evolution pressure pa [Pa]; tangent: tan(beta); d [Pa]."""
     pressure, eccentricity = np.asarray(pa, float), np.asarray(R, float)
     y, Q = 1 / np.sqrt(1 + 2.25 * eccentricity**2), d + pressure * tangent
     p = pressure + 1.5 * eccentricity**2 * y * Q
@@ -162,7 +162,7 @@ def hardening(test: LaboratoryTest, law: Law) -> tuple[list[tuple[float, float]]
 
 
 class Shear(NamedTuple):
-    """Cone of the law, and what the file states of it."""
+    """Cone of the law, with the comments on it in the material file."""
 
     tangent: float  # of beta
     what: str
@@ -171,7 +171,7 @@ class Shear(NamedTuple):
 
 
 def shear_of(tests: Sequence[LaboratoryTest], match: Match) -> Shear:
-    """From all kinds of tests, or from triaxial compression alone."""
+    """Cone fitted to all kinds of tests, or to triaxial compression alone."""
     if any(test.kind != "triaxial" for test in tests):
         cone = fit_cone(tests)
         section = {"K": f"{cone.K:.3f}", "section": "matsuoka_nakai"}

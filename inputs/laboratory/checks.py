@@ -57,7 +57,7 @@ def grounds() -> list[str]:
 
 
 def require_ground(ground: str) -> None:
-    """@raises ResultsError"""
+    """Requires the name of a known ground. @raises ResultsError"""
     if ground not in grounds():
         raise ResultsError(f"there is no ground '{ground}'; there are {', '.join(grounds())}")
 

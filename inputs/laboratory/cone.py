@@ -58,7 +58,7 @@ def stress_ratio(kind: str, tangent: float, K: float) -> float:
 
 
 class Cone(NamedTuple):
-    """A fit: its two numbers with standard errors, and the tests it was made of."""
+    """Fit of a cone: two parameters with standard errors, and the tests."""
 
     tangent: float  # of beta
     tangent_error: float
@@ -76,7 +76,7 @@ class Cone(NamedTuple):
         return [each == kind for each in self.kinds]
 
     def sentences(self) -> list[str]:
-        """Sentences on the values of the cone, and on what it cannot fit."""
+        """Sentences on the values of the cone and on its misfit."""
         lines = [
             f"tan(beta) {self.tangent:.3f} +- {self.tangent_error:.3f}, K {self.K:.3f} +- "
             f"{self.K_error:.3f}, from {len(self.kinds)} tests",

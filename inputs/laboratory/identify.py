@@ -34,7 +34,7 @@ from furrow_post.soil.material import NewMaterial, Parameter
 
 
 def law_of(given: Given, tests: Sequence[LaboratoryTest], confined: LaboratoryTest) -> NewMaterial:
-    """The material. @raises ResultsError"""
+    """Law identified from tests. @raises ResultsError"""
     shear = shear_of(tests, MATCH[given.match])
     compressed = [test for test in tests if test.kind == "triaxial"]
     stress: float = given.stress

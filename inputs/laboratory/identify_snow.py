@@ -23,7 +23,7 @@ import furrow_post  # first: says which of the next ones are missing
 
 import click
 
-from snow_laws import LAWS, Material, deviation, fit, is_fitted, is_ratio, judged
+from snow_laws import LAWS, Material, compared_rows, deviation, fit, is_fitted, is_ratio
 from snow_paths import Points, predicted
 from snow_record import Row, Values, read_record, record_of, write_record
 
@@ -150,7 +150,7 @@ def record(given: Given) -> None:
 )
 def fit_law(given: Given) -> None:
     rows = read_record(given.record)
-    judged_rows = judged(rows)
+    judged_rows = compared_rows(rows)
     with tempfile.TemporaryDirectory() as name, Points(Tools.of(Path(__file__), given.build), Path(name)) as points:
         material = fit(LAWS[given.law], rows, points)
         values = predicted(material.sections(), judged_rows, points)
@@ -168,7 +168,7 @@ def fit_law(given: Given) -> None:
     help="RECORD.csv, MATERIAL.yaml ... -> tables of all values and deviations.",
 )
 def compare(given: Given) -> None:
-    judged_rows = judged(read_record(given.record))
+    judged_rows = compared_rows(read_record(given.record))
     with tempfile.TemporaryDirectory() as name, Points(Tools.of(Path(__file__), given.build), Path(name)) as points:
         laws = {file.stem: predicted(sections_of(file), judged_rows, points) for file in given.materials}
     print(tables(judged_rows, laws))

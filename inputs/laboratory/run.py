@@ -64,7 +64,7 @@ def series_of(given: Given) -> list[str]:
 
 
 def check(given: Given, series: list[str]) -> None:
-    """Before anything runs. @raises ResultsError"""
+    """Checks the arguments before any run. @raises ResultsError"""
     test: str = given.test
     require_ground(given.ground)
     require_variables(test, given.ground, given.variables)

@@ -17,7 +17,7 @@ from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError
 
 CRUSHED = 1.02  # density over that at the start, from which on the oedometer shows hardening
-PASSES = 5  # over the hardening; what is left of the density is below 1e-3
+PASSES = 5  # iterations over the hardening; the remaining error of the density is below 1e-3
 # Differences, or logarithms of densities, that weigh as much as a factor of e in a stress
 SCALE = {"K0": 0.1, "lateral_ratio": 0.2, "density": 0.1}
 NO_STATE = 3.0  # residual of a value where the law has no state: a factor of 20
@@ -71,7 +71,7 @@ LAWS = {
 
 @dataclass(frozen=True)
 class Material:
-    """All numbers of a law."""
+    """Parameters of a law of snow."""
 
     law: SnowLaw
     shape: tuple[float, ...]
@@ -146,7 +146,7 @@ def hardened(
         plastic = np.maximum(columns["eps_vol_pl"][ends], 1e-4)
         strength = np.exp(_through(plastic, all_strain, np.log(all_strength)))
         strain = plastic + np.log(rho / columns["density"][ends])
-        # Where the one modulus takes more than there was, by a thousandth
+        # one elastic modulus can make the strain fall; it then grows by a thousandth instead
         for k in range(len(strain)):
             strain[k] = max(strain[k], (strain[k - 1] if k else 0.0) + 1e-3)
             strength[k] = max(strength[k], 1.01 * (strength[k - 1] if k else all_strength[0]))
@@ -179,7 +179,7 @@ def residual(row: Row, value: float) -> float:
     return max(-NO_STATE, min(NO_STATE, found)) if math.isfinite(found) else NO_STATE
 
 
-def judged(record: Sequence[Row]) -> list[Row]:
+def compared_rows(record: Sequence[Row]) -> list[Row]:
     """The rows that a law is compared with: all but the moduli, which are elasticity's."""
     return [row for row in record if row.quantity != "modulus"]
 
@@ -191,7 +191,7 @@ def is_fitted(test: str) -> bool:
 
 
 def weights(rows: Sequence[Row]) -> Floats:
-    """Each quantity of each test weighs the same, for any number of its rows."""
+    """Weights of rows that give each quantity of each test the same weight."""
     kinds = [(row.test, row.quantity) for row in rows]
     return np.array([1 / math.sqrt(kinds.count(kind)) for kind in kinds])
 
@@ -200,7 +200,7 @@ def fit(
     law: SnowLaw, record: Sequence[Row], points: Points, start: Sequence[float] | None = None
 ) -> Material:
     """@raises ResultsError where no law is found at the start"""
-    rows = [row for row in judged(record) if is_fitted(row.test)]
+    rows = [row for row in compared_rows(record) if is_fitted(row.test)]
     weight = weights(rows)
 
     def residuals(shape: Floats) -> Floats:

@@ -15,7 +15,7 @@ from furrow_post.laws.point_curves import PointPaths
 from furrow_post.arrays import Floats
 from furrow_post.run.tools import Tools
 
-TENSION_STRAIN = 0.03  # in which every law here has its tensile strength
+TENSION_STRAIN = 0.03  # strain at which every law here has reached its tensile strength
 REBOUND = 0.1  # of strain when compacted snow is released, at most
 SHEAR_STRAIN = 0.2  # up to which shear is compared
 
@@ -47,7 +47,7 @@ def confined(stresses: Iterable[float]) -> str:
 
 
 def end_of(columns: Columns, segment: int) -> int:
-    """Its last row; the first segment is 1."""
+    """Number of the last row of a segment; the first segment is 1."""
     return int(np.flatnonzero(columns["segment"] == segment)[-1])
 
 

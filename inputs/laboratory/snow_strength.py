@@ -116,7 +116,7 @@ def of_law(ground: str, normal: float, points: Points) -> dict[str, Strengths]:
 
 
 def table(clusters: dict[str, dict[str, Strengths]], laws: dict[str, dict[str, Strengths]]) -> str:
-    """Markdown, strengths in kPa."""
+    """Table of strengths [kPa] in Markdown."""
     lines = []
     for kind in KINDS:
         fits = measured(kind)

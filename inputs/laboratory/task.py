@@ -23,7 +23,7 @@ OF_TEST = tuple(SCHEMA["$defs"]["of_test"])
 
 
 def read_task(path: Path) -> Task:
-    """With "tests", a list of one or more, each with all its "variables". @raises ResultsError; OSError without the file"""
+    """Reads a calibration with one or more "tests", each with all its "variables". @raises ResultsError; OSError without the file"""
     form = f"a calibration is {SCHEMA['description']}"
     try:
         task = parse_json(path.read_text(encoding="utf-8"), object_pairs_hook=_without_repetition)
@@ -51,7 +51,7 @@ def _without_repetition(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _fault(error: Any) -> str:
-    """Fault of a value of the file, and what is needed."""
+    """Text of the fault of a value in the file, with the requirement."""
     while error.context and len(error.context[-1].path) > 0:  # of a value below
         error = error.context[-1]
     schema, key = error.schema, ".".join(str(part) for part in error.absolute_path)

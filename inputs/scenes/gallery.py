@@ -63,7 +63,7 @@ def _anchor(heading: str) -> str:
 
 
 def _entry(script: Path, title: str, entries: dict[str, str]) -> str:
-    """A scene on the page."""
+    """Entry of a scene on the page of the gallery."""
     name = script.stem
     lines = [f"### [{name}]({script.name})", _wrapped(f"{_sentence(title)} {_sentence(entries['Shows'])}"), ""]
     if (PICTURES / f"{name}.png").is_file():
@@ -78,7 +78,7 @@ def _sentence(text: str) -> str:
 
 
 def _wrapped(text: str, indent: str = "") -> str:
-    """In lines of 100; what Markdown would take for markup or a link stays text."""
+    """Text in lines of 100 characters, with characters of Markdown escaped."""
     for letter in "[]<>*":
         text = text.replace(letter, f"\\{letter}")
     return textwrap.fill(

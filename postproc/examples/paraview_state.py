@@ -58,7 +58,7 @@ if (folder / "wheel.pvd").is_file():
 scene = simple.GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()
 scene.GoToLast()
-simple.Render(view)  # reads that frame, whose range the colours take
+simple.Render(view)  # reads that frame; its range becomes that of the colours
 for display in shown:
     display.RescaleTransferFunctionToDataRange(False, True)
 view.CameraPosition, view.CameraViewUp = [0.6, -1.2, 0.8], [0, 0, 1]

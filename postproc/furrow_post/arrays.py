@@ -20,7 +20,7 @@ Value = TypeVar("Value")
 
 
 def read_only(values: Array) -> Array:
-    """The same array, which refuses to be written to; what is no array stays as it is."""
+    """Array protected against writing; other values are returned unchanged."""
     if isinstance(values, np.ndarray):
         values.flags.writeable = False
     return values
@@ -41,13 +41,13 @@ class Named(dict[str, Value]):
 
 
 class Fields(Named[Floats]):
-    """Arrays, which cannot be written to: they are what the file has."""
+    """Arrays of a file, protected against writing."""
 
     def __init__(self, file: Path, arrays: Mapping[str, Floats], remedy: str) -> None:
         super().__init__(file, {name: read_only(values) for name, values in arrays.items()}, remedy)
 
     def require_rows(self) -> int:
-        """Their common number of rows. @raises ResultsError where they differ"""
+        """Common number of rows of the arrays. @raises ResultsError where they differ"""
         lengths = {len(values) for values in self.values()}
         if len(lengths) > 1:
             raise ResultsError(

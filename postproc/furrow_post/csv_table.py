@@ -101,7 +101,7 @@ def column_names(rows: Iterable[Mapping[str, Any]]) -> list[str]:
 
 
 def in_cells(row: Mapping[str, Any], digits: int) -> dict[str, Any]:
-    """A row whose floats have so many digits; NaN is an empty cell."""
+    """Row with floats rounded to a number of digits; NaN becomes an empty cell."""
     return {
         name: ("" if math.isnan(value) else f"{value:.{digits}g}") if isinstance(value, float) else value
         for name, value in row.items()

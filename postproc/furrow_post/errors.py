@@ -24,7 +24,7 @@ def refuse_others(where: str, given: Iterable[object], known: Iterable[str]) -> 
 
 
 class Interrupted(Exception):
-    """Somebody ended the run: it is neither finished nor failed."""
+    """A signal ended the run; it is neither finished nor failed."""
 
     def __init__(self, text: str, status: int = 1) -> None:
         super().__init__(text)
@@ -49,7 +49,7 @@ def _in_words(error: Exception) -> str:
     if isinstance(error, UnicodeDecodeError):
         return "is not text in UTF-8"
     if isinstance(error, KeyError):
-        absent = re.search(r"(?:object|attribute:) '(.+?)'", str(error))  # as HDF5 says it
+        absent = re.search(r"(?:object|attribute:) '(.+?)'", str(error))  # text of HDF5
         return f"has no '{absent[1] if absent else error.args[0]}'"
     if isinstance(error, IndexError):
         return "has too few values"

@@ -26,7 +26,7 @@ def with_error(mean: float, error: float, short: bool = False) -> str:
 
 
 def value_text(value: float, error: float) -> str:
-    """The same, or three digits alone where the error is not known (NaN or infinite)."""
+    """Text of a value with its error; three digits where the error is not known (NaN or infinite)."""
     return with_error(value, error) if math.isfinite(error) else f"{value:.3g}"
 
 
@@ -42,7 +42,7 @@ def duration(seconds: float) -> str:
 
 
 def yaml_text(text: str) -> str:
-    """In quotes: a colon, a blank at the end or the word "no" stay what they are."""
+    """Text in quotes, which keep a colon, a blank at the end and the word "no"."""
     return json.dumps(text, ensure_ascii=False)
 
 

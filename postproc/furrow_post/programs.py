@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Where Furrow's programs and inputs are: in the source tree, or installed."""
+"""Folders of Furrow's programs and inputs: in the source tree, or installed."""
 
 import importlib
 import os
@@ -29,12 +29,12 @@ def inputs_folder() -> Path | None:
 
 
 def results_folder(name: str) -> Path:
-    """Where results go by default: in the source tree, or where there is none in the current folder."""
+    """Default folder of results: in the source tree, or in the current folder without a source tree."""
     return (source_tree() or Path.cwd()) / "results" / name
 
 
 def find_program(name: str) -> Path:
-    """In the build folder that FURROW_BUILD names, beside furrow-post, in the source tree's build
+    """Path of a program in the build folder of FURROW_BUILD, next to furrow-post, in the source tree's build
     folder, or on the PATH: a program of one build finds the others of this build.
 
     @raises ResultsError where there is none

@@ -18,7 +18,7 @@ namespace {
 constexpr double smallest_mesh = 1e-3, largest_mesh = 5.0;  // [m], of wheels and tools
 // Nominal radius of a wheel over the largest distance of its mesh from the axle: grousers of a
 // small rover wheel reach 0.2 of it.
-constexpr double least_radius = 0.5, usual_radius = 0.75;
+constexpr double minimum_radius = 0.5, usual_radius = 0.75;
 // Imbalance of a wheel: distance of the centre of mass from the axle over the radius, and
 // difference of the moments of inertia across the axle over that about it.
 constexpr double largest_offset = 0.02, largest_difference = 0.1;
@@ -125,12 +125,12 @@ class MeshWheel {
                        "check scale, origin and axis");
     const std::string as_nominal =
         fmt::format("is {:g} m, and the mesh reaches {:.4g} m from the axle", radius, reach);
-    if (radius < least_radius * reach)
+    if (radius < minimum_radius * reach)
       throw InputError(options.where("radius"), as_nominal,
-                       fmt::format("{:.4g} to {:.4g} m", least_radius * reach, reach),
+                       fmt::format("{:.4g} to {:.4g} m", minimum_radius * reach, reach),
                        "give the radius of the rim between its grousers, in m");
     if (radius < usual_radius * reach)
-      doubts_.push_back(
+      warnings_.push_back(
           fmt::format("{} {}: rim speed, slip and hub drop take the smaller radius; "
                       "give that of the rim between its grousers",
                       options.where("radius"), as_nominal));
@@ -144,7 +144,7 @@ class MeshWheel {
   }
 
   const RigidWheelParameters& parameters() const { return wheel_; }
-  const std::vector<std::string>& doubts() const { return doubts_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   void set_inertia() {
@@ -161,7 +161,7 @@ class MeshWheel {
             imbalance(inertia_given ? ", unless the wheel shall run out of round"
                                     : ", or give mass and inertia")) {
       if (!inertia_given) throw *fault;
-      doubts_.push_back(fault->what());
+      warnings_.push_back(fault->what());
     }
     const double density = inertia.mass / volume;
     const Matrix3& of_mesh = of_unit_density_.inertia;
@@ -196,7 +196,7 @@ class MeshWheel {
   MassProperties of_unit_density_;
   double reach_ = 0.0;  // [m] largest distance from the axle
   RigidWheelParameters wheel_;
-  std::vector<std::string> doubts_;
+  std::vector<std::string> warnings_;
 };
 
 /// Horizontal projection of the facets that face down [m^2].
@@ -285,12 +285,12 @@ Schema mesh_plate_schema(const std::string& subject) {
 }
 
 std::unique_ptr<RigidWheel> make_mesh_wheel(const Options& options, SolidMesh mesh,
-                                            std::vector<std::string>& doubts) {
+                                            std::vector<std::string>& warnings) {
   MeshPlacement proposal = propose_placement(mesh.surface);
   proposal.scale = options.number("scale");
   place(options, Vector3::UnitY(), mesh);
   const MeshWheel wheel(options, mesh.surface, keywords(proposal));
-  doubts = wheel.doubts();
+  warnings = wheel.warnings();
   return std::make_unique<RigidWheel>(wheel.parameters(), std::move(mesh.surface),
                                       options.subject());
 }

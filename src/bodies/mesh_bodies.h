@@ -37,11 +37,11 @@ Schema mesh_plate_schema(const std::string& subject);
 /// Scales, places and checks the mesh (check_solid). Mass and inertia are those of the keys, or of
 /// a solid of uniform density.
 /// @param mesh as the file has it
-/// @param doubts sentences on a mesh that is no balanced wheel, with explicit mass and inertia
+/// @param warnings sentences on a mesh that is no balanced wheel, with explicit mass and inertia
 /// @throws InputError for a mesh that is no solid or not in metres, for one that is no balanced
 /// wheel without explicit mass and inertia, and for keys that do not go together
 std::unique_ptr<RigidWheel> make_mesh_wheel(const Options& options, SolidMesh mesh,
-                                            std::vector<std::string>& doubts);
+                                            std::vector<std::string>& warnings);
 /// @throws InputError for a mesh that is no solid or not in metres
 std::unique_ptr<RigidPlate> make_mesh_plate(const Options& options, SolidMesh mesh);
 

@@ -43,9 +43,9 @@ class RigidPlane {
 
  private:
   RigidPlaneParameters parameters_;
-  VectorX area_;                         // [m^2]
-  VectorX pressure_;                     // [Pa]
-  Eigen::Matrix2Xd anchor_;              // [m] where the spring of a sticking node has no force
+  VectorX area_;             // [m^2]
+  VectorX pressure_;         // [Pa]
+  Eigen::Matrix2Xd anchor_;  // [m] place at which the spring of a sticking node has no force
   std::vector<unsigned char> sticking_;  // 1: the node sticks
   double friction_loss_ = 0.0;           // [J]
   Vector3 total_ = Vector3::Zero();      // [N]

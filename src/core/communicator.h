@@ -23,7 +23,7 @@ class Communicator {
 
   int rank() const;
   int size() const;
-  int on_this_machine() const;  ///< how many of them share the memory of this one; collective
+  int on_this_machine() const;  ///< number of ranks that share the memory of this one; collective
   /// Sums the numbers of all ranks in place; every rank gets bitwise the same result, in rank order
   /// of the tree MPI uses.
   void sum(double* values, std::size_t count) const;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The number in a file; unlimited when there is none ("max", or no such file).
+/// Number in a file; unlimited for "max" or a missing file.
 double number_in(const std::string& path) {
   std::ifstream file(path);
   double value = 0.0;

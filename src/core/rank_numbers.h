@@ -13,7 +13,8 @@ class RankNumbers {
   virtual ~RankNumbers() = default;
   /// Adds to the numbers of this rank. A failure is kept until the checkpoint is closed.
   virtual void append(const double* numbers, std::size_t count) = 0;
-  /// Compares what a rank wrote with its checksum. @throws Error naming what is missing or damaged
+  /// Compares the numbers that a rank wrote with their checksum. @throws Error naming what is
+  /// missing or damaged
   virtual void check(int rank) = 0;
   /// Reads numbers that a rank wrote, from the given one on. @throws Error
   virtual void read(int rank, std::uint64_t first, double* numbers, std::size_t count) = 0;

@@ -5,7 +5,7 @@ namespace furrow {
 
 namespace {
 
-constexpr double share_looked_at = 1.0 / 3.0;  // of the time so far
+constexpr double share_looked_at = 1.0 / 3.0;  // share of the elapsed time that the estimate uses
 
 }  // namespace
 
@@ -18,7 +18,7 @@ void TimeLeft::note(double done, double elapsed) {
 double TimeLeft::estimate() const {
   const Note &first = notes_.front(), &second = notes_[notes_.size() > 1 ? 1 : 0],
              &last = notes_.back();
-  // Where the job was when the last third began: between the first two notes
+  // state of the job at the start of the last third, between the first two notes
   const double start = (1.0 - share_looked_at) * last.elapsed,
                span = second.elapsed - first.elapsed;
   const double share = span > 0.0 ? (start - first.elapsed) / span : 0.0;

@@ -20,7 +20,7 @@ class TimeLeft {
   struct Note {
     double done, elapsed;
   };
-  std::deque<Note> notes_ = {{0.0, 0.0}};  // those that the last third of the time needs
+  std::deque<Note> notes_ = {{0.0, 0.0}};  // notes that cover the last third of the time
 };
 
 }  // namespace furrow

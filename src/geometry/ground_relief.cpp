@@ -162,7 +162,7 @@ std::string GroundRelief::map_checksum() const {
   return fmt::format("{}x{} {:016x}", map.columns, map.rows, checksum.value());
 }
 
-std::vector<std::string> GroundRelief::doubts(double length, double cell, bool moves) const {
+std::vector<std::string> GroundRelief::warnings(double length, double cell, bool moves) const {
   std::vector<std::string> found;
   if (const auto& washboard = parameters_.washboard) {
     const double wave = (*washboard)[0], height = std::abs((*washboard)[1]);

@@ -66,7 +66,7 @@ class GroundRelief {
   void check_map(const Vector2& lower, const Vector2& upper) const;
   /// Warnings of shapes that ground of this length and cell [m] cannot show, a sentence each.
   /// @param moves  with a wheel, over any distance
-  std::vector<std::string> doubts(double length, double cell, bool moves) const;
+  std::vector<std::string> warnings(double length, double cell, bool moves) const;
   /// Checksum of the heightmap's nodes, equal for equal maps; empty without a map.
   std::string map_checksum() const;
   std::string note() const;  ///< of the heightmap; empty without

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double opposite_cosine = -0.8;    // of the normals of a part's two faces
 constexpr double smooth_cosine = 0.87;      // of the normals of neighbours in one face
-constexpr double least_width = 1.2;         // of a face over the thickness
+constexpr double minimum_width = 1.2;       // of a face over the thickness
 constexpr double convex_sine = -1e-3;       // of the angle by which a neighbour bends backwards
 constexpr double on_edge = 1e-9;            // a ray through an edge meets both triangles
 constexpr std::size_t corners_of_gap = 64;  // of a part that measure its gap to another one
@@ -74,7 +74,7 @@ struct Search {
   const Surface& surface;
   std::vector<Vector3> normal;
   std::vector<double> thickness;              // [m]; 0: not thin
-  std::vector<int> opposite;                  // where the ray leaves
+  std::vector<int> opposite;                  // triangles at which the ray leaves
   std::vector<std::array<int, 3>> neighbour;  // across from each corner
   std::vector<int> face;                      // of each triangle
   std::vector<std::vector<int>> faces;        // their triangles
@@ -142,7 +142,7 @@ bool Search::is_wide(int number) const {
   for (const int t : triangles)
     for (const int n : surface.triangles[static_cast<std::size_t>(t)])
       half_length = std::max(half_length, (surface.x.col(n) - middle).norm());
-  return areas[static_cast<std::size_t>(number)] > least_width * largest * 2.0 * half_length;
+  return areas[static_cast<std::size_t>(number)] > minimum_width * largest * 2.0 * half_length;
 }
 
 /// Over the edge across from a corner, to the neighbour's corner that is not on the edge.

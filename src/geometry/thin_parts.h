@@ -20,7 +20,7 @@ namespace furrow {
 struct PlaceAtPart {
   double distance = 0.0;             ///< from the face that stands for the part [m]
   double height = 0.0;               ///< over the middle surface, or its tangent beyond an end [m]
-  bool beside = false;               ///< not beyond an end: tip, free side or open edge
+  bool beside = false;               ///< false beyond an end: tip, free side or open edge
   Vector3 normal = Vector3::Zero();  ///< of the part there
 };
 

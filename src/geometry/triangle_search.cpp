@@ -19,7 +19,7 @@ TriangleSearch::TriangleSearch(const Surface& surface, double reach, const Vecto
   lower_ = lower.cwiseMax((low.array() - reach).matrix());
   upper_ = upper.cwiseMin((high.array() + reach).matrix());
   if (!((upper_ - lower_).minCoeff() >= 0.0)) {
-    upper_ = lower_.array() - 1.0;  // covers nothing
+    upper_ = lower_.array() - 1.0;  // the search covers nothing
     return;
   }
   const double edge =

@@ -19,8 +19,9 @@ struct SnowBondTrial;
 /// Law of a contact of sintered snow. Functions set the energy if its pointer is not null.
 class SnowBond {
  public:
-  static constexpr double bond_radius = 0.2;    ///< of a sintered bond, of d
-  static constexpr double least_radius = 0.07;  ///< that resists rolling, of d
+  static constexpr double bond_radius = 0.2;  ///< of a sintered bond, of d
+  static constexpr double minimum_radius =
+      0.07;  ///< least radius of the rolling resistance, over d
   static constexpr double bending_limit = 4.0 / (3.0 * pi);
   static constexpr double torsion_limit = 2.0 / 3.0;
 
@@ -89,7 +90,7 @@ inline double squared_stiffness_radius(double area, double d) {
 
 /// Square of the radius a that gives the bending strength.
 inline double squared_strength_radius(double area, double d) {
-  return std::max(area * (1.0 / pi), SnowBond::least_radius * SnowBond::least_radius * (d * d));
+  return std::max(area * (1.0 / pi), SnowBond::minimum_radius * SnowBond::minimum_radius * (d * d));
 }
 
 inline double SnowBond::stored(const SnowBondParameters& law, double d, const SnowBondState& state,

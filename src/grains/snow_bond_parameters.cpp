@@ -12,7 +12,7 @@ namespace {
 // exp(60) is 1e26: with X < 1 no strength leaves the range of numbers
 constexpr double largest_exponent = 60.0;
 // Strength over modulus: light snow 15 Pa and 0.1 MPa, ice 5 MPa and 9 GPa. Beds are packed with 1.
-constexpr double least_crush_strain = 1e-6;
+constexpr double minimum_crush_strain = 1e-6;
 
 }  // namespace
 
@@ -55,10 +55,10 @@ SnowBondParameters SnowBondParameters::from(const Options& options) {
   all.w = options.number("snowSintering");
   all.damping = options.number("snowDamping");
   all.mu = options.number("coefficientFriction");
-  if (all.Y0 < least_crush_strain * all.E || all.Y0 > all.E)
+  if (all.Y0 < minimum_crush_strain * all.E || all.Y0 > all.E)
     throw InputError(options.where("snowCrushStrength"),
                      fmt::format("is {:g} Pa, with a snowModulus of {:g} Pa", all.Y0, all.E),
-                     fmt::format("{:g} to 1 of the modulus", least_crush_strain),
+                     fmt::format("{:g} to 1 of the modulus", minimum_crush_strain),
                      "give both in Pa");
   return all;
 }

@@ -24,7 +24,7 @@ struct SnowContact {
   Vector3 rotation;             ///< [rad/s] angular velocity of i less that of j
   double spin;                  ///< [rad/s] mean angular velocity about the normal
   double dt;                    ///< [s]
-  bool sinters = true;          ///< false: what it touches is not snow
+  bool sinters = true;          ///< false for a contact with another material than snow
 };
 
 /// Growth of the strengths with the crushing: exp(p X) - 1, exp(q X) - 1, exp(pc X) - 1.

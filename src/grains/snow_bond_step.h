@@ -55,7 +55,7 @@ class SnowBondStep {
   const double softness_;    // 1/k [m/N]
   const SnowGrowth growth_;  // by forces that are left out [N]
 
-  SnowStrength strong_;    // in the end at the crushing after the step
+  SnowStrength strong_;    // strength at the crushing after the step
   double share_;           // of the bond, before the step
   double torsion_before_;  // [N m]
   double normal_before_;   // [N]
@@ -101,10 +101,10 @@ inline void SnowBondStep::break_bond(SnowBondResponse& response) {
 /// lies below the root, and no later one exceeds it. @param there the excess at the start
 template <class Function>
 inline double SnowBondStep::solve(double start, Excess there, Function&& excess) {
-  constexpr int most_iterations = 60;
+  constexpr int maximum_iterations = 60;
   constexpr double tolerance = 1e-6;  // of x; the error is of the order of its square
   double x = start - there.value / there.slope;
-  for (int n = 0; n < most_iterations; ++n) {
+  for (int n = 0; n < maximum_iterations; ++n) {
     const Excess here = excess(x);
     const double change = -here.value / here.slope;
     x += change;
@@ -176,7 +176,7 @@ inline void SnowBondStep::grow(SnowBondResponse& response) {
   state_.bonded = true;
 }
 
-/// Moments, against the strength of the bond as it is now.
+/// Limits bending and torsion by the present strength of the bond.
 inline void SnowBondStep::bend() {
   const double radius = std::sqrt(squared_strength_radius(state_.area, d_));
   const double pressing = std::max(0.0, normal_),

@@ -7,7 +7,7 @@
 
 namespace furrow {
 
-/// The same component of two vectors.
+/// One component of two vectors.
 using Two [[gnu::vector_size(16)]] = double;
 
 struct TwoVectors {

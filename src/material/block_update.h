@@ -26,7 +26,7 @@ struct Points {
   Lanes iterations = 0.0;
   Mask below_data = Mask(false);  ///< outside the hardening data
   Mask beyond_data = Mask(false);
-  Mask stopped = Mask(false);  ///< the same, and the rule is to stop
+  Mask stopped = Mask(false);  ///< points beyond the data of a law that stops there
 };
 
 struct Step {
@@ -197,11 +197,11 @@ BlockResult update_points(const Kernel& kernel, double density, const PointBlock
   return result;
 }
 
-/// The same for kernels with an expensive return mapping. The first pass computes trial states and
-/// finishes groups whose points are all elastic or all on one surface. The second pass gathers the
-/// points of a few mixed groups by surface and corrects them, so that no lane waits for a neighbour
-/// on another surface. The third pass finishes these groups. Between the passes a point is a few
-/// numbers. A kernel has
+/// Updates the points of a block by a kernel with an expensive return mapping. The first pass
+/// computes trial states and finishes groups whose points are all elastic or all on one surface.
+/// The second pass gathers the points of a few mixed groups by surface and corrects them, so that
+/// no lane waits for a neighbour on another surface. The third pass finishes these groups. Between
+/// the passes a point is a few numbers. A kernel has
 ///   Prediction    the numbers of the trial, and the surface that each point still violates, if any
 ///   Numbers       the numbers of the end of the step
 /// and, with `trial` and `end` for the numbers of these,

@@ -44,7 +44,7 @@ FURROW_INLINE Lanes yield_measure(const SectionParameters& section, const Symmet
 template <SectionParameters::Kind kind>
 class DeviatoricReturn {
  public:
-  static constexpr int numbers = 3;  ///< that make it again: t, c, g
+  static constexpr int numbers = 3;  ///< size of the stored state: t, c, g
 
   FURROW_INLINE DeviatoricReturn(const SectionParameters& section, const Symmetric& trial)
       : section_{section} {

@@ -14,7 +14,7 @@ struct ReturnedPoint {
   Symmetric deviator;  ///< s at the end [Pa]
   Lanes p;             ///< pressure at the end [Pa]
   Lanes compaction;    ///< volumetric plastic strain of the step; 0 where elastic
-  Lanes back_stress;   ///< whose work on the compaction is frozen, not dissipated [Pa]
+  Lanes back_stress;   ///< back stress, whose work on the compaction is frozen, not dissipated [Pa]
   Mask yielding;
 };
 

@@ -127,7 +127,7 @@ FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
     find_stretch(x, size, motion.strain, inverse_u);
   motion.admissible = Mask(true);
 
-  const Mask large = !(size <= Lanes(0.01));  // also not a number
+  const Mask large = !(size <= Lanes(0.01));  // true also for NaN
   if (any(large)) {
     LargeStretch stretch{x, motion.strain, inverse_u};
     motion.admissible = stretch.find(large);

@@ -48,7 +48,7 @@ struct MaterialModel {
   std::vector<SectionSchema> sections;
   std::function<std::unique_ptr<Material>(const MaterialOptions&)> create;
   /// Warnings about values that are allowed but unusual together, a sentence each; may be empty.
-  std::function<std::vector<std::string>(const MaterialOptions&)> doubts;
+  std::function<std::vector<std::string>(const MaterialOptions&)> warnings;
   /// Parameters that the conformance suite is run with (src/testing/material_conformance.h), each a
   /// flat list of keys: "density 1600 elasticity linear E 5e6 nu 0.2". One for each branch of the
   /// code that the parameters select.

@@ -79,7 +79,7 @@ void check_plausible(const Material& material) {
         fmt::format("a speed {} [m/s]", possible_speed.text()), units);
 }
 
-std::vector<std::string> doubts(const Material& material) {
+std::vector<std::string> plausibility_warnings(const Material& material) {
   std::vector<std::string> sentences;
   const double speed = wave_speed(material, usual_pressure);
   const Range& usual = material.density() < rock_density ? usual_speed : usual_rock_speed;
@@ -127,7 +127,7 @@ Strength densest(const Options& law, const SectionOptions& hardening,
 }
 
 /// Percent for a void ratio or for strains.
-void doubt_densities(const MaterialOptions& sections, std::vector<std::string>& sentences) {
+void warn_of_densities(const MaterialOptions& sections, std::vector<std::string>& sentences) {
   const double density = sections.at("law").options.number("density");
   for (const char* name : {"elasticity", "hardening"}) {
     const auto section = sections.find(name);
@@ -150,7 +150,7 @@ void doubt_densities(const MaterialOptions& sections, std::vector<std::string>& 
 }
 
 /// Warns of strengths in kPa or mPa in the place of Pa.
-void doubt_strengths(const MaterialOptions& sections, std::vector<std::string>& sentences) {
+void warn_of_strengths(const MaterialOptions& sections, std::vector<std::string>& sentences) {
   const auto found = sections.find("hardening");
   if (found == sections.end()) return;
   const SectionOptions& hardening = found->second;
@@ -194,7 +194,8 @@ void doubt_strengths(const MaterialOptions& sections, std::vector<std::string>& 
 }
 
 /// Porous elasticity and exponential hardening are one compression line, with its unloading.
-void doubt_compression_line(const MaterialOptions& sections, std::vector<std::string>& sentences) {
+void warn_of_compression_line(const MaterialOptions& sections,
+                              std::vector<std::string>& sentences) {
   const auto elasticity = sections.find("elasticity"), hardening = sections.find("hardening");
   if (elasticity == sections.end() || hardening == sections.end() ||
       elasticity->second.type != "porous" || hardening->second.type != "exponential")
@@ -212,11 +213,11 @@ void doubt_compression_line(const MaterialOptions& sections, std::vector<std::st
 
 }  // namespace
 
-std::vector<std::string> doubts(const MaterialOptions& sections) {
+std::vector<std::string> plausibility_warnings(const MaterialOptions& sections) {
   std::vector<std::string> sentences;
-  doubt_compression_line(sections, sentences);
-  doubt_densities(sections, sentences);
-  doubt_strengths(sections, sentences);
+  warn_of_compression_line(sections, sentences);
+  warn_of_densities(sections, sentences);
+  warn_of_strengths(sections, sentences);
   return sentences;
 }
 

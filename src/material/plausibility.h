@@ -18,9 +18,9 @@ void check_plausible(const Material& material);
 
 /// Warnings about stiffness and density that are unusual together for ground or tyre, a sentence
 /// each.
-std::vector<std::string> doubts(const Material& material);
+std::vector<std::string> plausibility_warnings(const Material& material);
 
 /// Warnings about the values of the sections "elasticity" and "hardening" of a material file.
-std::vector<std::string> doubts(const MaterialOptions& sections);
+std::vector<std::string> plausibility_warnings(const MaterialOptions& sections);
 
 }  // namespace furrow

@@ -10,10 +10,10 @@ namespace {
 
 constexpr int tile_cells = 8;       // edge of a tile, about
 constexpr int margin_cells = 4;     // around a body
-constexpr int period_steps = 160;   // in which a wave crosses a tile several times
+constexpr int period_steps = 160;   // steps in which a wave crosses a tile several times
 constexpr double cautious = 0.1;    // of the force limit, for a tile that falls asleep
 constexpr int longest_wait = 64;    // periods
-constexpr std::size_t chunk = 256;  // particles whose weights are found together
+constexpr std::size_t chunk = 256;  // particles per batch of weights
 
 enum : char { awake_node = 1, resting_node = 2 };
 
@@ -97,7 +97,7 @@ bool ActiveGround::asleep(double x, double y) const {
 }
 
 double ActiveGround::awake_share() const {
-  double count[2] = {0.0, 0.0};  // all, awake
+  double count[2] = {0.0, 0.0};  // number of all and of awake particles
   for (const ParticleGroup& group : discretisation_.groups) {
     count[0] += static_cast<double>(group.particles.size());
     group.for_awake(
@@ -262,8 +262,9 @@ bool ActiveGround::fall_asleep() {
   speed = discretisation_.ranks().max(speed);
   if (!(contact_time_ > 0.0)) return false;
   const double periods = std::max(1.0, contact_time_ / elapsed_);
-  double energy = std::min(tolerance_ * contact_work_ / periods,  // that may be lost now [J]
-                           tolerance_ * contact_work_ - neglect_.energy);
+  double energy =
+      std::min(tolerance_ * contact_work_ / periods,  // energy that may be lost in this period [J]
+               tolerance_ * contact_work_ - neglect_.energy);
   bool any = false;
   for_tiles([&](int a, int b, Tile& one) {
     if (one.asleep || one.near_body || one.wait > 0) return;
@@ -327,7 +328,7 @@ void ActiveGround::find_awake_particles() {
   }
 }
 
-/// Particles of sleeping tiles stop; those that came in from awake ones as well.
+/// Stops the particles of sleeping tiles, with those that entered from awake tiles.
 void ActiveGround::bring_to_rest() {
   const Grid& grid = discretisation_.grid;
   for (ParticleGroup& group : discretisation_.groups) {
@@ -377,7 +378,7 @@ void ActiveGround::find_nodes() {
         for (int k = 0; k < grid.nodes(2); ++k) grid.motion(i, j, k) = NodeMotion{};
 }
 
-/// One of the sleeping tiles that reach a column of nodes.
+/// Index of a sleeping tile that reaches a column of nodes.
 std::size_t ActiveGround::sleeping_tile_at(int i, int j) const {
   std::size_t tile = 0;
   for (const int shift_x : {0, 2, 1})
@@ -422,7 +423,8 @@ void ActiveGround::find_resting_sums() {
     grid.clear_sums(local);
     for (ParticleGroup& group : discretisation_.groups)
       for_particles(group, true, [&](std::size_t from, std::size_t to) { visit(group, from, to); });
-    NodeExchange().add_shared_sums(grid, partition);  // not counted as traffic of the steps
+    NodeExchange().add_shared_sums(grid,
+                                   partition);  // sums that do not count as traffic of the steps
   };
   const auto for_resting_nodes = [&](auto&& visit) {
     std::size_t n = 0;

@@ -102,18 +102,19 @@ class ActiveGround {
   struct Tile {
     bool asleep = false;
     bool near_body = false;
-    int wait = 0;                            // periods until it may fall asleep
-    int last_wait = 0;                       // of the last time that it woke without a body
-    double largest_kinetic = 0.0;            // in this period [J]
-    Vector3 moved = Vector3::Zero();         // as above, in this period
-    Vector3 held_impulse = Vector3::Zero();  // as above, in this period
+    int wait = 0;                     // periods until it may fall asleep
+    int last_wait = 0;                // of the last time that it woke without a body
+    double largest_kinetic = 0.0;     // in this period [J]
+    Vector3 moved = Vector3::Zero();  // sum of mass times displacement in this period [kg m]
+    Vector3 held_impulse =
+        Vector3::Zero();  // impulse of the force on held nodes in this period [N s]
   };
   struct HeldNode {
     std::array<int, 3> node;
     std::size_t tile;
     double resting_mass;                 // of sleeping particles [kg]
     Vector3 resting_force;               // of their stress [N]
-    Vector3 momentum = Vector3::Zero();  // that awake particles brought to it [N s]
+    Vector3 momentum = Vector3::Zero();  // momentum from awake particles [N s]
   };
 
   int tile_of_cell(int axis, int cell) const;

@@ -44,7 +44,7 @@ void check_both_sides(const Discretisation& discretisation, const std::string& w
                      "look at the surface's place, and at 'centre' and 'surface' of the ground");
 }
 
-/// Refuses a terrain with parts that do not know sleeping ground. @throws InputError
+/// Refuses options of a terrain that sleeping ground does not support. @throws InputError
 void check_active(const TerrainParameters& parameters, const std::string& where) {
   const auto refuse = [&](const std::string& what, const std::string& remedy) {
     throw InputError(where + ", keyword 'sleep_tolerance'", "is given with " + what,

@@ -49,8 +49,8 @@ void run(const std::string& input, const std::string& output, bool plot) {
   show_warnings(run.material);
   const auto material = run.material.make();
   const furrow::PointHistory history = furrow::drive_point(*material, run.path);
-  if (const std::string doubt = furrow::doubt_of_strains(history); !doubt.empty())
-    show_warning(fmt::format("{}: {}", input, doubt));
+  if (const std::string warning = furrow::strain_warning(history); !warning.empty())
+    show_warning(fmt::format("{}: {}", input, warning));
   const std::string folder = folder_for(output, input);
   furrow::write_point_run(folder, run, *material, history);
   std::optional<furrow::StepError> error;

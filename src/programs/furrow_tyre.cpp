@@ -128,7 +128,7 @@ DarnellTyreSettings settings_of(const Request& request) {
   return settings;
 }
 
-// [Pa] what a tyre without air may carry by its own stiffness
+// [Pa] largest pressure that a tyre without air carries by its stiffness
 constexpr double own_stiffness = 100e3;
 
 constexpr const char* header =
@@ -214,7 +214,7 @@ void press(Tyre& tyre, const Request& request) {
     report(tyre, load, settle_under(load, tyre, plane, options), &plane, request);
 }
 
-constexpr double least_share = 1e-3;  // of the largest load: below, the tyre hardly settles
+constexpr double minimum_share = 1e-3;  // of the largest load: below, the tyre hardly settles
 
 /// Refuses a load that the pressure and the tyre's own stiffness cannot carry on the area of the
 /// tread seen from above, and a load that is tiny compared with it, perhaps in kN.
@@ -223,12 +223,12 @@ constexpr double least_share = 1e-3;  // of the largest load: below, the tyre ha
 void check_loads(double width, double diameter, double pressure, const Request& request) {
   const double largest = (pressure + own_stiffness) * width * diameter;
   for (const double load : request.loads)
-    if (load > largest || load < least_share * largest)
+    if (load > largest || load < minimum_share * largest)
       throw InputError(
           fmt::format("--load, at {:.6g} kPa,", 1e-3 * pressure), fmt::format("is {:.6g} N", load),
           fmt::format("a number in [{:.6g}, {:.6g}] [N], up to width times diameter of the tread "
                       "times the pressure and {:.6g} kPa for the tyre's own stiffness",
-                      least_share * largest, largest, 1e-3 * own_stiffness),
+                      minimum_share * largest, largest, 1e-3 * own_stiffness),
           "give N, not kN or kg; a large load needs a higher --pressure");
 }
 
@@ -273,8 +273,8 @@ void run(const CLI::App& app, const Request& request) {
     settings.sections = request.sections;
     settings.half = request.half;
     press_all(parameters, 2.0 * parameters.tread.end(), 2.0 * parameters.radius(), request, [&] {
-      if (const std::string doubt = wrinkling(parameters); !doubt.empty())
-        fmt::print(stderr, "furrow-tyre: warning: {}: {}\n", request.file, doubt);
+      if (const std::string warning = wrinkling(parameters); !warning.empty())
+        fmt::print(stderr, "furrow-tyre: warning: {}: {}\n", request.file, warning);
       return BrickTyre(parameters, settings, rim, request.file);
     });
     return;

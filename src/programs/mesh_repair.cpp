@@ -47,10 +47,10 @@ using Polygons = std::vector<std::array<std::size_t, 3>>;
 // by more than the second and a short side below the share of the mesh's size.
 const double flat_angle = std::cos(radians(179.0));
 constexpr double side_ratio = 200.0, short_side = 1e-4;
-constexpr double sharp_edge = 20.0;       // degrees, kept by new facets
-constexpr double new_edge = 0.02;         // of new facets, over the mesh's size
-constexpr std::size_t most_parts = 300;   // that are united one by one
-constexpr double offset_of_wrap = 0.025;  // of the wrap from the mesh, over the detail
+constexpr double sharp_edge = 20.0;         // degrees, kept by new facets
+constexpr double new_edge = 0.02;           // of new facets, over the mesh's size
+constexpr std::size_t maximum_parts = 300;  // parts that are united one by one
+constexpr double offset_of_wrap = 0.025;    // of the wrap from the mesh, over the detail
 
 Vector3 vector_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
 Point point_of(const Vector3& x) { return {x.x(), x.y(), x.z()}; }
@@ -119,7 +119,7 @@ class Repair {
     if (!CGAL::is_closed(mesh_)) return {};
     std::vector<Mesh> parts;
     cgal::split_connected_components(mesh_, parts);
-    if (parts.size() < 2 || parts.size() > most_parts) return {};
+    if (parts.size() < 2 || parts.size() > maximum_parts) return {};
     Mesh whole;
     for (Mesh& part : parts) {
       if (cgal::does_self_intersect(part)) return {};
@@ -246,7 +246,7 @@ class Repair {
   RepairLimits limits_;
   double size_ = 0.0;
   Mesh mesh_;
-  std::vector<std::string> changes_;  // that come first
+  std::vector<std::string> changes_;  // changes that are reported first
   std::vector<std::string> steps_;    // of the repair that is taken
 };
 

@@ -13,20 +13,18 @@ namespace furrow {
 
 namespace {
 
-constexpr double apart = 1e-6;          // [m] wheels that are closer are in one line
-constexpr double most_radii = 10.0;     // of a wheel, of heights above the axles
-constexpr double least_support = 1e-6;  // of the stiffest coordinate
-constexpr double closed_gap = 0.5;      // share of an error of distance that a step takes back
-
-double mass_of(const WheelRig& rig) { return rig.suspension()->mass(); }
+constexpr double apart = 1e-6;            // [m] wheels that are closer are in one line
+constexpr double maximum_radii = 10.0;    // of a wheel, of heights above the axles
+constexpr double minimum_support = 1e-6;  // of the stiffest coordinate
+constexpr double closed_gap = 0.5;        // share of an error of distance that a step takes back
 
 /// Centre of the sprung masses in x and y [m].
 Vector2 centre_of_mass(const std::vector<WheelRig*>& rigs) {
   Vector2 sum = Vector2::Zero();
   double mass = 0.0;
   for (const WheelRig* rig : rigs) {
-    sum += mass_of(*rig) * rig->wheel().centre().head<2>();
-    mass += mass_of(*rig);
+    sum += rig->sprung_mass() * rig->wheel().centre().head<2>();
+    mass += rig->sprung_mass();
   }
   return sum / mass;
 }
@@ -72,13 +70,13 @@ SprungBody Chassis::make_body(const Options& options, const std::vector<WheelRig
   double mass = 0.0;
   Vector2 least = rigs.front()->wheel().centre().head<2>(), most = least;
   for (const WheelRig* rig : rigs) {
-    if (!rig->suspension())
+    if (!rig->has_suspension())
       throw InputError(options.where("rigs"), "has a rig without suspension",
                        "rigs with suspension_stiffness", "the springs of the rigs carry the body");
     if (rig->joined())
       throw InputError(options.where("rigs"), "has a rig that carries a chassis already",
                        "each rig once");
-    mass += mass_of(*rig);
+    mass += rig->sprung_mass();
     least = least.cwiseMin(rig->wheel().centre().head<2>());
     most = most.cwiseMax(rig->wheel().centre().head<2>());
   }
@@ -89,12 +87,12 @@ SprungBody Chassis::make_body(const Options& options, const std::vector<WheelRig
   for (const WheelRig* rig : rigs) {
     const Vector2 arm = (rig->wheel().centre().head<2>() - centre) / span.maxCoeff();
     const Vector3 b(1.0, inertia[1] > 0.0 ? arm.y() : 0.0, inertia[2] > 0.0 ? -arm.x() : 0.0);
-    support += rig->suspension()->stiffness() * b * b.transpose();
+    support += rig->strut().stiffness * b * b.transpose();
   }
   for (int k = 1; k < 3; ++k)
     if (inertia[k] == 0.0) support(k, k) = support(0, 0);
   const Vector3 values = Eigen::SelfAdjointEigenSolver<Matrix3>(support).eigenvalues();
-  if (!(values[0] > least_support * values[2]))
+  if (!(values[0] > minimum_support * values[2]))
     throw InputError(options.where("rigs"),
                      "has wheels that do not support the body in roll and "
                      "pitch",
@@ -110,10 +108,10 @@ Chassis::Chassis(const Options& options, std::vector<WheelRig*> rigs)
   double radius = 0.0;
   for (const WheelRig* rig : rigs_) radius = std::max(radius, rig->wheel().nominal_radius());
   for (const char* key : {"height", "guide_height"})
-    if (std::abs(options.number(key)) > most_radii * radius)
+    if (std::abs(options.number(key)) > maximum_radii * radius)
       throw InputError(options.where(key), fmt::format("is {:g} m", options.number(key)),
                        fmt::format("-{0:.3g} to {0:.3g} m, {1:g} radii of the largest wheel",
-                                   most_radii * radius, most_radii),
+                                   maximum_radii * radius, maximum_radii),
                        "give m, not cm or mm");
   for (WheelRig* rig : rigs_) {
     places_.push_back(rig->wheel().position(Coordinate::x));
@@ -169,8 +167,8 @@ Vector2 Chassis::moment(double dt) {
   double mass = 0.0;
   for (const WheelRig* rig : rigs_) {
     const WheelHub& wheel = rig->wheel();
-    mass += mass_of(*rig);
-    speed += mass_of(*rig) * wheel.velocity().head<2>();
+    mass += rig->sprung_mass();
+    speed += rig->sprung_mass() * wheel.velocity().head<2>();
     weight += rig->sprung_weight();
     guides += Vector2(wheel.constraint(Coordinate::x), wheel.constraint(Coordinate::y));
     const Vector3 axle = wheel.axle();

@@ -16,7 +16,7 @@ struct GrainWork {
   double roll = 0.0;     ///< by rolling friction
   double square = 0.0;   ///< by normal forces of the contacts
   double below = 0.0;    ///< of these three, below the track
-  double ahead = 0.0;    ///< ahead of it, within its width
+  double ahead = 0.0;    ///< work ahead of the track, within its width
   double aside = 0.0;    ///< next to it
   double walls = 0.0;    ///< by contacts with anything but grains and the wheel
   double lifted = 0.0;   ///< against gravity

@@ -25,11 +25,14 @@ struct Strut {
 ///   F = k (h - s) + c (h' - s')        force on the axle
 ///   M q'' = sum b (F - W) + (0, m_x, m_y)
 /// The dampers are implicit in the velocity of the body. Velocities are half a step behind
-/// positions. One body on one strut is a Suspension.
+/// positions. A body with the mass alone on one strut is a quarter car.
 class SprungBody {
  public:
   /// @param inertia mass [kg], roll and pitch inertia [kg m^2]; an angle with the inertia 0 is held
-  explicit SprungBody(const Vector3& inertia) : inertia_(inertia) {}
+  /// @param position first q [m, rad]; @param velocity first q' [m/s, rad/s]
+  explicit SprungBody(const Vector3& inertia, const Vector3& position = Vector3::Zero(),
+                      const Vector3& velocity = Vector3::Zero())
+      : inertia_(inertia), position_(position), velocity_(velocity) {}
 
   /// Advances by one step. Sets the results of the struts. @param moment m_x, m_y about the centre
   /// of mass [N m]
@@ -53,7 +56,7 @@ class SprungBody {
   void count_energy(const std::vector<Strut>& struts);
 
   Vector3 inertia_;
-  Vector3 position_ = Vector3::Zero(), velocity_ = Vector3::Zero();
+  Vector3 position_, velocity_;
   Energy energy_;
   // struts, turn and moment of the last step
   std::vector<double> heights_, forces_, dampers_, weights_, tops_;  // [m], [N], [N], [N], [m]

@@ -14,7 +14,7 @@ namespace {
 
 // Share of the load that the ground bears when a lowered wheel has come down on it.
 constexpr double touching_share = 0.02;
-constexpr double least_share = 0.05;  // least part of a growing load for it
+constexpr double minimum_share = 0.05;  // least part of a growing load for it
 // dt^2 k/m and dt c/m of a suspension, whose force is constant over a step
 constexpr double largest_spring_step = 0.1, largest_damper_step = 0.2;
 
@@ -146,7 +146,7 @@ void WheelRig::drive_vertical(double time, double dt) {
   } else {
     wheel_.release(Coordinate::z);
     const double share = load_ramp_.value(time);
-    if (suspension_)
+    if (has_suspension())
       press_by_suspension(share, dt);
     else
       wheel_.set_load(load_ * share * down());
@@ -161,9 +161,9 @@ void WheelRig::drive_vertical(double time, double dt) {
 /// @return whether the rig holds or moves the wheel
 bool WheelRig::lower(double time, double dt) {
   const double middle = time + 0.5 * dt;
-  if (middle >= speed_ramp_.start || (suspension_ && middle >= load_ramp_.start)) return false;
+  if (middle >= speed_ramp_.start || (has_suspension() && middle >= load_ramp_.start)) return false;
   const double share = load_ramp_.value(time), force = wheel_.ground_wrench().force.z();
-  const bool touches = force > touching_share * load_ * std::max(share, least_share);
+  const bool touches = force > touching_share * load_ * std::max(share, minimum_share);
   const bool loads = middle >= load_ramp_.start && force <= -share * load_ * down().z();
   if (touches && loads) return false;
   if (!touches && middle >= creep_end_) return false;
@@ -188,32 +188,33 @@ Vector3 WheelRig::down() const {
 /// Weight of the wheel and force of the suspension, while a share of the weights acts. Along the
 /// ground the axle carries all of the load.
 void WheelRig::press_by_suspension(double share, double dt) {
-  const double least_mass = std::min(suspension_->mass(), wheel_.total_mass());
-  if (dt * dt * suspension_->stiffness() > largest_spring_step * least_mass ||
-      dt * suspension_->damping() > largest_damper_step * least_mass)
+  const double minimum_mass = std::min(sprung_mass_, wheel_.total_mass());
+  if (dt * dt * strut_.stiffness > largest_spring_step * minimum_mass ||
+      dt * strut_.damping > largest_damper_step * minimum_mass)
     throw StateError(fmt::format(
         "wheel rig: a step of {:g} s is too long for a suspension of {:g} N/m and {:g} N s/m on "
         "{:.4g} kg; write a smaller timestep",
-        dt, suspension_->stiffness(), suspension_->damping(), least_mass));
+        dt, strut_.stiffness, strut_.damping, minimum_mass));
   const double own = share * wheel_weight_;
   sprung_weight_ = (share * load_ - own) * down();
   Vector3 load = share * load_ * down();
   load.z() = own * down().z();
-  if (!joined_)
-    load.z() -= suspension_->advance(wheel_.position(Coordinate::z) - first_height_,
-                                     wheel_.rate(Coordinate::z), -sprung_weight_.z(), dt);
   wheel_.set_load(load);
+  if (joined_) return;
+  SprungBody body(sprung_mass_ * Vector3::UnitX(), strut_.top_height * Vector3::UnitX(),
+                  strut_.top_velocity * Vector3::UnitX());
+  std::vector<Strut> struts{strut()};
+  body.advance(struts, Vector2::Zero(), dt);
+  press(struts.front());
 }
 
 double WheelRig::sprung_drop() const {
-  return suspension_ ? start_height_ - first_height_ - suspension_->height() : 0.0;
+  return has_suspension() ? start_height_ - first_height_ - strut_.top_height : 0.0;
 }
 
 Strut WheelRig::strut() const {
-  Strut strut;
+  Strut strut = strut_;
   strut.arm = wheel_.centre().head<2>();
-  strut.stiffness = suspension_->stiffness();
-  strut.damping = suspension_->damping();
   strut.height = wheel_.position(Coordinate::z) - first_height_;
   strut.velocity = wheel_.rate(Coordinate::z);
   strut.weight = -sprung_weight_.z();
@@ -221,15 +222,17 @@ Strut WheelRig::strut() const {
 }
 
 void WheelRig::press(const Strut& strut) {
-  suspension_->follow(strut.top_height, strut.top_velocity, strut.force);
+  strut_ = strut;
   wheel_.set_load(wheel_.load() - Vector3(0.0, 0.0, strut.force));
 }
 
 void WheelRig::pull(double force) { wheel_.set_load(wheel_.load() + Vector3(force, 0.0, 0.0)); }
 
 void WheelRig::checkpoint(Checkpoint& state) {
-  if (!suspension_) return;
-  suspension_->checkpoint(state);
+  if (!has_suspension()) return;
+  state.value("sprung_height", strut_.top_height);
+  state.value("sprung_velocity", strut_.top_velocity);
+  state.value("suspension_force", strut_.force);
   state.value("first_height", first_height_);
 }
 

@@ -16,7 +16,6 @@
 #include "furrow/rig/ramp.h"
 #include "furrow/rig/slip.h"
 #include "furrow/rig/sprung_body.h"
-#include "furrow/rig/suspension.h"
 
 namespace furrow {
 
@@ -84,9 +83,8 @@ class WheelRig {
   /// True if the rig sets a coordinate, "the load" or "the axle torque" of its wheel in every step.
   bool sets(const std::string& coordinate) const;
   bool travel_free() const { return travel_free_; }
-  bool has_suspension() const { return suspension_.has_value(); }
-  /// Suspension of the rig; null without one.
-  const Suspension* suspension() const { return suspension_ ? &*suspension_ : nullptr; }
+  bool has_suspension() const { return sprung_mass_ > 0.0; }
+  double sprung_mass() const { return sprung_mass_; }  ///< [kg]; 0 without suspension
   const WheelHub& wheel() const { return wheel_; }
 
   // Suspension that carries a part of a chassis, which computes its step after apply().
@@ -97,7 +95,8 @@ class WheelRig {
   bool lowered(double time) const { return time >= load_ramp_.start; }
   /// Weight of the sprung mass in the axes of the ground [N].
   const Vector3& sprung_weight() const { return sprung_weight_; }
-  Strut strut() const;                 ///< its arm is the place of the axle
+  /// Present strut of the suspension. Its arm is the place of the axle.
+  Strut strut() const;
   void press(const Strut& strut);      ///< presses the wheel with the results
   void pull(double force);             ///< pulls the axle along x, in addition to its load [N]
   void checkpoint(Checkpoint& state);  ///< of the suspension
@@ -169,16 +168,17 @@ class WheelRig {
   SlipDefinition slip_definition_ = SlipDefinition::larger_speed;  // of the prescribed slip
   double slip_radius_ = 0.0;                                       // [m] of the rim speed in slip
   bool slip_by_total_speed_ = false;
-  bool lowers_ = false;       // the wheel to the ground, before the load grows
-  double start_ = 0.0;        // [s] of the settling; as all ramps, on the first pass's clock
-  Ramp lowering_ramp_;        // begins with the settling
-  double touching_z_ = 0.0;   // [m] of the axle when the wheel has come to the ground
+  bool lowers_ = false;      // true if the rig lowers the wheel to the ground before the load grows
+  double start_ = 0.0;       // [s] of the settling; as all ramps, on the first pass's clock
+  Ramp lowering_ramp_;       // begins with the settling
+  double touching_z_ = 0.0;  // [m] of the axle when the wheel has come to the ground
   double creep_speed_ = 0.0;  // [m/s] of a wheel that does not touch there
   double creep_end_ = 0.0;    // [s]
   Ramp load_ramp_;            // begins when the wheel is lowered
   Ramp speed_ramp_;           // begins with the acceleration
   PassSchedule passes_;
-  std::optional<Suspension> suspension_;
+  double sprung_mass_ = 0.0;  // [kg]; 0 without suspension
+  Strut strut_;               // stiffness, damping, and the results of the last step
   bool joined_ = false;
   Vector3 sprung_weight_ = Vector3::Zero();  // [N] in the axes of the ground, of this step
   double start_height_ = 0.0;                // [m] of the axle with a suspension

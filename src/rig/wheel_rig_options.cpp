@@ -15,10 +15,10 @@ namespace furrow {
 namespace {
 
 // Load over the weight of the wheel: beyond, it does not move, or is shot away.
-constexpr double least_load = 1e-3, largest_load = 1e5;
+constexpr double minimum_load = 1e-3, largest_load = 1e5;
 // Travel while the wheel settles, over its diameter; with less, the damping of the rig holds the
 // wheel.
-constexpr double least_travel = 1e-3;
+constexpr double minimum_travel = 1e-3;
 // Axle torque over load x radius: no ground bears more.
 constexpr double largest_torque = 100.0;
 // Drawbar load over the load.
@@ -320,7 +320,7 @@ void WheelRig::retarget(const Options& options) {
                      fmt::format("is {}, and targets change during the run", passes_.passes()),
                      "one pass", "the passes are planned before the first");
   check_constants(options);
-  if (suspension_ && options.given("load_mass") &&
+  if (has_suspension() && options.given("load_mass") &&
       options.number("load_mass") * options.number("gravity") != load_)
     throw InputError(options.where("load_mass"), "changes during the run",
                      "the value of the script with a suspension, whose sprung mass it has set",
@@ -399,18 +399,18 @@ void WheelRig::check_load(const Options& options) const {
     return;
   }
   const double share = load_ / (wheel_.total_mass() * standard_gravity);
-  if (!(share >= least_load && share <= largest_load))
+  if (!(share >= minimum_load && share <= largest_load))
     throw InputError(
         options.where(options.given("load_mass") ? "load_mass"
                       : has_course("load_force") ? "load_force_ramp"
                                                  : "load_force"),
         fmt::format("makes {:.4g} N, {:.3g} of the weight of the wheel's own {:.4g} kg", load_,
                     share, wheel_.total_mass()),
-        fmt::format("{:g} to {:g} of it", least_load, largest_load),
+        fmt::format("{:g} to {:g} of it", minimum_load, largest_load),
         "check the load and the mass of the wheel: what hangs on the axle is part of its mass");
   const double settle_time = options.number("settle_time"), damping = options.number("damping"),
                travel = load_ * settle_time / damping,
-               least = least_travel * 2.0 * wheel_.nominal_radius();
+               least = minimum_travel * 2.0 * wheel_.nominal_radius();
   if (travel < least)
     throw InputError(options.where("damping"),
                      fmt::format("is {:g} N s/m: under {:.4g} N the wheel goes down by {:.3g} m in "
@@ -544,8 +544,9 @@ void WheelRig::read_suspension(const Options& options) {
     throw InputError(where, fmt::format("is given, and the load is {:.4g} kg", load_ / gravity),
                      fmt::format("a load above {:.4g} kg, the mass of the wheel", own),
                      "the mass of the wheel is unsprung, the rest of the load is sprung");
-  suspension_.emplace(options.number("suspension_stiffness"), options.number("suspension_damping"),
-                      sprung);
+  sprung_mass_ = sprung;
+  strut_.stiffness = options.number("suspension_stiffness");
+  strut_.damping = options.number("suspension_damping");
   wheel_weight_ = own * gravity;
   start_height_ = first_height_ = wheel_.position(Coordinate::z);
 }
@@ -585,16 +586,16 @@ void WheelRig::read_passes(const Options& options) {
   lifted_z_ = wheel_.centre().z() + lift;
   // to half a diameter below the start in most of the time for it
   lowering_speed_ = (lift + 0.5 * diameter) / (0.9 * passes_.lowering().duration);
-  const double least_time =
+  const double minimum_time =
       back * std::max(lowering_speed_ / largest_lowering_speed,
                       length / passes_.returning().duration / largest_return_speed);
-  if (back < least_time)
+  if (back < minimum_time)
     throw InputError(
         options.where("return_time"),
         fmt::format("is {:g} s: the wheel goes back by {:.4g} m at {:.3g} m/s and down from a lift "
                     "of {:.3g} m at {:.3g} m/s",
                     back, length, length / passes_.returning().duration, lift, lowering_speed_),
-        fmt::format("at least {:.3g} s: {:g} m/s back and {:g} m/s down", least_time,
+        fmt::format("at least {:.3g} s: {:g} m/s back and {:g} m/s down", minimum_time,
                     largest_return_speed, largest_lowering_speed));
 }
 

@@ -126,7 +126,7 @@ const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
        "downward motion of the sprung mass since the start; 0 without suspension",
        [](R& r) { return r.rig.sprung_drop(); }},
       {"suspension_force", "N", "force of spring and damper on the axle, positive downwards",
-       [](R& r) { return r.rig.suspension_ ? r.rig.suspension_->force() : 0.0; }},
+       [](R& r) { return r.rig.strut_.force; }},
       {"kinetic_energy", "J", "kinetic energy of the wheel",
        [](R& r) { return r.budget.kinetic_energy; }},
       {"contact_work", "J", "work of the ground on the wheel",

@@ -20,14 +20,15 @@ class Footprint {
   static constexpr double highest_piece = 3.0;
 
   struct Pieces {
-    std::vector<int> slot;             // place of the cell in Cells
-    std::vector<int> triangle;         // ascending
-    std::vector<double> area;          // seen from above [m^2]
-    std::vector<double> height;        // z of its centroid [m]
-    std::vector<double> weight_b;      // barycentric, of the triangle's second node
-    std::vector<double> weight_c;      // and third
-    std::vector<std::size_t> outline;  // first corner; of one more piece than there are
-    std::vector<Vector2> corners;      // [m]
+    std::vector<int> slot;         // place of the cell in Cells
+    std::vector<int> triangle;     // ascending
+    std::vector<double> area;      // seen from above [m^2]
+    std::vector<double> height;    // z of its centroid [m]
+    std::vector<double> weight_b;  // barycentric, of the triangle's second node
+    std::vector<double> weight_c;  // weight of the third corner
+    std::vector<std::size_t>
+        outline;  // index of the first corner of each piece, and the end of the last
+    std::vector<Vector2> corners;  // [m]
     std::size_t size() const { return area.size(); }
   };
   struct Cells {

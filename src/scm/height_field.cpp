@@ -14,8 +14,8 @@ namespace furrow {
 
 namespace {
 
-constexpr double round_off = 1e-9;  // of a cell
-constexpr double most_cells = 4e8;  // 16 bytes each
+constexpr double round_off = 1e-9;     // of a cell
+constexpr double maximum_cells = 4e8;  // 16 bytes each
 
 /// Whole cells, at least as long as the length.
 int cells_in(double length, double cell) {
@@ -57,9 +57,9 @@ HeightField::HeightField(const HeightFieldParameters& parameters, const std::str
                    parameters.width),
        fmt::format("at most {:g} m", side), "give all in m, and at least 4 cells across a wheel");
   const double count = parameters.length / parameters.cell * (parameters.width / parameters.cell);
-  need(count <= most_cells, where + ", keyword 'cell'",
+  need(count <= maximum_cells, where + ", keyword 'cell'",
        fmt::format("is {:g} m, which makes {:.3g} cells", parameters.cell, count),
-       fmt::format("at most {:g} cells", most_cells), "every rank keeps all of them");
+       fmt::format("at most {:g} cells", maximum_cells), "every rank keeps all of them");
   columns_ = cells_in(parameters.length, parameters.cell);
   rows_ = cells_in(parameters.width, parameters.cell);
   lower_ = parameters.centre - 0.5 * parameters.cell * Vector2(columns_, rows_);

@@ -43,7 +43,7 @@ class HeightField {
   std::size_t cells() const { return surface_.size(); }
   const Vector2& lower() const { return lower_; }  ///< corner of the lowest x and y [m]
   Vector2 upper() const { return lower_ + cell() * Vector2(columns_, rows_); }
-  double highest() const { return highest_; }  ///< no cell's surface was ever higher [m]
+  double highest() const { return highest_; }  ///< highest surface of a cell so far [m]
   std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
@@ -85,7 +85,7 @@ class HeightField {
   int columns_ = 0, rows_ = 0;
   double highest_ = 0.0;
   std::vector<double> surface_, reference_;  // of each cell [m]
-  std::vector<double> undisturbed_;          // the same at the start; empty on flat ground
+  std::vector<double> undisturbed_;          // heights at the start; empty on flat ground
 };
 
 }  // namespace furrow

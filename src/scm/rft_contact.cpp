@@ -37,12 +37,12 @@ void RftContact::find_depths() {
   const Vector2 &lower = field_.lower(), upper = field_.upper();
   for (Eigen::Index node = 0; node < x.cols(); ++node) {
     const double above = x(2, node) - field_.highest();
-    if (above > longest_edge_) {  // no triangle of it reaches the sand
+    if (above > longest_edge_) {  // no triangle reaches the sand
       depth_[node] = -above;
       continue;
     }
     const Vector2 place = x.col(node).head<2>();
-    if (above >= 0.0) {  // where the field may end
+    if (above >= 0.0) {  // a body above the sand may leave the field
       depth_[node] = field_.height(place.cwiseMax(lower).cwiseMin(upper)) - x(2, node);
       continue;
     }

@@ -17,7 +17,7 @@ class RftContact : public Contact {
     double strength = 0.0;     ///< xi [N/m^3]
     double friction = 0.0;     ///< of the body's surface and the sand
     double slip_length = 0.0;  ///< K [m], by which a face moves until the sand resists
-    bool records = true;       ///< this rank hands forces to the body's contact record
+    bool records = true;       ///< true if this rank adds forces to the contact record of the body
   };
   /// Results of the last apply().
   struct Step {
@@ -52,7 +52,7 @@ class RftContact : public Contact {
   Losses losses_;
   double longest_edge_ = 0.0;  // [m]
   VectorX depth_;              // of each node below the surface [m]; near it exact
-  Matrix3X direction_;  // in which each triangle has moved; shorter than 1 where it set off lately
+  Matrix3X direction_;  // direction of motion of each triangle; shorter than 1 after a recent start
 };
 
 }  // namespace furrow

@@ -24,7 +24,7 @@ class ScmContact : public Contact {
     /// strength
     double friction = std::numeric_limits<double>::infinity();
     std::optional<double> slip_length = {};  ///< [m] in the place of K, for this friction; none: K
-    bool records = true;  ///< this rank hands forces to the body's contact record
+    bool records = true;  ///< true if this rank adds forces to the contact record of the body
   };
   /// Results of the last apply(); in a half model, of the half.
   struct Step {

@@ -23,7 +23,7 @@ constexpr double no_cohesion = 1e-6;  // [Pa] a fit gives this for 0
 // 1.1 MPa [Wong2008]; 10 times less and more
 constexpr double usual_sinkage = 0.05, usual_width = 0.1;
 const Range pressures = Range::closed(200.0, 1e7);
-constexpr double least_share_of_k_c = 1e-3;  // dry sand has 6e-3 [Wong2008]
+constexpr double minimum_share_of_k_c = 1e-3;  // dry sand has 6e-3 [Wong2008]
 constexpr char si_of_modulus[] = "give N/m^(n+2), not kN/m^(n+2) or MN/m^(n+2)";
 
 }  // namespace
@@ -119,13 +119,13 @@ void check_plausible(const Soil& soil, Where where) {
         fmt::format("a pressure of {:g} to {:g} Pa, from snow to heavy clay", pressures.lower,
                     pressures.upper),
         si_of_modulus);
-  const double least_stiffness = pressure / usual_sinkage;
-  if (soil.stiffness < least_stiffness)
+  const double minimum_stiffness = pressure / usual_sinkage;
+  if (soil.stiffness < minimum_stiffness)
     throw InputError(
         where("stiffness"), fmt::format("is {:g} Pa/m", soil.stiffness),
         fmt::format("at least {:.3g} Pa/m for this soil, which has {:.3g} Pa at a sinkage of "
                     "{:g} m and would spring back by more than that",
-                    least_stiffness, pressure, usual_sinkage),
+                    minimum_stiffness, pressure, usual_sinkage),
         "give Pa/m, not kPa/m");
 }
 
@@ -186,17 +186,17 @@ void check(const Soil& soil, const std::string& where) {
        "a soil that resists", "give 'k_phi'");
 }
 
-std::vector<std::string> doubts(const Soil& soil) {
+std::vector<std::string> plausibility_warnings(const Soil& soil) {
   std::vector<std::string> found;
   const double cohesion = soil.cohesion > no_cohesion ? soil.cohesion : 0.0;
   for (const auto& [key, value] : {std::pair("c", cohesion), std::pair("K", soil.shear_length)})
-    if (const std::string doubt = usual_range(key).doubt(value); !doubt.empty())
-      found.push_back(fmt::format("the parameter {} {}", key, doubt));
+    if (const std::string warning = usual_range(key).warning(value); !warning.empty())
+      found.push_back(fmt::format("the parameter {} {}", key, warning));
   if (const double share = std::abs(soil.k_c) / (usual_width * std::abs(soil.k_phi));
-      soil.k_c != 0.0 && soil.k_phi != 0.0 && share < least_share_of_k_c)
+      soil.k_c != 0.0 && soil.k_phi != 0.0 && share < minimum_share_of_k_c)
     found.push_back(fmt::format(
         "k_c is {:g}, {:.1g} of k_phi times a width of {:g} m; soils have {:g} or more, or 0; {}",
-        soil.k_c, share, usual_width, least_share_of_k_c, si_of_modulus));
+        soil.k_c, share, usual_width, minimum_share_of_k_c, si_of_modulus));
   return found;
 }
 

@@ -58,6 +58,6 @@ Soil soil_of_card(const Options& options, const std::map<std::string, double>& c
 /// @throws InputError for values out of range @param where names the soil
 void check(const Soil& soil, const std::string& where);
 /// Warnings of values that are unusual for soils, a sentence each.
-std::vector<std::string> doubts(const Soil& soil);
+std::vector<std::string> plausibility_warnings(const Soil& soil);
 
 }  // namespace furrow

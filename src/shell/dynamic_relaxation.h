@@ -66,7 +66,7 @@ struct RelaxationSupport {
 
 struct RelaxationSettings {
   double time_step = 0.0;           ///< [s] a stable one
-  double force_scale = 1.0;         ///< [N] to which unbalanced forces are compared
+  double force_scale = 1.0;         ///< [N] scale of unbalanced forces
   double tolerance = 1e-3;          ///< largest unbalanced force on a node over force_scale
   long max_steps = 400000;          ///< of both phases
   double loading_time = 0.0;        ///< [s]
@@ -85,7 +85,7 @@ struct Relaxation {
   bool converged = false;
 };
 
-/// Neither the structure nor anything in it is owned.
+/// Solves a structure for rest by dynamic relaxation; does not own the structure.
 class DynamicRelaxation {
  public:
   DynamicRelaxation(RelaxingStructure& structure, const RelaxationSupport& support,
@@ -115,7 +115,7 @@ class DynamicRelaxation {
   RelaxationSettings settings_;
   double start_height_;  // [m] of the support
   long loading_steps_;
-  double rotation_length_;          // [m] by which moments are divided to compare with forces
+  double rotation_length_;          // [m] length that converts moments to forces for comparison
   double support_velocity_ = 0.0;   // [m/s] upwards
   double support_force_ = 0.0;      // [N] unbalanced now, of what is applied of the load
   double initial_imbalance_ = 0.0;  // [N] on the support at the start: the load to be applied

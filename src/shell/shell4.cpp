@@ -191,7 +191,7 @@ void Shell4::add_forces(ShellNodes& nodes, double pressure) {
   const Shell4Result result =
       kernels<Shell4Kernels>().forces(kinds_.data(), kinds_.size(), places_->view(), nodes.x.data(),
                                       nodes.q[0].coeffs().data(), pressure, on_node.data());
-  if (!result.finite || !(result.least_four_cos2 > folded_four_cos2))
+  if (!result.finite || !(result.minimum_four_cos2 > folded_four_cos2))
     throw StateError(fmt::format("shell: element {} is folded or its nodes are not finite",
                                  places_->element[result.most_rotated]));
   for (Eigen::Index n = 0; n < nodes.count(); ++n) {

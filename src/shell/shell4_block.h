@@ -24,7 +24,7 @@ struct Shell4Kind {
   /// inverse of the stress-free medians (columns), rows (p1, p2) and (0, q2) [1/m]; p2 = q2 = 0
   /// where the axes turn with the first median alone
   double p1, p2, q2;
-  std::size_t first = 0, last = 0;  ///< range of its elements' places
+  std::size_t first = 0, last = 0;  ///< range of the places of the elements
 };
 
 /// Mirror image in the plane of an element's axes 1 and 3: of node n, and the sign of each of its
@@ -45,8 +45,8 @@ struct Shell4Result {
   double volume = 0.0;  ///< [m^3] a third of the integral of x . n dA
   /// smallest 4 cos^2(angle/2) of a node's rotation relative to its element: 4 without bending, 1
   /// at 120 degrees
-  double least_four_cos2 = 4.0;
-  std::size_t most_rotated = 0;  ///< where among the places that element is
+  double minimum_four_cos2 = 4.0;
+  std::size_t most_rotated = 0;  ///< place of this element
   bool finite = true;
 };
 

@@ -92,7 +92,7 @@ struct Deformation {
   Triple arm[4];         // e^T (x_a - c) [m]
   Triple half_theta[4];  // sin(angle/2) axis
   Lanes cosine[4];       // cos(angle/2)
-  Lanes least_four_cos2 = 4.0;
+  Lanes minimum_four_cos2 = 4.0;
 
   FURROW_INLINE Deformation(const Quadrilateral& quad, const Frame& frame, const Shell4Kind& kind,
                             const Shell4Places& places, std::size_t first, const double* turn) {
@@ -121,7 +121,7 @@ struct Deformation {
   FURROW_INLINE void set_rotation(int n, const Turn& relative) {
     const Lanes sign = select(relative.w < Lanes(0.0), Lanes(-1.0), Lanes(1.0));
     cosine[n] = sign * relative.w;
-    least_four_cos2 = min(least_four_cos2, Lanes(4.0) * relative.w * relative.w);
+    minimum_four_cos2 = min(minimum_four_cos2, Lanes(4.0) * relative.w * relative.w);
     half_theta[n] = {sign * relative.x, sign * relative.y, sign * relative.z};
     u[6 * n + 3] = half_theta[n].x + half_theta[n].x;
     u[6 * n + 4] = half_theta[n].y + half_theta[n].y;
@@ -245,10 +245,10 @@ FURROW_INLINE void scatter(const Shell4Places& places, std::size_t first, int co
 /// Records the element with the largest rotation of a node, or with one that is not a number.
 FURROW_INLINE void note_most_rotated(const Lanes& four_cos2, std::size_t first,
                                      Shell4Result& result) {
-  if (!any(!(four_cos2 >= Lanes(result.least_four_cos2)))) return;
+  if (!any(!(four_cos2 >= Lanes(result.minimum_four_cos2)))) return;
   for (int lane = 0; lane < lane_count; ++lane)
-    if (!(four_cos2[lane] >= result.least_four_cos2)) {
-      result.least_four_cos2 = four_cos2[lane];
+    if (!(four_cos2[lane] >= result.minimum_four_cos2)) {
+      result.minimum_four_cos2 = four_cos2[lane];
       result.most_rotated = first + static_cast<std::size_t>(lane);
     }
 }
@@ -280,7 +280,7 @@ inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_coun
         const Triple force = pressure * push - frame.space(gradient.by_position(n));
         scatter(places, i, count, n, force, frame.space(gradient.by_spin(n)), on_node);
       }
-      note_most_rotated(deformation.least_four_cos2, i, result);
+      note_most_rotated(deformation.minimum_four_cos2, i, result);
     }
   }
   for (int lane = 0; lane < lane_count; ++lane) {
@@ -288,7 +288,7 @@ inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_coun
     result.volume += volume[lane];
   }
   result.finite =
-      result.energy - result.energy == 0.0 && result.least_four_cos2 == result.least_four_cos2;
+      result.energy - result.energy == 0.0 && result.minimum_four_cos2 == result.minimum_four_cos2;
   return result;
 }
 

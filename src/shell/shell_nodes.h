@@ -29,7 +29,7 @@ struct ShellNodes {
   void hold(Eigen::Index node);  ///< everything
   void kick(double dt);          ///< velocities from force and moment
   void drift(double dt);         ///< positions and rotations from velocities
-  void stop();                   ///< no velocity
+  void stop();                   ///< sets all velocities to zero
   double kinetic_energy() const;
   /// Largest force on a free component [N]; moments are divided by a length.
   double largest_unbalanced(double length) const;

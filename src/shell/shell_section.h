@@ -22,7 +22,7 @@ struct OrthotropicLayer {
 /// 1 and 2 without Poisson's coupling.
 struct OrthotropicWall {
   double stretch1 = 0.0, stretch2 = 0.0;  ///< [N/m]
-  double shear = 0.0;                     ///< [N/m] in the wall; across it 5/6 of that
+  double shear = 0.0;  ///< [N/m] shear stiffness in the wall; transverse shear has 5/6 of it
   double bending1 = 0.0, bending2 = 0.0;  ///< [N m]; twist sqrt(bending1 bending2)/2
 };
 

@@ -188,7 +188,7 @@ Brick8::Brick8(const Matrix3X& reference, std::vector<Hexahedron> bricks, const 
 void Brick8::add_kind(const Alike& alike, const VectorX& stiffness, const Rubber& rubber) {
   std::array<double, 8> mass;
   mass.fill(std::numeric_limits<double>::infinity());
-  for (const int e : alike.members)  // the least of all, as they are one kind
+  for (const int e : alike.members)  // minimum over the elements of one kind
     for (std::size_t n = 0; n < 8; ++n) {
       const int node = nodes_of(e)[n];
       mass[n] = std::min(mass[n], mass_[node] * alike.merged.stiffness(n) / stiffness[node]);
@@ -206,13 +206,13 @@ void Brick8::add_kind(const Alike& alike, const VectorX& stiffness, const Rubber
 void Brick8::add_forces(const Matrix3X& x, Matrix3X& force) {
   const Brick8Result result = kernels<Brick8Kernels>().forces(
       kinds_.data(), kinds_.size(), places_->view(), x.data(), force.data());
-  if (!result.finite || !(result.least_ratio > 0.0))
+  if (!result.finite || !(result.minimum_ratio > 0.0))
     throw StateError(
         fmt::format("brick: element {} is turned inside out or its nodes are not "
                     "finite",
                     places_->element[result.most_squeezed]));
   energy_ = result.energy;
-  least_ratio_ = result.least_ratio;
+  minimum_ratio_ = result.minimum_ratio;
   highest_rate_ = result.highest_rate;
 }
 

@@ -49,7 +49,7 @@ class Brick8 {
   /// stress-free state, and then an estimate at the last add_forces (brick8_kernel.h, rate_now()).
   double stable_time_step() const;
   /// Smallest volume over stress-free volume at a Gauss point, at the last add_forces.
-  double least_volume_ratio() const { return least_ratio_; }
+  double minimum_volume_ratio() const { return minimum_ratio_; }
   std::size_t kind_count() const;      ///< distinct stress-free shapes
   void checkpoint(Checkpoint& state);  ///< state of stable_time_step()
 
@@ -65,7 +65,7 @@ class Brick8 {
   VectorX mass_;               // [kg]
   double highest_rate_ = 0.0;  // omega^2 [1/s^2]
   double energy_ = 0.0;        // [J]
-  double least_ratio_ = 1.0;
+  double minimum_ratio_ = 1.0;
 };
 
 }  // namespace furrow

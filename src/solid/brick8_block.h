@@ -24,7 +24,7 @@ struct Brick8Kind {
   double inverse_mass[8];          ///< [1/kg] of the shares that the nodes bring into the element
   double deviatoric_rate;          ///< highest omega^2 by mu alone, stress-free [1/s^2]
   double highest_rate;             ///< highest omega^2, stress-free [1/s^2]
-  std::size_t first = 0, end = 0;  ///< range of places, padded
+  std::size_t first = 0, end = 0;  ///< padded range of the places of the elements
 };
 
 /// Places of elements, sorted by kind; one that only pads has the nodes of another and active = 0.
@@ -35,8 +35,8 @@ struct Brick8Places {
 
 struct Brick8Result {
   double energy = 0.0;            ///< [J]
-  double least_ratio = 1e30;      ///< smallest det F at a Gauss point
-  std::size_t most_squeezed = 0;  ///< where among the places that element is
+  double minimum_ratio = 1e30;    ///< smallest det F at a Gauss point
+  std::size_t most_squeezed = 0;  ///< place of this element
   double highest_rate = 0.0;      ///< estimate of the largest omega^2 of an element now [1/s^2]
   bool finite = true;
 };

@@ -78,7 +78,7 @@ FURROW_INLINE Lanes rate_now(const Triple (&node)[8], const Brick8Kind& kind, co
 struct BrickBlock {
   Triple force[8];  // dW/dx [N]
   Lanes energy;     // [J]
-  Lanes least_ratio = 1e30;
+  Lanes minimum_ratio = 1e30;
   Lanes rate;
 
   FURROW_INLINE BrickBlock(const Triple (&node)[8], const Brick8Kind& kind) {
@@ -90,7 +90,7 @@ struct BrickBlock {
       F[q] = deformation_gradient(node, kind.gradient[q]);
       cofactor[q] = cofactors(F[q]);
       ratio[q] = dot(F[q].x, cofactor[q].x);
-      least_ratio = min(least_ratio, ratio[q]);
+      minimum_ratio = min(minimum_ratio, ratio[q]);
       volume += Lanes(kind.weight[q]) * ratio[q];
     }
     const Lanes J = volume * Lanes(1.0 / kind.volume);
@@ -129,10 +129,10 @@ FURROW_INLINE void hand_over(const BrickBlock& block, const Brick8Places& places
       at[2] -= block.force[n].z[lane];
     }
     result.energy += block.energy[lane];
-    // one that is no number stays noted
-    if (result.least_ratio == result.least_ratio &&
-        !(block.least_ratio[lane] >= result.least_ratio)) {
-      result.least_ratio = block.least_ratio[lane];
+    // NaN is kept
+    if (result.minimum_ratio == result.minimum_ratio &&
+        !(block.minimum_ratio[lane] >= result.minimum_ratio)) {
+      result.minimum_ratio = block.minimum_ratio[lane];
       result.most_squeezed = place;
     }
     if (block.rate[lane] > result.highest_rate) result.highest_rate = block.rate[lane];

@@ -14,7 +14,7 @@ constexpr double xi[8] = {-1, 1, 1, -1, -1, 1, 1, -1};
 constexpr double eta[8] = {-1, -1, 1, 1, -1, -1, 1, 1};
 constexpr double zeta[8] = {-1, -1, -1, -1, 1, 1, 1, 1};
 // Volume at a Gauss point over its mean below which it counts as none
-constexpr double least_share = 1e-6;
+constexpr double minimum_share = 1e-6;
 
 /// Values of the shape functions at a point, and derivatives by the parameter coordinates.
 struct Trilinear {
@@ -63,7 +63,7 @@ Brick8Shape::Brick8Shape(const Matrix38& nodes) : mean_gradient(Matrix38::Zero()
       share[n] += weight[q] * shape.value[static_cast<Eigen::Index>(n)];
   }
   for (const double w : weight)
-    if (!(w > least_share * std::abs(volume) / 8.0))
+    if (!(w > minimum_share * std::abs(volume) / 8.0))
       throw StateError("is turned inside out, or has no volume");
   mean_gradient /= volume;
 }

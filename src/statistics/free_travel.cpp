@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t fewest_rows = 16;  // in the second half of the cruise
 constexpr double stalled_share = 0.05, digging_share = 0.5, rest_share = 1e-3;
-constexpr double least_growth = 0.1, least_sinking = 0.05;  // of the value
-constexpr double levelling = 0.5;                           // of the growth before
+constexpr double minimum_growth = 0.1, minimum_sinking = 0.05;  // of the value
+constexpr double levelling = 0.5;                               // of the growth before
 
 /// The second half of the cruise, quarter by quarter.
 struct Course {
@@ -35,7 +35,7 @@ struct Course {
   double quarter(std::size_t n) const {
     return mean(n * values.size() / 4, (n + 1) * values.size() / 4);
   }
-  /// Does it grow for certain, by more than a share of its mean?
+  /// True if the growth is significant and larger than a share of the mean.
   bool grows(double share) const {
     const SteadyCriteria criteria{share, 2};
     const SteadyValue value = analyse_steady("", "", values, spacing, 0.0, criteria);
@@ -59,7 +59,7 @@ double largest(const std::vector<double>& values) {
 
 bool runs_away(const Course& speed) {
   const Course size = speed.size();
-  return size.grows(least_growth) && !size.levels_off();
+  return size.grows(minimum_growth) && !size.levels_off();
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ TravelVerdict judge_travel(const History& history, std::size_t first_of_cruise) 
                         "the second half of the cruise and does not level off, while the axle "
                         "moves at {:.3g} m/s",
                         rim.quarter(0), u, v)};
-  if (!rim_rests && std::abs(v) < digging_share * std::abs(u) && hub_drop.grows(least_sinking))
+  if (!rim_rests && std::abs(v) < digging_share * std::abs(u) && hub_drop.grows(minimum_sinking))
     return {Travel::digs_in,
             fmt::format("the wheel digs in: it sinks from {:.4g} to {:.4g} m over the second half "
                         "of the cruise; {}",

@@ -153,9 +153,11 @@ ResistanceParts resistance_parts(const std::vector<History>& histories,
   const auto is_all = [&](double taken) {
     return std::abs(taken - pressed) <= same_work * std::abs(pressed);
   };
-  if (is_all(sum(taken_by_continuum))) {  // a continuum for each
+  if (is_all(sum(taken_by_continuum))) {  // each wheel has a continuum
     for (const Part& part : parts_of_continuum()) add(part.name, sum_of(part.channels));
-  } else if (is_all(taken_by_continuum(histories.front(), windows.front()))) {  // one for all
+  } else if (is_all(taken_by_continuum(
+                 histories.front(),
+                 windows.front()))) {  // parts of the continuum that all wheels share
     for (const Part& part : parts_of_continuum())
       add(part.name, change(histories.front(), windows.front(), part.channels));
   } else {

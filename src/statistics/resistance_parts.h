@@ -10,7 +10,7 @@
 
 namespace furrow {
 
-/// One part of the resistance.
+/// Part of the resistance: name and force.
 struct ResistancePart {
   std::string name;
   double force = 0.0;  ///< [N] energy over travel
@@ -20,7 +20,7 @@ struct ResistancePart {
 /// pull, slope and sinking. For a towed wheel on level ground it is the towing force.
 struct ResistanceParts {
   double whole = 0.0;                 ///< [N]
-  std::vector<ResistancePart> parts;  ///< those that the scene has
+  std::vector<ResistancePart> parts;  ///< parts that occur in the scene
   double unexplained = 0.0;           ///< [N]
   /// how the wheel gave the grains their energy, if their parts are divided by place
   std::vector<ResistancePart> given_to_grains;

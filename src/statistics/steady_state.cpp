@@ -167,7 +167,7 @@ void trim_to_whole_pitches(const History& history, Window& window) {
 }
 
 /// Warning about a given window that begins before the cruise; else empty.
-std::string doubt_of_begin(const History& history, const Window& window) {
+std::string begin_warning(const History& history, const Window& window) {
   const bool early = has_stages(history) && history.column(stage_channel)[window.first] <
                                                 static_cast<double>(RigStage::cruise);
   return early ? "the window begins before the cruise, while the rig still settles or accelerates"
@@ -266,7 +266,7 @@ Window select_window(const History& history, const WindowRequest& request,
   if (window.rows() < 2)
     throw Error(fmt::format("the window ({}) has {} row(s): widen it or record more often",
                             window.how, window.rows()));
-  if (!window.automatic) window.warning = doubt_of_begin(history, window);
+  if (!window.automatic) window.warning = begin_warning(history, window);
   window.begin = time[window.first];
   window.end = time[window.last - 1];
   window.distance = x[window.last - 1] - x[window.first];

@@ -15,7 +15,8 @@ namespace furrow {
 struct WindowRequest {
   std::optional<double> from_time, to_time;          ///< [s]
   std::optional<double> from_distance, to_distance;  ///< [m] travelled along x since the first row
-  bool whole_pitches = false;  ///< also a given window begins later, for whole pitches of grousers
+  bool whole_pitches =
+      false;  ///< true: a given window begins later, to cover whole pitches of grousers
 
   bool given() const { return from_time || to_time || from_distance || to_distance; }
 };
@@ -63,7 +64,7 @@ struct SteadyCriteria {
   double known_mean = 0.02;
 };
 
-/// One quantity over a window.
+/// Mean of a quantity over a window, with errors and verdict.
 struct SteadyValue {
   std::string name, unit;
   double mean = 0.0;
@@ -73,7 +74,7 @@ struct SteadyValue {
   /// [s] integrated autocorrelation time; half a row spacing for uncorrelated rows
   double correlation_time = 0.0;
   double independent_samples = 0.0;  ///< deviation^2/standard_error^2
-  std::size_t blocks = 0;            ///< whose means are uncorrelated
+  std::size_t blocks = 0;            ///< number of blocks with uncorrelated means
   double block_duration = 0.0;       ///< [s]
   double drift = 0.0;                ///< change over the window by a straight line
   double drift_error = 0.0;          ///< its standard error

@@ -11,7 +11,7 @@ namespace furrow {
 /// Resistance of a vehicle over the stretch of time in which all wheels are steady.
 struct VehicleResistance {
   Window window;                   ///< of the first wheel
-  std::vector<Resistance> wheels;  ///< each over that stretch
+  std::vector<Resistance> wheels;  ///< resistance of each wheel over this stretch
   /// values for all wheels: force_z [N], resistance_coefficient, drawbar_pull [N]; sums, ratios of
   /// sums
   std::vector<SteadyValue> values;

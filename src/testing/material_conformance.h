@@ -146,7 +146,7 @@ TEST_P(MaterialConformance, StateIsDescribed) {
   }
 }
 
-TEST_P(MaterialConformance, NoStepNoChange) {
+TEST_P(MaterialConformance, ZeroStepChangesNothing) {
   VectorX state = some_state();
   const VectorX before = state;
   update(Matrix3::Zero(), state, 0.0);
@@ -244,7 +244,7 @@ TEST_P(MaterialConformance, BlocksOfAnySizeAndAlignmentAgreeWithSinglePoints) {
   for (std::size_t i = 0; i < n; ++i) {
     VectorX point = some_state();
     for (std::size_t f = 0; f < fields; ++f) state[f][i + 1] = point[static_cast<Eigen::Index>(f)];
-    // one point strains much
+    // one point has a large strain
     const Matrix3 h = random_gradient(i == 5 ? 0.3 : strain_scale(point));
     for (std::size_t k = 0; k < 9; ++k)
       gradient[k][i + 1] = h(static_cast<Eigen::Index>(k / 3), static_cast<Eigen::Index>(k % 3));
@@ -279,7 +279,7 @@ TEST_P(MaterialConformance, BlocksOfAnySizeAndAlignmentAgreeWithSinglePoints) {
 
 /// The work of the stress equals the change of the three energies up to an error of second order in
 /// the step, for steps without duration and, if the law depends on the rate, in its response time.
-TEST_P(MaterialConformance, WorkIsAccountedFor) {
+TEST_P(MaterialConformance, WorkIsStoredFrozenOrDissipated) {
   std::vector<double> durations{0.0};
   if (material_->rate_dependent()) durations.push_back(time_step_ / 0.3);
   for (const double duration : durations) {
@@ -317,7 +317,7 @@ TEST_P(MaterialConformance, WorkIsAccountedFor) {
   }
 }
 
-TEST_P(MaterialConformance, NoStepLeavesTheYieldSurfaceOrTakesBackHeat) {
+TEST_P(MaterialConformance, StressStaysInsideTheYieldSurfaceAndHeatNeverFalls) {
   for (int path = 0; path < 20; ++path) {
     VectorX state = material_->initial_state();
     for (int step = 0; step < 20; ++step) {
@@ -326,7 +326,8 @@ TEST_P(MaterialConformance, NoStepLeavesTheYieldSurfaceOrTakesBackHeat) {
       update(random_gradient(size), state, time_step_);
       ASSERT_TRUE(state.allFinite());
       const double scale = material_->stress_scale(state);
-      if (!material_->rate_dependent()) {  // whose stress may be beyond the surface for a time
+      if (!material_
+               ->rate_dependent()) {  // rate-dependent stress may exceed the surface for a time
         ASSERT_LE(material_->yield_function(state), 1e-8 * scale);
       }
       ASSERT_GE(state[field::dissipated_energy] - heat, -1e-14 * scale);
@@ -335,7 +336,7 @@ TEST_P(MaterialConformance, NoStepLeavesTheYieldSurfaceOrTakesBackHeat) {
 }
 
 /// Sums dev(strain) - (s_end - s_start)/(2 G) over steps without rotation.
-TEST_P(MaterialConformance, EquivalentPlasticStrainIsWhatElasticityDoesNotTake) {
+TEST_P(MaterialConformance, EquivalentPlasticStrainIsTotalMinusElastic) {
   const std::optional<std::size_t> kept = material_->find_field("eps_dev_pl");
   if (!kept) return;
   const auto deviator = [](const Vector6& a) {
@@ -365,7 +366,7 @@ TEST_P(MaterialConformance, EquivalentPlasticStrainIsWhatElasticityDoesNotTake) 
   EXPECT_GT(yielded, 50);
 }
 
-TEST_P(MaterialConformance, TheTimeStepCountsForRateDependentLawsOnly) {
+TEST_P(MaterialConformance, OnlyRateDependentLawsDependOnTheTimeStep) {
   const VectorX start = some_state();
   const Matrix3 h = random_gradient(strain_scale(start));
   VectorX sudden = start;
@@ -413,7 +414,7 @@ TEST_P(MaterialConformance, WaveModulusBoundsTheElasticTangent) {
   }
 }
 
-TEST_P(MaterialConformance, YieldSurfaceIsWhereTheYieldFunctionVanishes) {
+TEST_P(MaterialConformance, YieldFunctionIsZeroOnTheYieldSurface) {
   const VectorX state = some_state();
   const std::vector<Vector2> line = material_->yield_surface(state);
   if (line.empty()) {
@@ -421,7 +422,7 @@ TEST_P(MaterialConformance, YieldSurfaceIsWhereTheYieldFunctionVanishes) {
     return;
   }
   EXPECT_GE(line.size(), 100u);
-  // Closed by a cap, or open: then it goes on straight.
+  // an open surface continues as a straight line
   const double end = line.back()[1], scale = material_->stress_scale(state);
   if (end > 1e-9 * scale) {
     VectorX beyond = state;
@@ -441,7 +442,7 @@ TEST_P(MaterialConformance, YieldSurfaceIsWhereTheYieldFunctionVanishes) {
   }
 }
 
-TEST_P(MaterialConformance, AFoldedOrUndefinedStepStopsWithItsCause) {
+TEST_P(MaterialConformance, InvertedOrUndefinedDeformationStopsTheRun) {
   Matrix3 folded = Matrix3::Zero();
   folded(1, 1) = -1.2;
   Matrix3 undefined = Matrix3::Zero();
@@ -463,7 +464,7 @@ TEST_P(MaterialConformance, AFoldedOrUndefinedStepStopsWithItsCause) {
 
 /// Not-a-number in a value that the law reads from the state stops the run. A value that it does
 /// not read (the stress of a law that carries its deformation) is replaced.
-TEST_P(MaterialConformance, AStateThatIsNotFiniteStopsTheRun) {
+TEST_P(MaterialConformance, NonFiniteStateStopsTheRun) {
   const VectorX start = some_state();
   VectorX expected = start;
   update(Matrix3::Zero(), expected, 0.0);

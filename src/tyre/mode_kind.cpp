@@ -33,7 +33,7 @@ ModeKind kind_of(const Tyre& tyre, const Matrix3X& shape) {
   kind.axial = parts.row(2).squaredNorm() / total;
 
   for (int n = 0; n <= grid.around / 2; ++n) {
-    // Parseval: both signs of n but where they are the same
+    // Parseval: both signs of n, once for n = 0 and for the largest n
     const double signs = n == 0 || 2 * n == grid.around ? 1.0 : 2.0;
     double motion = 0.0;
     for (int j = 0; j < grid.lines(); ++j) {

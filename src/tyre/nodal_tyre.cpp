@@ -83,10 +83,10 @@ double NodalTyre::total_mass() const {
   return WheelHub::total_mass() + copies() * nodes_.mass.sum();
 }
 
-Wrench NodalTyre::ground_wrench() const { return of_whole(WheelHub::ground_wrench()); }
+Wrench NodalTyre::ground_wrench() const { return to_whole(WheelHub::ground_wrench()); }
 
 /// Adds the mirror image in y = 0 of what acts on a half model.
-Wrench NodalTyre::of_whole(const Wrench& computed) const {
+Wrench NodalTyre::to_whole(const Wrench& computed) const {
   if (!half_model()) return computed;
   return {Vector3(2.0 * computed.force.x(), 0.0, 2.0 * computed.force.z()),
           Vector3(0.0, 2.0 * computed.moment.y(), 0.0)};
@@ -112,7 +112,7 @@ void NodalTyre::compute_internal() {
 }
 
 /// Forces on the surface: sets contact_ and contact_on_rim_.
-void NodalTyre::compute_contact() { contact_on_rim_ = of_whole(hand_over(contact_)); }
+void NodalTyre::compute_contact() { contact_on_rim_ = to_whole(hand_over(contact_)); }
 
 /// Wrench of elements and pressure on the rim of the whole tyre: the opposite of their sum on the
 /// nodes, and their action on the beads.
@@ -122,7 +122,7 @@ Wrench NodalTyre::internal_on_rim() const {
   on_rim.moment -= nodes_.moment.rowwise().sum();
   for (Eigen::Index n = 0; n < nodes_.count(); ++n)
     on_rim.moment -= Vector3(nodes_.x.col(n) - centre()).cross(Vector3(nodes_.force.col(n)));
-  return of_whole(on_rim);
+  return to_whole(on_rim);
 }
 
 /// Wrench of elements and pressure on the beads of the computed part.
@@ -162,8 +162,8 @@ void NodalTyre::step(double dt) {
   compute_contact();
   const Wrench on_beads = internal_on_beads();
   const NodeStep::Sums sums = node_step_.move(nodes_, contact_, *this, dt);
-  const Wrench damping = of_whole({Vector3(-sums.damping.force), Vector3(-sums.damping.moment)});
-  const Wrench internal = of_whole({Vector3(on_beads.force - sums.internal.force),
+  const Wrench damping = to_whole({Vector3(-sums.damping.force), Vector3(-sums.damping.moment)});
+  const Wrench internal = to_whole({Vector3(on_beads.force - sums.internal.force),
                                     Vector3(on_beads.moment - sums.internal.moment)});
   const Vector3 V_before = velocity();
   const Vector3 Omega_before = angular_velocity();
@@ -210,7 +210,7 @@ double NodalTyre::kinetic_energy() const {
 
 EnergyBudget NodalTyre::energy_budget() const {
   EnergyBudget budget = hub_budget();
-  budget.momentum += of_whole({nodes_.v * nodes_.mass, Vector3::Zero()}).force;
+  budget.momentum += to_whole({nodes_.v * nodes_.mass, Vector3::Zero()}).force;
   budget.kinetic_energy = kinetic_energy();
   budget.stored_energy = stored_;
   budget.dissipated_energy += damped_;

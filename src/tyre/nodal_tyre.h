@@ -81,7 +81,7 @@ class NodalTyre : public Tyre {
   /// Direction of the circumference at a point about the axle centre, as made.
   static Vector3 circumferential(const Vector3& at) { return {-at.z(), 0.0, at.x()}; }
   void hold_in_symmetry_plane(Eigen::Index node);
-  void carry_by_rim(Eigen::Index node);                    ///< makes a bead of it
+  void carry_by_rim(Eigen::Index node);                    ///< turns the node into a bead
   double copies() const { return tread_grid().copies(); }  ///< computed parts in the whole
   const Matrix3X& reference() const { return reference_; }
   void checkpoint_nodes(Checkpoint& state);
@@ -89,7 +89,7 @@ class NodalTyre : public Tyre {
   ShellNodes nodes_;
 
  private:
-  class Relaxing;  // as shell/dynamic_relaxation.h sees it
+  class Relaxing;  // the tyre as a structure of shell/dynamic_relaxation.h
 
   void step(double dt);
   void compute_internal();
@@ -99,7 +99,7 @@ class NodalTyre : public Tyre {
   void place_beads();
   double potential() const { return elastic_ - pressure_ * volume_; }
   void count_stored_energy() { stored_ = potential() - zero_; }
-  Wrench of_whole(const Wrench& computed) const;
+  Wrench to_whole(const Wrench& computed) const;
 
   Relaxation relax(RigidPlane* plane, const SettleOptions& options) override;
   NaturalModes modes_with(const std::vector<int>& held, int count) override;

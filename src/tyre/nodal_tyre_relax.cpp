@@ -18,7 +18,7 @@ constexpr double rim_damping = 60.0;        // [1/s]
 constexpr double wrinkle_damping = 200.0;
 constexpr double disturbance = 1e-3;  // [m/s]
 // Pressure [Pa] whose forces are the least scale of unbalanced ones
-constexpr double least_pressure_scale = 1e3;
+constexpr double minimum_pressure_scale = 1e3;
 
 }  // namespace
 
@@ -79,7 +79,7 @@ Relaxation NodalTyre::relax(RigidPlane* plane, const SettleOptions& options) {
 
   RelaxationSettings settings;
   settings.time_step = relaxation_step();
-  settings.force_scale = std::max(pressure_, least_pressure_scale) * tread_area() / copies() /
+  settings.force_scale = std::max(pressure_, minimum_pressure_scale) * tread_area() / copies() /
                          static_cast<double>(nodes_.count());
   settings.tolerance = options.tolerance;
   settings.max_steps = options.max_steps;

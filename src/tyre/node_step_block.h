@@ -17,7 +17,7 @@ struct NodeStepNodes {
   double *x, *v, *w;               ///< 3 a node [m], [m/s], [rad/s]
   double* turn;                    ///< 4, the quaternion x, y, z, w
   const double *force, *moment;    ///< 3, of elements and pressure [N], [N m]
-  const double* contact;           ///< 3 [N]
+  const double* contact;           ///< 3 components of the contact force [N]
   const double *mass, *inertia;    ///< 1, padded [kg], [kg m^2]
   const double* mobility[3];       ///< 1, padded: of each component 1/mass, or 0 where it is held
   const double* spin_mobility[3];  ///< 1/inertia, or 0

@@ -14,7 +14,7 @@ inline namespace FURROW_ISA {
 FURROW_INLINE Triple spread(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 FURROW_INLINE void add(Triple& sum, const Triple& a) { sum = sum + a; }
 
-/// Sums in the lanes.
+/// Sums of forces, moments and powers over the nodes of each lane.
 struct NodeSums {
   Triple force = {0.0, 0.0, 0.0}, moment = {0.0, 0.0, 0.0};
   Triple damping_force = {0.0, 0.0, 0.0}, damping_moment = {0.0, 0.0, 0.0};

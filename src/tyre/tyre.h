@@ -23,7 +23,7 @@ struct SettleOptions {
   /// largest unbalanced force on a node over the pressure's force on a node
   double tolerance = 1e-3;
   long max_steps = 400000;
-  std::optional<double> axle_height = {};  ///< [m] where the axle goes, instead of a load
+  std::optional<double> axle_height = {};  ///< [m] final height of the axle, instead of a load
 };
 
 /// An inflated, deformable wheel on a rim, which is the hub. A half model (half_model()) computes
@@ -58,7 +58,7 @@ class Tyre : public WheelHub {
   double crown_radius() const;              ///< [m] mean distance of the middle line from the axle
   virtual double section_width() = 0;       ///< [m] largest, from sidewall to sidewall
   virtual double tread_energy() const = 0;  ///< [J] elastic
-  virtual double tread_mass() const = 0;    ///< [kg/m^2] of its area
+  virtual double tread_mass() const = 0;    ///< mass of the tread per area [kg/m^2]
   /// chord over length of the sidewall that is stretched most: near 1 it is nearly straight
   virtual double largest_sidewall_chord() const = 0;
 

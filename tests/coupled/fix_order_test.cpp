@@ -38,13 +38,13 @@ std::string message_of(Scene& scene) {
       [&] { coupling::check_fix_order(*scene.lammps().modify, scene.system()); });
 }
 
-TEST(FixOrder, TheSystemMadeByTheFirstBodyStandsBeforeWhatFollowsIt) {
+TEST(FixOrder, FirstBodyCreatesTheSystemAheadOfLaterFixes) {
   Scene scene;
   make_scene(scene);
   EXPECT_EQ(message_of(scene), "no error");
 }
 
-TEST(FixOrder, AMeshBeforeTheSystemIsRefusedWithTheReason) {
+TEST(FixOrder, MeshBeforeTheSystemIsRefused) {
   Scene scene;
   make_scene(scene);
   exchange(scene, "furrow_system", "skin");
@@ -55,7 +55,7 @@ TEST(FixOrder, AMeshBeforeTheSystemIsRefusedWithTheReason) {
   exchange(scene, "furrow_system", "skin");  // as it was: the scene can be taken down
 }
 
-TEST(FixOrder, AHistoryBeforeTheSystemIsRefused) {
+TEST(FixOrder, HistoryBeforeTheSystemIsRefused) {
   Scene scene;
   make_scene(scene);
   scene.commands(
@@ -70,7 +70,7 @@ TEST(FixOrder, AHistoryBeforeTheSystemIsRefused) {
 
 /// A body made later stands after the system and its meshes too, and that is right: the system
 /// calls it.
-TEST(FixOrder, LaterBodiesMayStandBehindMeshes) {
+TEST(FixOrder, BodyAfterAMeshIsAccepted) {
   Scene scene;
   make_scene(scene);
   scene.commands(

@@ -32,7 +32,7 @@ void stand_a_column(Scene& scene) {
   scene.command("run 40000");
 }
 
-TEST(GrainVirial, AColumnBearsWhatStandsOnIt) {
+TEST(GrainVirial, StressInAColumnIsTheWeightAbove) {
   Scene scene;
   stand_a_column(scene);
   EXPECT_FALSE(coupling::grain_virial(scene.lammps()));  // nobody had asked
@@ -55,7 +55,7 @@ TEST(GrainVirial, AColumnBearsWhatStandsOnIt) {
 }
 
 /// The set-up computes damping with velocities of the full step.
-TEST(GrainVirial, RunWithoutStepsHasNone) {
+TEST(GrainVirial, RunOfZeroStepsHasNoVirial) {
   Scene scene;
   stand_a_column(scene);
   scene.command("compute seen all stress/atom pair");

@@ -58,7 +58,7 @@ double sum(Scene& scene, int first, int last) {
 }
 
 // Head on: damping takes 1 - e^2 of the energy of the relative motion, and nothing slides.
-TEST(GrainWork, OfGrainsThatMeetHeadOnIsWhatTheDampingTakes) {
+TEST(GrainWork, HeadOnCollisionLosesEnergyToDamping) {
   Scene scene;
   box(scene);
   add_grain(scene, {-0.1, 0.0, -0.1});
@@ -77,7 +77,7 @@ TEST(GrainWork, OfGrainsThatMeetHeadOnIsWhatTheDampingTakes) {
 }
 
 // A grain falls freely while a rig tilts gravity onto a slope: nothing is left for walls.
-TEST(GrainWork, OfAGrainThatFallsOnASlopeIsAgainstTiltedGravity) {
+TEST(GrainWork, FreeFallOnASlopeIsWorkOfTiltedGravity) {
   Scene scene;
   box(scene);
   scene.commands(
@@ -114,7 +114,7 @@ double lumps_meet(Scene& scene, const Eigen::Vector2d& middle) {
 
 // Without friction all goes into damping, without damping all into friction. With both, blows at a
 // small angle take tangential damping beyond the limit of friction, which is not seen: 2 % here.
-TEST(GrainWork, OfLumpsThatMeetIsTheEnergyThatTheyLose) {
+TEST(GrainWork, CollidingLumpsLoseTheMeasuredWork) {
   struct Case {
     Sand sand;
     bool slides, damps;
@@ -143,7 +143,7 @@ TEST(GrainWork, OfLumpsThatMeetIsTheEnergyThatTheyLose) {
 }
 
 // Where it happens: below the track, ahead of it, beside it
-TEST(GrainWork, IsDividedByWhereItIsDone) {
+TEST(GrainWork, ZonesBelowAheadAndAsideReceiveTheirWork) {
   struct Case {
     double x, y;
     int place;
@@ -156,7 +156,7 @@ TEST(GrainWork, IsDividedByWhereItIsDone) {
   }
 }
 
-TEST(GrainWork, AgainstGravityIsTheWeightTimesTheHeight) {
+TEST(GrainWork, WorkAgainstGravityIsWeightTimesHeight) {
   Scene scene;
   box(scene);
   scene.command("fix weight all gravity 9.81 vector 0 0 -1");

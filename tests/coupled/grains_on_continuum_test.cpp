@@ -25,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(Sheets, GrainsOnContinuum,
                          ::testing::Values("", " multirate yes surface_mesh_every 2 surcharge 200",
                                            " trough 0.04 0.01"));
 
-TEST_P(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
+TEST_P(GrainsOnContinuum, BaseCarriesTheWeightOfTheGrains) {
   Scene scene;
   scene.granular_box(Vector3(-0.041, -0.041, -0.01), Vector3(0.041, 0.041, 0.15), 0.002);
   scene.contact_properties(5e6, 0.3, 0.5, 0.0);  // walls without friction carry no weight

@@ -101,7 +101,7 @@ void expect_alike(const Outcome& a, const Outcome& b, double share) {
 /// (tests/verification/tyre/half_on_ground_test.cpp). The difference here is the ground's grid,
 /// whose splines end in the plane of symmetry of the half and go on in the whole: 1.4 % with cells
 /// of half the tread's half width (2.5 % in cycles, in which small differences live on).
-TEST(HalfTyre, OnHalfAGroundIsTheWholeOnTheWhole) {
+TEST(HalfTyre, HalfModelRollsOnHalfGroundAsTheWhole) {
   const Outcome half = roll(true), whole = roll(false);
   EXPECT_GT(whole.spin, 0.2);
   EXPECT_GT(whole.deflection, 0.002);
@@ -127,7 +127,7 @@ FloorOutputs roll_on_road(bool half) {
 }
 
 /// Half a tyre on a rigid floor is the whole one to rounding, which grows in the transient.
-TEST(HalfTyre, OutputsOfTheFloorAreThoseOfTheWholeTyre) {
+TEST(HalfTyre, HalfModelHasTheFloorOutputsOfTheWhole) {
   const FloorOutputs half = roll_on_road(true), whole = roll_on_road(false);
   EXPECT_GT(whole.force_z, 1000.0);
   EXPECT_GT(whole.area, 1e-3);

@@ -74,7 +74,7 @@ struct Case {
 
 class HertzOnFacets : public testing::TestWithParam<Case> {};
 
-TEST_P(HertzOnFacets, ForceIsHertzEverywhere) {
+TEST_P(HertzOnFacets, ForceIsHertzOnFacesEdgesAndCorners) {
   const Case& c = GetParam();
   Surface start = make_sheet(cells, side, height);
   // shear of the sheet in its plane: angles beyond 120 degrees

@@ -37,7 +37,7 @@ namespace {
 using namespace coupling;
 using ::testing::HasSubstr;
 
-TEST(LiggghtsLibrary, IsTheVersionOfDebian12) {
+TEST(LiggghtsLibrary, VersionIsThatOfDebian12) {
   Scene scene;
   EXPECT_THAT(scene.lammps().universe->version, HasSubstr(liggghts_version));
   EXPECT_NO_THROW(check_library(scene.lammps()));
@@ -48,7 +48,7 @@ TEST(LiggghtsLibrary, IsTheVersionOfDebian12) {
   EXPECT_EQ(next_definition("_ZN9LAMMPS_NS6LAMMPS7destroyyEv"), nullptr);
 }
 
-TEST(LiggghtsLibrary, AnotherVersionIsRefusedWithWhatToInstall) {
+TEST(LiggghtsLibrary, OtherVersionIsRefusedWithTheOneToInstall) {
   Scene scene;
   std::string other = "Version 3.9.1";
   char* version = std::exchange(scene.lammps().universe->version, other.data());
@@ -120,7 +120,7 @@ void make_grains(Scene& scene) {
   scene.command("run 20");
 }
 
-TEST(LiggghtsLibrary, APackedGrainHasItsNumbersWhereTheyAreExpected) {
+TEST(LiggghtsLibrary, PackedGrainHasTheExpectedLayout) {
   Scene scene;
   make_grains(scene);
   const LAMMPS_NS::Atom& atom = *scene.lammps().atom;
@@ -151,7 +151,7 @@ TEST(LiggghtsLibrary, APackedGrainHasItsNumbersWhereTheyAreExpected) {
   EXPECT_EQ(scene.sum(neighbours), 8.0);
 }
 
-TEST(LiggghtsLibrary, AGrainTakenOutAndPutInIsTheSame) {
+TEST(LiggghtsLibrary, RemovedAndReinsertedGrainIsUnchanged) {
   Scene scene;
   make_grains(scene);
   LAMMPS_NS::Atom& atom = *scene.lammps().atom;
@@ -173,7 +173,7 @@ TEST(LiggghtsLibrary, AGrainTakenOutAndPutInIsTheSame) {
   EXPECT_EQ(scene.sum(scene.lammps().atom->nlocal), 5.0);
 }
 
-TEST(LiggghtsLibrary, AMeshFixTakesOurMesh) {
+TEST(LiggghtsLibrary, MeshFixUsesTheBodyMesh) {
   Scene scene;
   make_grains(scene);
   auto& fix = dynamic_cast<FixMeshBody&>(*scene.lammps().modify->find_fix_id("skin"));
@@ -182,7 +182,7 @@ TEST(LiggghtsLibrary, AMeshFixTakesOurMesh) {
   EXPECT_EQ(scene.sum(triangles), 32.0);
 }
 
-TEST(LiggghtsLibrary, ContactsWithAMeshAreMarkedWhenTheyAreFoundAgain) {
+TEST(LiggghtsLibrary, ContinuingMeshContactsAreMarked) {
   Scene scene;
   make_grains(scene);
   auto& fix = dynamic_cast<FixMeshBody&>(*scene.lammps().modify->find_fix_id("skin"));
@@ -200,7 +200,7 @@ TEST(LiggghtsLibrary, ContactsWithAMeshAreMarkedWhenTheyAreFoundAgain) {
   EXPECT_EQ(contacts_seen(), 0.0);
 }
 
-TEST(LiggghtsLibrary, AListOfMeshesIsBackAlsoAfterAnException) {
+TEST(LiggghtsLibrary, MeshListIsRestoredAfterAnException) {
   std::vector<LAMMPS_NS::FixMeshSurface*> all(3, nullptr), some(1, nullptr);
   LAMMPS_NS::FixMeshSurface** list = all.data();
   int count = 3;
@@ -215,7 +215,7 @@ TEST(LiggghtsLibrary, AListOfMeshesIsBackAlsoAfterAnException) {
   EXPECT_EQ(count, 3);
 }
 
-TEST(LiggghtsLibrary, AMovingBoxStretchesAboutItsMiddleAndStandsAfterwards) {
+TEST(LiggghtsLibrary, MovingBoxStretchesAboutItsMiddleAndStops) {
   Scene scene;
   scene.granular_box(Vector3(0, 0, 0), Vector3(0.2, 0.2, 0.4), 0.01, "p p p");
   LAMMPS_NS::Domain& domain = *scene.lammps().domain;
@@ -231,7 +231,7 @@ TEST(LiggghtsLibrary, AMovingBoxStretchesAboutItsMiddleAndStandsAfterwards) {
   EXPECT_EQ(domain.deform_vremap, 0);
 }
 
-TEST(LiggghtsLibrary, FixesComputesAndVariablesAreMadeAsByTheScript) {
+TEST(LiggghtsLibrary, FixesComputesAndVariablesAreCreatedAsByAScript) {
   Scene scene;
   scene.granular_box(Vector3(-1, -1, -1), Vector3(1, 1, 1), 0.1);
   LAMMPS_NS::Fix& fix = add_fix(scene.lammps(), {"move", "all", "nve/sphere"});

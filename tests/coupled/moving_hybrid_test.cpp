@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
                "unfix left\nunfix right"}),
     [](const auto& one) { return one.param.name; });
 
-TEST_P(MovingHybrid, RenewedGroundAndGrainsFitWithoutAJolt) {
+TEST_P(MovingHybrid, RenewedGroundKeepsGrainsAtRest) {
   Scene scene;
   make_sand_bed(scene, 0.03);
   scene.command("unfix floor");

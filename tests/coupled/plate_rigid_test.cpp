@@ -14,7 +14,7 @@
 namespace furrow::test::plate_rigid_test {
 namespace {
 
-TEST(PlateRigid, GivesSinkageForceAndPressureOfAHeldGrain) {
+TEST(PlateRigid, SinkageForceAndPressureOnAFixedGrain) {
   constexpr double young = 5e6, poisson = 0.3, radius = 0.004, gap = 0.0005, speed = 0.01,
                    duration = 0.1, size = 0.06;
   Scene scene;
@@ -41,7 +41,7 @@ TEST(PlateRigid, GivesSinkageForceAndPressureOfAHeldGrain) {
 }
 
 // The drive holds its load on the spring of a held grain: Hertz's overlap of that force.
-TEST(PlateRigid, HoldsItsLoadOnAHeldGrain) {
+TEST(PlateRigid, LoadIsHeldOnAFixedGrain) {
   constexpr double young = 5e6, poisson = 0.3, radius = 0.004, load = 2.0;
   Scene scene;
   scene.granular_box(Vector3(-0.1, -0.1, 0.0), Vector3(0.1, 0.1, 0.2), 0.001);

@@ -27,7 +27,7 @@ bool flush_from_another_thread(Scene& scene) {
   return saved;
 }
 
-TEST(Rescue, SavesRowsUnlessTheMainThreadUsesThem) {
+TEST(Rescue, RowsAreSavedUnlessTheMainThreadUsesThem) {
   std::filesystem::remove_all(folder);
   Scene scene;
   scene.commands(

@@ -39,7 +39,7 @@ void begin(Scene& scene, double step) {
 }
 
 /// The force is that of 0.875 xi at the depth of the step before.
-TEST(Rft, PlateOfAScriptCarriesInProportionToItsDepth) {
+TEST(Rft, PlateForceIsProportionalToDepth) {
   Scene scene;
   begin(scene, 1e-3);
   scene.commands(fmt::format(
@@ -54,7 +54,7 @@ TEST(Rft, PlateOfAScriptCarriesInProportionToItsDepth) {
   EXPECT_NEAR(output(scene, "touch", 7), 0.5 * force * depth, 0.06 * force * depth);
 }
 
-TEST(Rft, WheelFromAMeshCarriesItsLoadAndItsWorkGoesIntoTheSand) {
+TEST(Rft, WheelFromAMeshCarriesItsLoadAndDissipatesItsWork) {
   constexpr double load = 150.0, slip = 0.2;
   Scene scene;
   begin(scene, 2e-4);

@@ -33,7 +33,7 @@ double mass_of(ContinuumTerrain& terrain) {
   return terrain.ranks().sum(mass);
 }
 
-TEST(Slope, GrainContinuumAndWheelFollowTheirTurnedWeight) {
+TEST(Slope, GrainContinuumAndWheelAccelerateAlongTheTiltedGravity) {
   Scene scene;
   scene.granular_box(Vector3(-0.5, -0.3, -0.2), Vector3(1.5, 0.3, 3.0), 0.05);
   scene.contact_properties(5e6, 0.3, 0.5, 0.3);

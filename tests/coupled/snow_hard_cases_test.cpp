@@ -101,7 +101,7 @@ void add_plate(Scene& scene, const std::vector<Stroke>& strokes) {
 
 class SnowHardCase : public testing::TestWithParam<Case> {};
 
-TEST_P(SnowHardCase, EnergyIsAccountedFor) {
+TEST_P(SnowHardCase, EnergyBalanceCloses) {
   const Case& c = GetParam();
   Scene scene;
   make_block(scene, c);
@@ -152,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& entry) { return entry.param.name; });
 
 /// A wheel of 0.1 m digs itself in, at nine tenths of slip.
-TEST(SnowHardCases, AWheelThatSpins) {
+TEST(SnowHardCases, SpinningWheelHasAClosedEnergyBalance) {
   Scene scene;
   scene.granular_box({-0.12, -0.07, -0.01}, {0.12, 0.07, 0.25}, 0.003);
   SnowBondParameters soft;

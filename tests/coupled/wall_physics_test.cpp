@@ -29,7 +29,7 @@ constexpr const char* hertz = "model hertz tangential history";
 
 /// 400 grains poured on a floor that first heaves in waves and then holds a bent shape. Check:
 /// statics, floor force = m g.
-TEST(WallPhysics, BedOnADeformingFloorWeighsItsWeight) {
+TEST(WallPhysics, DeformingFloorCarriesTheWeightOfTheBed) {
   Scene scene;
   const double side = 0.08;
   scene.granular_box(Vector3(-side / 2, -side / 2, 0), Vector3(side / 2, side / 2, 0.2), 0.002,
@@ -67,7 +67,7 @@ TEST(WallPhysics, BedOnADeformingFloorWeighsItsWeight) {
 
 /// A sphere that rolls without sliding over a flat sheet must not notice triangles: rolling on a
 /// plane is the exact solution.
-TEST(WallPhysics, SphereRollsOverAFlatSheetAsOverAPlane) {
+TEST(WallPhysics, SphereRollsOnAFlatMeshAsOnAPlane) {
   Scene scene;
   scene.granular_box(Vector3(-0.11, -0.11, 0), Vector3(0.11, 0.11, 0.2), 0.0015);
   scene.contact_properties(5e6, 0.3, 0.3, 0.5);
@@ -122,7 +122,7 @@ TEST(WallPhysics, SphereRollsOverAFlatSheetAsOverAPlane) {
 /// A sheet that runs through a periodic box, four times its length, under a sphere held at constant
 /// overlap: the force stays Hertz's over every edge and over the seam, and triangles pass from rank
 /// to rank. Friction takes mu N times the distance.
-TEST(WallPhysics, PeriodicSheetRunsUnderASphere) {
+TEST(WallPhysics, PeriodicMeshMovesUnderASphere) {
   Scene scene;
   const double side = 0.1, radius = 0.004, overlap = 4e-6, speed = 2.0;
   scene.granular_box(Vector3(-side / 2, -side / 2, 0), Vector3(side / 2, side / 2, 0.2), 0.0015,
@@ -164,7 +164,7 @@ TEST(WallPhysics, PeriodicSheetRunsUnderASphere) {
 
 /// A rising and sliding sheet strikes a grain without weight: the work on the grain is its energy
 /// of flight and spin, to rounding, and the contact takes the rest.
-TEST(WallPhysics, WorkOnAGrainIsItsEnergy) {
+TEST(WallPhysics, WorkOnAGrainIsItsChangeOfEnergy) {
   Scene scene;
   scene.granular_box(Vector3(-0.05, -0.05, 0), Vector3(0.05, 0.05, 0.2), 0.0015);
   scene.contact_properties(5e6, 0.3, 0.5, 0.3);

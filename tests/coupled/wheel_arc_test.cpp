@@ -33,7 +33,7 @@ void add_wheel(Scene& scene, double level) {
 
 /// Compares force and torque on the wheel, mean over an interval, from its surface and from its
 /// arc. The rim must slide on the ground by more than a share of its speed on ground at rest.
-void compare(Scene& scene, int settling, int steps, double least_sliding) {
+void compare(Scene& scene, int settling, int steps, double minimum_sliding) {
   const std::string folder =
       testing::TempDir() + fmt::format("wheel_arc_{}_{}", scene.ranks(), scene.rank());
   scene.command(fmt::format("run {}", settling));
@@ -74,11 +74,11 @@ void compare(Scene& scene, int settling, int steps, double least_sliding) {
   EXPECT_NEAR(twist, torque, 0.01 * torque);
   // the rim goes backwards over the ground, less fast than over ground at rest where that gives way
   const double rim = speed * slip / (1.0 - slip);  // [m/s]
-  EXPECT_GT(slid / pressed, least_sliding * rim);
+  EXPECT_GT(slid / pressed, minimum_sliding * rim);
   EXPECT_LT(slid / pressed, 1.3 * rim);
 }
 
-TEST(WheelArc, SumsToForceAndTorqueOnAContinuum) {
+TEST(WheelArc, ArcStressesSumToForceAndTorqueOnAContinuum) {
   Scene scene;
   scene.granular_box(Vector3(-1, -1, -1), Vector3(1, 1, 1), 0.05);
   scene.commands("atom_modify sort 0 0\ntimestep 1e-4");
@@ -93,7 +93,7 @@ TEST(WheelArc, SumsToForceAndTorqueOnAContinuum) {
   compare(scene, 2000, 1500, 0.2);
 }
 
-TEST(WheelArc, SumsToForceAndTorqueOnGrains) {
+TEST(WheelArc, ArcStressesSumToForceAndTorqueOnGrains) {
   Scene scene;
   make_sand_bed(scene);
   add_wheel(scene, 0.075);

@@ -27,7 +27,7 @@ class Head:
         found = [line[len(start):].strip() for line in self.lines if line.startswith(start)]
         if len(found) != 1 or not found[0]:
             sys.exit(f"{self.script}: its head needs one line '{start} ...', it has {len(found)}; "
-                     "see tests/scenes/run.py")
+                     "see tests/scenes/scene_test.py")
         return found[0]
 
     def _expectation(self, text):

@@ -7,7 +7,7 @@ import h5py
 import numpy as np
 
 ENERGY_LIMIT = 5e-3  # of the largest energy, for a wheel or tyre: the error of its time step
-CONTINUUM_LIMIT = 0.05  # the same for a continuum, as in tests/verification/mpm/hard_cases_test.cpp
+CONTINUUM_LIMIT = 0.05  # the same for a continuum, as in tests/verification/mpm/wheel_on_snow_hard_cases_test.cpp
 MOMENTUM_LIMIT = 1e-10  # of the largest force or moment: round-off
 
 

@@ -16,7 +16,7 @@ import sys
 import time
 from pathlib import Path
 
-from run import PROJECT, empty, inputs_run, records, run
+from scene_test import PROJECT, empty, inputs_run, records, run
 
 sys.path.insert(0, str(PROJECT / "tests" / "coupled" / "support"))
 from furrow_run import going, wait_until

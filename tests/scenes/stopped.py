@@ -12,7 +12,7 @@ import sys
 import time
 from pathlib import Path
 
-from run import PROJECT, empty, inputs_run
+from scene_test import PROJECT, empty, inputs_run
 
 sys.path.insert(0, str(PROJECT / "tests" / "coupled" / "support"))
 from furrow_run import going, wait_until

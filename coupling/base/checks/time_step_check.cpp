@@ -45,7 +45,7 @@ double shortest_time(const LAMMPS_NS::LAMMPS& lammps, TimeOfGrain&& time_of_grai
 
 std::optional<Finding> compare(double step, double shortest, const Measure& measure,
                                const std::string& where) {
-  if (std::isinf(shortest)) return {};  // no grains
+  if (std::isinf(shortest)) return {};  // scene without grains
   if (!(shortest > 0.0))
     return Finding{where +
                        ": a grain has a diameter or a density of 0, or no stiffness; write 'set "

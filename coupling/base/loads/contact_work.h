@@ -33,7 +33,7 @@ struct GrainContact {
   Vector3 normal;         ///< unit vector normal to the surface
   Vector3 point;          ///< of the surface, where the body is [m]
   Vector3 arm;            ///< from the grain's centre to where the contact model lets force act [m]
-  Vector3 surface_velocity;  ///< there [m/s]
+  Vector3 surface_velocity;  ///< at this place [m/s]
 };
 
 /// Work of contacts in one step, with the velocities of grains at its end. Force times the velocity

@@ -33,11 +33,11 @@ struct MomentumAudit {
   /// |nodal forces + grain forces|, sum of |contact force| [N]
   double force_imbalance = 0.0;
   double force_scale = 0.0;
-  /// the same for moments about the middle of the body's nodes [N m]
+  /// imbalance of moments about the middle of the body's nodes [N m]
   double moment_imbalance = 0.0;
   double moment_scale = 0.0;
   double force = 0.0;   ///< largest ratio of imbalance to scale in one step
-  double moment = 0.0;  ///< the same for moments
+  double moment = 0.0;  ///< largest ratio for moments
   /// |lever gap| / moment scale: not an error of the wall, see fix_wall_gran_body.md
   double lever_gap = 0.0;
 

@@ -10,7 +10,7 @@
 
 namespace furrow::coupling {
 
-/// All functions are collective. @throws InputError for a scene that cannot be right
+/// Checks of the scene before and during runs. All functions are collective. @throws InputError
 class SceneWatch {
  public:
   virtual ~SceneWatch() = default;

@@ -131,7 +131,7 @@ void FixWallGranBody::refuse_deep_start() const {
 
 /// Refuses grains inside a body, too far from its surface to touch it: it would never let them out.
 void FixWallGranBody::refuse_grains_inside() const {
-  constexpr double inside = 0.5;  // winding number
+  constexpr double inside = 0.5;  // winding number above which a point is inside
   for (int m = 0; m < n_FixMesh_; ++m) {
     const auto* mesh = dynamic_cast<const FixMeshBody*>(FixMesh_list_[m]);
     if (!mesh) continue;
@@ -196,7 +196,7 @@ void FixWallGranBody::post_force_body(FixMeshBody& mesh_fix, int mesh_number) {
                         system.ledger(body),
                         system.contacts(body),
                         check_of(mesh_number)};
-  atom_type_wall_ = mesh_fix.atomTypeWall();  // which the contact model reads
+  atom_type_wall_ = mesh_fix.atomTypeWall();  // type that the contact model reads
   LAMMPS_NS::FixContactHistoryMesh* history = mesh_fix.contactHistory();
   if (history) history->markAllContacts();
 
@@ -233,7 +233,8 @@ void FixWallGranBody::collect_candidates(FixMeshBody& mesh_fix) {
   touched_.clear();
   if (first_.size() < static_cast<std::size_t>(atom->nlocal)) first_.resize(atom->nmax, -1);
 
-  const double* positions = atom->nlocal > 0 ? atom->x[0] : nullptr;  // contiguous
+  const double* positions =
+      atom->nlocal > 0 ? atom->x[0] : nullptr;  // positions of grains are contiguous
   const int triangles = mesh.sizeLocal() + mesh.sizeGhost();
   for (int t = 0; t < triangles; ++t) {
     const std::vector<int>& grains = neighbours.get_contact_list(t);

@@ -18,7 +18,7 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr long every = 200;  // steps between looks
+constexpr long every = 200;  // steps between checks
 // Least contact area over the squared mean grain diameter: on a smaller one a handful of grains
 // carries no pressure
 constexpr double min_area = 9.0;

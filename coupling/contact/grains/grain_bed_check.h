@@ -15,7 +15,7 @@ namespace furrow::coupling {
 struct GrainBedLimits {
   static constexpr double min_grains = 100;  ///< fewer are no bed: a few grains meet a body
   static constexpr double overlap = 0.05;    ///< of a grain's diameter, elastic contacts
-  /// likewise, of clusters of snow (model snow/bond): beyond, less is left of them than solid ice
+  /// overlap of clusters of snow (model snow/bond); beyond it they are denser than solid ice
   static constexpr double snow_overlap = 0.4;
   /// speed / length x diameter x sqrt(grain density / pressure) under a body
   static constexpr double inertial_number = 0.05;

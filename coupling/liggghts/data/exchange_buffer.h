@@ -16,7 +16,7 @@ namespace furrow::coupling {
 
 struct PackedGrain {
   std::vector<double> numbers;
-  std::vector<std::size_t> parts_at;  ///< where the numbers of each rider begin
+  std::vector<std::size_t> parts_at;  ///< index at which the numbers of each rider begin
 };
 
 /// Ids of the fixes that ride with the grains, in the order of their parts.

@@ -29,7 +29,7 @@ using namespace LAMMPS_NS;
 volatile std::sig_atomic_t stop_wanted = 0;  // the signal
 volatile std::sig_atomic_t checkpoint_wanted = 0;
 volatile std::sig_atomic_t confirms = 1;
-// One command may take minutes without a step, and leaves nothing to save.
+// True during a command bed, which takes minutes without a step, and after the first run.
 volatile std::sig_atomic_t makes_bed = 0, has_run = 0;
 
 using Clock = std::chrono::steady_clock;

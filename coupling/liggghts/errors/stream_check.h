@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// LIGGGHTS does not look whether what it writes arrives on the disk.
+/// Checks that files of LIGGGHTS arrive on the disk, which LIGGGHTS does not check.
 
 #include "lammps.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The input script: where it stands, and what Furrow writes into it by itself.
+/// The input script: its present place, and lines that Furrow adds.
 
 #include <optional>
 #include <string>
@@ -21,7 +21,7 @@ std::string script_name(const LAMMPS_NS::LAMMPS& lammps);
 std::string script_folder(const LAMMPS_NS::LAMMPS& lammps);
 
 struct ScriptLine {
-  long number;  ///< of its first line in the file
+  long number;  ///< number of its first line in the file
   std::string text;
 };
 /// Lines after the present one in its file, continued lines joined. Empty for standard input. Rank

@@ -41,7 +41,7 @@ struct Style {
   std::string page;  ///< in coupling/, "wheels/fix_wheel_rigid.md"; empty for internal styles
   Schema (*schema)();
   OutputTable (*outputs)();
-  // one of these creators; the others are null
+  // creator of a fix, command or model; the two others are null
   FixCreator create_fix = nullptr;
   CommandCreator run_command = nullptr;
   void (*add_model)() = nullptr;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double mean_volume = 1.045;    // over that of the mean diameter, of the same beds
 constexpr double poured_share = 0.6;     // solid over volume, when nothing else is known
-constexpr double bytes_of_grain = 3000;  // with its contacts and neighbours, measured
+constexpr double bytes_of_grain = 3000;  // memory of a grain with contacts and neighbours, measured
 constexpr double linear_step_limit =
     0.3;  // of half a period; 2 / pi would be the limit of one spring
 constexpr double settled_level_tolerance = 0.5;                 // of the depth
@@ -51,12 +51,12 @@ bool has(const Options& options, const std::initializer_list<const char*>& names
 
 void check_sizes(const Options& options) {
   if (!has(options, {"diameter"})) return;
-  const double least = least_size * options.number("diameter");
+  const double least = minimum_size * options.number("diameter");
   for (const char* name : {"length", "width", "depth"})
     if (has(options, {name}) && options.number(name) < least)
       throw InputError(options.where(name), fmt::format("is {:.4g} m", options.number(name)),
                        fmt::format("at least {:g} grains of diameter {:.4g} m: {:.4g} m",
-                                   least_size, options.number("diameter"), least),
+                                   minimum_size, options.number("diameter"), least),
                        "make the bed larger or the grains smaller");
 }
 
@@ -122,27 +122,27 @@ void check_bed_parameters(const Options& options) {
   check_step(options);
 }
 
-std::vector<std::string> doubts_of_bed(const Options& options) {
-  std::vector<std::string> doubts;
+std::vector<std::string> bed_warnings(const Options& options) {
+  std::vector<std::string> warnings;
   for (const Key& key : options.keys()) {
     const bool coefficient =
         key.kind == Key::Kind::number &&
         (key.name == "rolling" ||
          (key.name.size() >= 8 && key.name.compare(key.name.size() - 8, 8, "friction") == 0));
     if (coefficient && options.has(key.name) && is_high_friction(options.number(key.name)))
-      doubts.push_back(high_friction(options.where(key.name), options.number(key.name)));
+      warnings.push_back(high_friction(options.where(key.name), options.number(key.name)));
   }
   if (has(options, {"density"}) && options.number("density") > density_of_steel)
-    doubts.push_back(
+    warnings.push_back(
         fmt::format("{} is {:g} kg/m3, and steel has {:g}; give the density of one "
                     "grain in kg/m3",
                     options.where("density"), options.number("density"), density_of_steel));
   if (const double grains = count_of_grains(options); grains > many_grains)
-    doubts.push_back(
+    warnings.push_back(
         fmt::format("command bed makes about {:.2g} grains, which takes hours; look at "
                     "length, width, depth and diameter, or go on",
                     grains));
-  return doubts;
+  return warnings;
 }
 
 void check_bed(const BedFacts& facts, const BedSurface& surface) {

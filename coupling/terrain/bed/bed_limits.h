@@ -16,7 +16,7 @@ namespace furrow::coupling {
 inline constexpr double smallest_grain = 0.85;
 
 /// Least size of a bed in mean diameters.
-inline constexpr double least_size = 2.0;
+inline constexpr double minimum_size = 2.0;
 
 /// Checks the size of the bed in grains, its memory and its time step. It knows the parameters of
 /// inputs/beds by name: length, width, depth, diameter, density, bulk and step. Elasticity is young
@@ -26,7 +26,7 @@ void check_bed_parameters(const Options& options);
 
 /// Warnings about values that are allowed but hardly meant, a sentence each: coefficients of
 /// friction, densities, a bed that takes hours.
-std::vector<std::string> doubts_of_bed(const Options& options);
+std::vector<std::string> bed_warnings(const Options& options);
 
 /// @throws StateError for grains that flew apart, or have sunk far below the surface
 void check_bed(const BedFacts& facts, const BedSurface& surface);

@@ -21,10 +21,11 @@ namespace furrow::coupling {
 namespace {
 
 constexpr char surplus[] = "furrow_surplus";
-constexpr int per_diameter = 16;    // samples that show what is finer than a grain
-constexpr int most_rows = 16;       // of such samples
-constexpr double most_fine = 0.1;   // rms of what is finer than a grain, over that of the relief
-constexpr double least_height = 1;  // of a relief, in diameters
+constexpr int per_diameter = 16;  // samples that resolve heights finer than a grain
+constexpr int maximum_rows = 16;  // largest number of rows of these samples
+constexpr double maximum_fine =
+    0.1;  // largest rms of heights finer than a grain, over that of the relief
+constexpr double minimum_height = 1;  // of a relief, in diameters
 
 double length_of(const Options& options, const char* name) {
   const auto& keys = options.keys();
@@ -95,12 +96,12 @@ void BedSurface::measure(const std::string& where) {
       sum += z;
     }
   mean_ = sum / ((columns + 1.0) * (rows + 1.0));
-  const double least = least_size * diameter_;
+  const double least = minimum_size * diameter_;
   need(lowest_ >= least, where,
        fmt::format("is {:.4g} m, and the relief goes down {:.4g} m from it", depth_,
                    depth_ - lowest_),
        fmt::format("at least {:g} grains of diameter {:.4g} m below the relief: {:.4g} m",
-                   least_size, diameter_, depth_ - lowest_ + least),
+                   minimum_size, diameter_, depth_ - lowest_ + least),
        "make the bed deeper or the relief lower");
 }
 
@@ -111,8 +112,8 @@ double BedSurface::fine_share() const {
   Squares of_axis[2];
   for (int axis = 0; axis < 2; ++axis) {
     const double along = half_[axis], across = half_[1 - axis];
-    for (int r = 0; r < most_rows; ++r) {
-      const double other = across * ((2.0 * r + 1.0) / most_rows - 1.0);
+    for (int r = 0; r < maximum_rows; ++r) {
+      const double other = across * ((2.0 * r + 1.0) / maximum_rows - 1.0);
       std::vector<double> row;
       for (int n = 0; n < count(along); ++n) {
         const double place = n * step - along;
@@ -126,19 +127,19 @@ double BedSurface::fine_share() const {
                         : 0.0;
 }
 
-std::vector<std::string> BedSurface::doubts() const {
+std::vector<std::string> BedSurface::warnings() const {
   std::vector<std::string> found;
   if (flat()) return found;
-  if (const double height = highest_ - lowest_; height < least_height * diameter_)
+  if (const double height = highest_ - lowest_; height < minimum_height * diameter_)
     found.push_back(fmt::format(
         "command bed: the relief is {:.4g} m high, {:.2g} grains (recommended: at least {:g}); "
         "use smaller grains",
-        height, height / diameter_, least_height));
-  if (const double share = fine_share(); share > most_fine)
+        height, height / diameter_, minimum_height));
+  if (const double share = fine_share(); share > maximum_fine)
     found.push_back(fmt::format(
         "command bed: {:.0f} % of the relief's rms height is finer than a grain of {:.4g} m "
         "(recommended: at most {:.0f} %); use smaller grains or a smoother relief",
-        100.0 * share, diameter_, 100.0 * most_fine));
+        100.0 * share, diameter_, 100.0 * maximum_fine));
   return found;
 }
 
@@ -148,8 +149,8 @@ void BedSurface::check_period(const LAMMPS_NS::LAMMPS& lammps) const {
   for (int axis = 0; axis < 2; ++axis) {
     if (!periodic[axis]) continue;
     double step = 0.0;
-    for (int r = 0; r <= most_rows; ++r) {
-      const double other = half_[1 - axis] * (2.0 * r / most_rows - 1.0), end = half_[axis];
+    for (int r = 0; r <= maximum_rows; ++r) {
+      const double other = half_[1 - axis] * (2.0 * r / maximum_rows - 1.0), end = half_[axis];
       step = std::max(step, std::abs(axis == 0 ? height(end, other) - height(-end, other)
                                                : height(other, end) - height(other, -end)));
     }
@@ -161,7 +162,7 @@ void BedSurface::check_period(const LAMMPS_NS::LAMMPS& lammps) const {
   }
 }
 
-std::string BedSurface::doubt_of_settled(double rms) const {
+std::string BedSurface::settled_warning(double rms) const {
   if (flat() || rms <= diameter_) return "";
   return fmt::format(
       "command bed: the tops of the grains differ from the relief by {:.4g} m rms, {:.2g} grains "

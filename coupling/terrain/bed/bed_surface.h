@@ -29,12 +29,12 @@ class BedSurface {
   std::string map_checksum() const { return relief_.map_checksum(); }
 
   /// Features of the relief that grains of this size do not show, a sentence each.
-  std::vector<std::string> doubts() const;
+  std::vector<std::string> warnings() const;
   /// Checks that the relief goes on behind its end in a box that is periodic. @throws InputError
   void check_period(const LAMMPS_NS::LAMMPS& lammps) const;
   /// A settled bed has slumped where its grains lie off the surface by more than a diameter.
   /// @param rms deviation of the grains' tops [m] @returns a sentence; empty for a bed that has not
-  std::string doubt_of_settled(double rms) const;
+  std::string settled_warning(double rms) const;
 
  private:
   void measure(const std::string& where);

@@ -159,7 +159,8 @@ Schema CommandBed::schema() {
 OutputTable CommandBed::outputs() { return {"variable", bed_outputs().channels()}; }
 
 std::string CommandBed::Request::identity() const {
-  const std::string layout = "3";  // of what is kept; another one: beds of before cannot be read
+  const std::string layout =
+      "3";  // version of the stored layout; beds of other versions cannot be read
   std::string all = version() + " " + layout + "\n" + script.text();
   for (const Parameter& p : parameters)
     all += "\n" + p.name + " " + (p.name == "heightmap" ? surface.map_checksum() : p.value);
@@ -222,13 +223,13 @@ CommandBed::Request CommandBed::read_request(const std::vector<std::string>& wor
   }
   const Options options = keys.read(entries);
   set_contact(options);
-  if (!options.given("gravity"))  // a parameter of every bed, of its identity too
+  if (!options.given("gravity"))  // gravity is a parameter of every bed and part of its identity
     parameters.push_back({"gravity", fmt::format("{}", options.number("gravity")), "gravity"});
   check_bed_parameters(options);
   BedSurface surface(options, script_folder(*lmp));
   check_script(script, surface);
-  for (const std::string& doubt : doubts_of_bed(options)) warn(*lmp, doubt);
-  for (const std::string& doubt : surface.doubts()) warn(*lmp, doubt);
+  for (const std::string& warning : bed_warnings(options)) warn(*lmp, warning);
+  for (const std::string& warning : surface.warnings()) warn(*lmp, warning);
   const std::string values = values_of(options, surface);
   return {std::move(script), std::move(surface), options.text("from"), std::move(parameters),
           values};
@@ -329,7 +330,7 @@ void CommandBed::keep(const Request& request, const KeptBed& bed) {
     std::error_code failed;
     if (!bed.problem().empty()) fs::remove_all(bed.folder, failed);
     fs::rename(part.folder, bed.folder, failed);
-    if (failed) fs::remove_all(part.folder);  // that other run has been faster
+    if (failed) fs::remove_all(part.folder);  // another run has made the bed
     if (const std::string problem = bed.problem(); !problem.empty())
       throw Error("command bed: the bed is not kept: " + problem);
   });
@@ -347,13 +348,13 @@ void CommandBed::read(const Request& request, const KeptBed& bed) {
   while (file >> name >> value && name[0] != '#') {
     set_variable(*lmp, name, value);
     if (name == "bed_surface_rms")
-      if (const std::string doubt = request.surface.doubt_of_settled(std::stod(value));
-          !doubt.empty())
-        warn(*lmp, doubt);
+      if (const std::string warning = request.surface.settled_warning(std::stod(value));
+          !warning.empty())
+        warn(*lmp, warning);
   }
 }
 
-/// Line by line, so that this command can go on when the section has ended.
+/// Runs the section line by line, so that the command continues after it.
 void CommandBed::run_section(const Request& request, const std::string& name) {
   for (const std::string& command : request.script.commands(name)) input->one(command.c_str());
 }

@@ -265,7 +265,7 @@ void FixBedWindow::take_out(std::int64_t slab, const std::vector<std::size_t>& f
     const bool at_seam_too = from_middle(x) < outer;
     if (slab_of(x) == slab || is_frozen(i) ||
         (at_seam_too && (overlaps(i, at_seam) || overlaps_new_surface(i)))) {
-      remove_grain(*lmp, i);  // another one takes this index
+      remove_grain(*lmp, i);  // another grain takes this index
       --inserted_minus_removed_;
     } else {
       ++i;
@@ -306,7 +306,7 @@ bool FixBedWindow::overlaps_new_surface(int i) const {
   return false;
 }
 
-/// @param rut slab whose grains are no partners: they are gone
+/// @param rut slab of the removed grains, which are no partners
 void FixBedWindow::put_in(const std::vector<std::size_t>& grains, std::optional<std::int64_t> rut) {
   const auto is_gone = [&](std::size_t partner) { return rut && slab_of_grain(partner) == *rut; };
   for (const std::size_t g : grains) {

@@ -53,7 +53,7 @@ class FixBedWindow : public FurrowFix, public SystemFollower {
   double behind_;  // [m]
   std::int64_t slabs_;
   double slab_length_;                            // [m]
-  const FixTerrainContinuum* terrain_ = nullptr;  // that carries the bed, if any
+  const FixTerrainContinuum* terrain_ = nullptr;  // terrain that carries the bed, if any
   std::int64_t next_ = 0;                         // slab to be renewed
   std::int64_t renewed_ = 0;
   std::int64_t inserted_minus_removed_ = 0;  // grains of this rank

@@ -49,7 +49,7 @@ void RememberedBed::gather(LAMMPS_NS::LAMMPS& lammps) {
   }
   const std::vector<double> all = Communicator(&lammps.world).gather(own);
 
-  std::vector<const double*> grains;  // each at its header
+  std::vector<const double*> grains;  // grains, each at its header
   for (std::size_t p = 0; p < all.size(); p += header + static_cast<std::size_t>(all[p]))
     grains.push_back(&all[p]);
   std::sort(grains.begin(), grains.end(), [&](const double* a, const double* b) {

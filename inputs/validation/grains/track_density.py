@@ -42,13 +42,13 @@ class Ground:
         self.rough = tops - run.number("depth")  # [m] of tops over the level
 
     def mass(self, along: Interval, beside: Interval) -> float:
-        """Above the floor on both sides of the wheel's middle plane [kg/m2]. `beside`: range of |y| [m]"""
+        """Mass above the floor on both sides of the wheel's middle plane [kg/m2]. `beside`: range of |y| [m]"""
         inside = _inside(self.parts, along, beside) & (self.parts[:, 2] > self.floor)
         area = 2 * (beside[1] - beside[0]) * (along[1] - along[0])
         return float(self.part_mass[inside].sum()) / area
 
     def surface(self, along: Interval, beside: Interval) -> float:
-        """Above the floor [m]. @raises ResultsError without clusters"""
+        """Height of the surface above the floor [m]. @raises ResultsError without clusters"""
         return _tops(self.x, self.size, self.floor, along, beside) - self.rough
 
 

@@ -10,7 +10,7 @@ TYRE_AREA = 0.03645  # [m2] on a hard surface at 179 kPa [Shoop2001] Table 6
 
 
 def distance(value: float, grains: str, measured: str, measured_to: str, kind: str) -> float:
-    """From the grains, else from the measurement or its range, in the measure of the goal; NaN where there is none."""
+    """Distance of a law from the grains, else from the measurement, in the measure of the goal; NaN without both."""
     low, high = (grains, grains) if grains else (measured, measured_to or measured)
     if not low or math.isnan(value):
         return math.nan
@@ -23,6 +23,6 @@ def verdict(off: float, goal: str) -> str:
 
 
 def formula(test: str, load: float, depth: float) -> float:
-    """Contact pressure: load over the arc of the wheel in the snow, or over the area of the tyre on a hard surface."""
+    """Coefficient of snow_traction() with the area of the wheel's arc in the snow, or of the tyre on a hard surface."""
     area = TYRE_AREA if test == "tyre" else WIDTH * RADIUS * math.acos(1 - depth / RADIUS)
     return snow_traction("undisturbed", load, area).coefficient

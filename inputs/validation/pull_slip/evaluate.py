@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One run with a ramp of the slip, at the slips of steady runs."""
+"""Values of a run with a ramp of the slip, at the slips of steady runs."""
 
 from collections.abc import Iterator
 

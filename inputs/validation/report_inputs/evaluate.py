@@ -11,7 +11,7 @@ TYRE = Path(__file__).resolve().parents[2] / "tyres" / "p235_75r15.yaml"
 
 
 def bending(runs: Runs) -> Iterator[dict[str, object]]:
-    """Those of the belts, and of the softest element of the sidewall [N m]."""
+    """Bending stiffness of the belts, and of the softest element of the sidewall [N m]."""
     tyre = load_yaml(TYRE)
     for way, modulus in (("along", "E1"), ("across", "E2")):
         stiffness = float(tyre["tread"][modulus]) * float(tyre["tread"]["thickness"]) ** 3 / 12

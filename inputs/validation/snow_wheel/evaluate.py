@@ -9,7 +9,7 @@ from furrow_post.arrays import Floats
 
 __all__ = ["nrmm_resistance", "nrmm_sinkage"]
 # field_snow.yaml: axial stresses [Pa] at densities [kg/m3], straight in ln p. From 525 kg/m3 on final densities under wheels
-# of such pressures, as the sinkage formula of [CRREL95-7] takes them
+# of these pressures, as the sinkage formula of [CRREL95-7] takes them
 DENSITIES = (100.0, 380.0, 450.0, 490.0, 525.0, 575.0, 625.0, 660.0)
 STRESSES = (15.0, 4e3, 25e3, 100e3, 210e3, 350e3, 700e3, 1400e3)
 

@@ -64,7 +64,7 @@ def case_of(stresses: tuple[float, ...], depth: float) -> Case:
 
 
 def identify(start: tuple[float, ...], make: Make, iterations: int) -> list[dict[str, Any]]:
-    """Trials, rows of identified.csv. make: quantities of a run, which is made unless it is there."""
+    """Trials as rows of identified.csv. make: quantities of a run, which starts unless it is stored."""
     rows = [row for row in read_numbers(HERE / "reference.csv") if row["density_kgm3"] == 220 and 0.18 <= row["depth_m"] <= 0.22]
     depths, trials = [row["depth_m"] for row in rows], list[dict[str, Any]]()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Where the vertical stress in the snow under the wheel is."""
+"""Place of the vertical stress in the snow under the wheel."""
 
 import numpy as np
 

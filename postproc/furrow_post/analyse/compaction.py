@@ -25,12 +25,12 @@ from ..laws.half_space import ELASTIC, SOEHNE, below_ellipse, below_point_loads
 from ..uncertainty.statistics import block_mean
 
 TOUCHING = 0.1  # of the largest surface stress: what more stress counts as contact
-TOUCHING_RANGE = (0.05, 0.2)  # the same, whose areas give the error of the area
+TOUCHING_RANGE = (0.05, 0.2)  # range of TOUCHING, whose areas give the error of the area
 PEAK_REACH = 0.3  # of contact length and depth: how far the fit of a peak reaches
 LEAST_PARTICLES = 5  # of the fit of a peak
 BEHIND = (0.2, 0.65)  # of the body's length, behind the axle: where the density is taken
-FAR = 0.2  # of the particles of a layer: those whose density is that before
-AT_END = 0.1  # of the history: whose loads must be steady
+FAR = 0.2  # share of a layer's particles, the farthest ones, with the initial density
+AT_END = 0.1  # last share of the history, in which the loads must be steady
 UNSTEADY = 0.05  # of the load
 CARRIED = (0.5, 2.0)  # share of the load in the uppermost particles of a body that presses steadily
 # Layers of particles below the track: depth, distance and place of the largest vertical stress, from the axle [m];
@@ -54,7 +54,7 @@ class Contact:
 
     @property
     def pressure(self) -> float:
-        """Mean [Pa]."""
+        """Mean pressure [Pa]."""
         return self.load / self.area
 
     def ellipse(self, depth: Floats, concentration: float, area: float | None = None) -> Floats:
@@ -68,7 +68,7 @@ class Contact:
         return self.pressure * below_ellipse(depth, (radius, radius), ELASTIC)
 
     def ellipse_error(self, depth: Floats, concentration: float) -> Floats:
-        """By the error of the area [Pa]."""
+        """Error of ellipse() by the error of the area [Pa]."""
         less, more = (self.ellipse(depth, concentration, self.area + sign * self.area_error) for sign in (-1, 1))
         error: Floats = 0.5 * np.abs(less - more)
         return error
@@ -245,7 +245,7 @@ def write_compaction(runs: Sequence[Compaction], file: Path) -> None:
 
 
 def report(run: Compaction) -> list[str]:
-    """The contact of a run, for a person."""
+    """Lines of the report on the contact of a run."""
     contact = run.contact
     length, width = (200 * axis for axis in contact.semi_axes)
     lines = [

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The same scene on several grounds: aligned, with uncertainties and verdicts; compare.txt, compare.csv, compare.h5.
+"""A scene on several grounds, with uncertainties and verdicts; compare.txt, compare.csv, compare.h5.
 
-Refused are runs whose conditions differ too far (conditions.py).
+Runs whose conditions differ too far are refused (conditions.py).
 """
 
 import math
@@ -23,7 +23,7 @@ from ..run.summary import SteadyValue
 from ..uncertainty.budget import Budget
 from ..uncertainty.cost_table import FamilyKey, Row, families
 from ..uncertainty.verdict import BEST, COVERAGE, FORMULA, MEASURED, QUANTITIES, RUN, TRACK_DENSITY
-from ..uncertainty.verdict import Entry, Quantity, Verdict, conclusion, judge, summed_up
+from ..uncertainty.verdict import Entry, Quantity, Verdict, conclusion, summed_up, verdict_between
 from ..uncertainty.whole_error import Families, RunErrors
 from .conditions import TOLERANCES, Difference, incomparable, require_comparable, require_different_labels
 from .density import sections, track_density
@@ -32,7 +32,7 @@ from .wheel_histories import cruise_history, settling_curve
 NAME_IN_RUN = {"sinkage": "hub_drop", "coefficient": "resistance_coefficient"}
 NAME_IN_REFERENCE = {"sinkage": "sinkage_m", "coefficient": "resistance"}
 NEAR = {"depth": (0.9, 1.1), "density": (0.85, 1.15)}  # measurements near a run, over its depth and density
-COLUMNS = {"depth": "depth_m", "density": "density_kgm3"}  # of them in a reference.csv
+COLUMNS = {"depth": "depth_m", "density": "density_kgm3"}  # columns of the quantities in a reference.csv
 ROUNDING = 1e-9  # of a ratio of two decimal numbers
 SHOWN_CONDITIONS = (
     *("load", "speed", "slip", "slip_by_vehicle_speed", "wheel_diameter", "wheel_width", "depth", "density"),
@@ -50,7 +50,7 @@ class Comparison:
     verdicts: list[Verdict] = field(default_factory=list)
     best_estimates: list[Verdict] = field(default_factory=list)  # on those of the runs
     tracks: dict[str, Entry] = field(default_factory=dict)  # label of a run -> density under its track
-    remarks: list[str] = field(default_factory=list)  # what differs apart from the two quantities
+    remarks: list[str] = field(default_factory=list)  # differences of the runs besides the two quantities
 
     def of(self, quantity: Quantity, kind: str | None = None) -> list[Entry]:
         return [e for e in self.entries if e.quantity == quantity and kind in (None, e.kind)]
@@ -69,7 +69,7 @@ class Comparison:
         return summed_up(among, who)
 
     def overall_of_best_estimates(self) -> str:
-        """The same of the runs' best estimates; empty where fewer than two are known."""
+        """Overall verdict on the best estimates of runs; empty for fewer than two."""
         return f"{BEST.capitalize()}: {summed_up(self.best_estimates, 'runs')}" if self.best_estimates else ""
 
     def findings(self) -> list[str]:
@@ -116,10 +116,10 @@ def compare(
         result.entries += measured_entries(measured, runs[0])
     for quantity in QUANTITIES:
         of_runs, estimates = result.of(quantity, RUN), result.of(quantity, BEST)
-        result.verdicts += [judge(of_runs[0], other) for other in of_runs[1:]]
-        result.best_estimates += [judge(estimates[0], other) for other in estimates[1:]]
+        result.verdicts += [verdict_between(of_runs[0], other) for other in of_runs[1:]]
+        result.best_estimates += [verdict_between(estimates[0], other) for other in estimates[1:]]
         for reference in result.of(quantity, MEASURED):
-            result.verdicts += [judge(reference, run) for run in of_runs]
+            result.verdicts += [verdict_between(reference, run) for run in of_runs]
     result.remarks = [remark for other in runs[1:] for remark in _remarks(runs[0], other, result.tracks)]
     return result
 
@@ -150,7 +150,7 @@ def _remarks(first: WheelRun, other: WheelRun, tracks: dict[str, Entry]) -> list
     return sentences
 
 
-# ---- values
+# ---- values of the compared runs
 
 
 def entries_of_run(errors: RunErrors) -> list[Entry]:
@@ -232,7 +232,7 @@ def measured_entries(path: Path, run: WheelRun) -> list[Entry]:
     return [Entry(q, MEASURED, column.mean(skipna=False), Budget(time=column.std(skipna=False)), MEASURED, note) for q, column in columns]
 
 
-# ---- for people and programs
+# ---- output as text and as files
 
 
 def table_rows(result: Comparison) -> list[Line]:
@@ -252,7 +252,7 @@ def parts_cell(entry: Entry) -> str:
 
 
 def comparison_report(result: Comparison) -> str:
-    """The tables and the verdict for a person."""
+    """Text with the tables and the verdict."""
     wide = max([len(e.label) for e in result.entries] + [10])
     lines = ["Conditions"]
     for name in SHOWN_CONDITIONS:
@@ -279,7 +279,7 @@ def comparison_report(result: Comparison) -> str:
 
 
 def write_comparison(result: Comparison, folder: Path) -> None:
-    """compare.txt, compare.csv, compare.h5."""
+    """Writes compare.txt, compare.csv and compare.h5."""
     folder.mkdir(parents=True, exist_ok=True)
     report = comparison_report(result)
     (folder / "compare.txt").write_text(report + "\n", encoding="utf-8")

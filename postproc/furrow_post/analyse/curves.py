@@ -45,7 +45,7 @@ class CurveKind(enum.Enum):
         return "compression (density over that at the start) at equal stress"
 
     def level_text(self, level: float) -> str:
-        """A value of x for people."""
+        """Text of a value of x."""
         if self is CurveKind.PLATE:
             return f"{1e3 * level:.3g} mm"
         return f"{level / 1e3:.3g} kPa"
@@ -70,7 +70,7 @@ class Curve:
 
     @property
     def unknown(self) -> list[str]:
-        """Parts of its error that are unknown: "size of soft". A material point has none."""
+        """Unknown parts of the error, for example "size of soft"; none for a material point."""
         parts = ["domain"] if self.kind is CurveKind.PLATE else []
         if ground_kind(self.ground).random:
             parts.append("packing")
@@ -130,7 +130,7 @@ def _compression(point: PointRun) -> tuple[Floats, Floats]:
 
 
 def _oedometer(label: str, ground: str, stress: Floats, density: Floats, facts: dict[str, float]) -> Curve:
-    """Up to the greatest stress."""
+    """Curve of an oedometer up to the greatest stress."""
     end = int(np.argmax(stress)) + 1
     floor = 1e-3 if ground == "grains" else 1.0  # [Pa]
     rising = np.maximum.accumulate(stress[:end])
@@ -215,7 +215,7 @@ def _differences(curves: Sequence[Curve]) -> list[Difference]:
 
 
 def curve_report(result: CurveComparison) -> str:
-    """The table and what was found, for a person."""
+    """Text with the table and the result."""
     plate = result.kind is CurveKind.PLATE
     wide = max([len(c.label) for c in result.curves] + [12]) + 2
     scale, unit = (1e-3, "kPa") if plate else (1.0, "density over that at the start")
@@ -229,7 +229,7 @@ def curve_report(result: CurveComparison) -> str:
 
 
 def write_curves(result: CurveComparison, folder: Path) -> None:
-    """compare.txt, compare.csv, compare.h5."""
+    """Writes compare.txt, compare.csv and compare.h5."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "compare.txt").write_text(curve_report(result) + "\n", encoding="utf-8")
     names = ["level", *(c.label for c in result.curves)]

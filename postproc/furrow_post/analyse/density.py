@@ -113,7 +113,7 @@ def section(ground: GroundPoints, along: int, slab: Interval, across: Interval, 
     if ground.grains:
         reach = 0.5 * float(np.mean(size)) / cell
         smooth, solid = (blurred(weight, reach) for weight in (ground.mass, ground.volume))
-        room = _blurred(np.ones_like(solid), reach) * area  # what edges of the picture and floor cut off
+        room = _blurred(np.ones_like(solid), reach) * area  # area inside the picture and above the floor
         solid = solid / room
         typical = np.median(solid[solid > 0.05]) if (solid > 0.05).any() else 1.0
         return Section(np.where(solid > 0.45 * typical, smooth / room, np.nan), across_edges, z_edges)

@@ -72,7 +72,7 @@ def plate_curve(folder: Path) -> Floats:
 
 
 def whole_plate_curve(folder: Path) -> Floats:
-    """As plate_curve. @raises ResultsError where there is none"""
+    """Curve of plate_curve(). @raises ResultsError for an empty one"""
     curve = plate_curve(folder)
     if not curve.size:
         raise ResultsError(f"{folder}/curve.txt: has no rows; {AGAIN}")

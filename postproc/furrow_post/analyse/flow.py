@@ -68,7 +68,7 @@ class Flow:
 
     @property
     def length(self) -> Floats:
-        """[m] of the displacement."""
+        """Magnitude of the displacement [m]."""
         length: Floats = np.linalg.norm(self.displacement, axis=2)
         return length
 
@@ -202,7 +202,7 @@ def compare_flows(runs: Sequence[WheelRun], width: float | None = None) -> FlowC
 
 
 def flow_report(result: FlowComparison) -> str:
-    """The numbers, for a person."""
+    """Text of the differences of two flow fields."""
     a, b = result.flows
     stress = (
         f"differs by {100 * result.stress_difference:.0f} % of its mean"

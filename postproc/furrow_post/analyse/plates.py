@@ -33,7 +33,7 @@ class PlateFamily:
         self.in_box = [(curve, log) for curve, log in self.logs if same_size(curve.box, self.base.box)]
 
     def noise(self, curve: Curve, log: float) -> float:
-        """Relative."""
+        """Relative noise of the values."""
         return float(np.interp(self.sinkage, curve.x, curve.noise)) / math.exp(log)
 
     def of_size(self, size: float) -> list[float]:

@@ -33,7 +33,7 @@ class RutDensities:
     shoulder: float
 
     def report(self) -> str:
-        """One line per density, and how they are meant."""
+        """Report: one line per density, and its definition."""
         names = ("undisturbed", "under the wheel", "greatest under the wheel", "in the rut behind", "at the shoulder")
         texts = (f"{value:6.0f} kg/m3" if np.isfinite(value) else "   not known" for value in vars(self).values())
         meaning = (
@@ -65,7 +65,7 @@ def rut_densities(terrain: Terrain, body: Outline) -> RutDensities:
 
 
 def rut_depth(terrain: Terrain, body: Outline) -> float:
-    """From the surface before to the highest particles of the finished rut [m].
+    """Depth from the initial surface to the highest particles of the finished rut [m].
 
     In the middle half of the wheel's width.
     """
@@ -130,7 +130,7 @@ class Displacements:
     raised: float
 
     def report(self) -> str:
-        """Lines for a person."""
+        """Lines of the printed report."""
         down = "  surface of the track        {surface_down} down, {surface_forward} forward\n"
         half = "  at half of the depth        {middle_down} down, {middle_forward} forward\n"
         beside = "  beside the wheel            {aside} outwards, {raised} up at most\n"

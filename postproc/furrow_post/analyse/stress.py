@@ -14,7 +14,7 @@ SHARE = 0.1  # of the greatest q: an arc of less is none
 
 @dataclass(frozen=True)
 class Arc:
-    """Where the deviatoric stress q ahead of the axle is greatest, level by level.
+    """Places of the greatest deviatoric stress q ahead of the axle, level by level.
 
     x, z: places [m]; q: greatest on the arc [Pa]; ahead: x of that place from the axle [m].
     """
@@ -41,7 +41,7 @@ def in_plane(tensor: Floats, along: int) -> tuple[Floats, Floats]:
 
 
 def arc_ahead(terrain: Terrain, stress: TerrainStress, body: Outline) -> Arc:
-    """In the middle plane of the body, from its lowest point down to the base."""
+    """Arc in the middle plane of the body, from its lowest point down to the base."""
     x = terrain.x[:, 0] - body.centre[0]
     near = np.abs(terrain.x[:, 1] - body.centre[1]) < terrain.spacing
     ahead = near & (x > 0)

@@ -21,7 +21,7 @@ class Stage(enum.IntEnum):
 
 
 class CruiseHistory(NamedTuple):
-    """Over the travel from the start of the cruise on."""
+    """Histories over the travel since the start of the cruise."""
 
     distance: Floats  # [m], negative while it accelerates
     hub_drop: Floats  # [m]
@@ -29,14 +29,14 @@ class CruiseHistory(NamedTuple):
 
 
 class SettlingCurve(NamedTuple):
-    """While the wheel is lowered onto the ground."""
+    """Curve of load over sinkage while the wheel is lowered onto the ground."""
 
     hub_drop: Floats  # [m]
     pressure: Floats  # mean over the projected contact [Pa]
 
 
 def _rows_of_first_pass(stage: Floats) -> int:
-    """All rows, unless the wheel goes back for another pass."""
+    """Rows of the first pass; all rows of a run with one pass."""
     back = np.flatnonzero(stage == Stage.BACK)
     return int(back[0]) if len(back) else len(stage)
 

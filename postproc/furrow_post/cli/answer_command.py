@@ -130,7 +130,7 @@ class Compared(NamedTuple):
     unknown: str  # parts of the error
 
     def sentence(self) -> str:
-        """Where the value lies: inside of the band, or by how many errors outside."""
+        """Sentence on a value: inside the band, or the number of errors outside."""
         known = f"formulas {self.least:.3g} to {self.greatest:.3g}" if self.least < self.greatest else f"formula {self.least:.3g}, of unknown scatter"
         apart = max(self.least - self.value, self.value - self.greatest, 0.0) / self.error if self.error > 0.0 else 0.0
         lacks = f" ({self.unknown})" if self.unknown else ""

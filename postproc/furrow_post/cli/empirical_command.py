@@ -57,7 +57,7 @@ VEHICLE = ("weight", "axles", "tyres", "diameter", "width", "clearance", "power"
 
 
 class Method(NamedTuple):
-    """A formula: options that it cannot do without, those that it may have besides, its answer as a text."""
+    """Formula of the command line: required options, further options, and a function for its text."""
 
     needed: tuple[str, ...]
     further: tuple[str, ...]

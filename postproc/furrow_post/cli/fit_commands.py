@@ -45,7 +45,7 @@ def fit_law_(given: Given) -> int:
         fit = fit_law(point.parameters, point.curves, point)
         write_fit(point, fit, folder)
         print(f"{report(point, fit)}  results       {folder}")
-    if not given.no_plot:  # without a figure nobody waits for matplotlib
+    if not given.no_plot:  # importing matplotlib takes time
         (figure,) = importlib.import_module("..figures.point_figure", __package__).draw_point(folder)
         print(f"  figure        {figure}")
     return 0 if fit.converged else 1
@@ -106,7 +106,7 @@ def _command(given: Given) -> str:
 
 
 def _rated(fit: TyreFit, title: str, load: float) -> str:
-    """Deflection under the rated load, and whether it is usual."""
+    """Sentence on the deflection under the rated load and its usual range."""
     pressure = 1e-3 * fit.known.pressure
     (state,) = press(fit.file_text(title, []), [PlateTest(pressure, load, {})])
     share = state["deflection_cm"] / (100.0 * fit.known.height)

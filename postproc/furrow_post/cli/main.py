@@ -23,7 +23,7 @@ root = click.version_option(__version__, prog_name=NAME, message="%(prog)s %(ver
 
 
 def message_of(error: click.ClickException) -> str:
-    """One line: the parameter, what is wrong, what to do."""
+    """Message of one line: parameter, fault and remedy."""
     text = error.format_message()
     if isinstance(error, click.MissingParameter) and error.param:
         kind = "option" if isinstance(error.param, click.Option) else "argument"
@@ -75,7 +75,7 @@ def start(command: click.Command, name: str, arguments: Sequence[str] | None = N
 
 
 def soil(arguments: Sequence[str] | None = None) -> int:
-    """The earlier program furrow-soil, whose commands are those of the group card."""
+    """Entry point of furrow-soil, with the commands of the group card."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     words = [FORMER_SOIL.get(given[0], given[0]), *given[1:]] if given else []
     click.echo(f"furrow-soil: is now 'furrow-post card {words[0] if words else ''}".rstrip() + "'", err=True)

@@ -27,7 +27,7 @@ class Given(SimpleNamespace):
 
 
 class Type(click.ParamType):
-    """A type by a function of the text, whose WrongText is the message."""
+    """Type of a parameter by a function of its text, which raises WrongText with the message."""
 
     def __init__(self, parse: Parse) -> None:
         self.parse, self.name = parse, TYPE_NAMES.get(parse, "number")

@@ -24,7 +24,7 @@ def _complete_scene(_: click.Context, __: click.Parameter, incomplete: str) -> l
 
 
 def _once(*names: str, help: str, **more: Any) -> Any:
-    """An option that may be given once."""
+    """Option that can be given once."""
     return option(*names, help=help, once=True, **more)
 
 
@@ -138,7 +138,7 @@ def converge_(given: Given) -> None:
 
 
 def post(*words: object) -> int:
-    """Another command of furrow-post in this process. @raises ResultsError"""
+    """Runs another command of furrow-post in this process. @raises ResultsError"""
     main = importlib.import_module(".main", __package__)
     status = main.root.main(list(map(str, words)), prog_name=main.NAME, standalone_mode=False)
     return status or 0

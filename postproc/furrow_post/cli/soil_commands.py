@@ -22,7 +22,7 @@ from .parameters import Given, argument, command, flag, option, output_options, 
 
 SIZES = (0.1, 0.15, 0.2)  # [m]
 ROUND_OFF = 1e-9
-ROUTES = {  # option that chooses the route -> what it needs and may have besides
+ROUTES = {  # option that chooses the route -> required and optional further options
     "cone_index": (("soil_class",), ("density",)),
     "k_phi": (("k_c", "n", "c", "phi", "K"), ("density", "plate")),
     "c": (("phi", "density"), ("oedometer", "E")),
@@ -95,8 +95,8 @@ def card_export(given: Given) -> None:
         exported = given.card.with_name(file)
         write(card, exported)
         print(f"  {name:13} {exported}")
-    for doubt in card.doubts():
-        print(f"furrow-post card: warning: {doubt}", file=sys.stderr)
+    for warning in card.warnings():
+        print(f"furrow-post card: warning: {warning}", file=sys.stderr)
 
 
 @command(argument("cards", "files of cards", path, nargs=-1, required=True))

@@ -25,7 +25,7 @@ from ..surrogate.terrain_map import GO, NO_GO, UNCERTAIN, make_map, read_classes
 from ..surrogate.training import PULL, QUANTITIES, RADIUS, TORQUE, Training, read_training
 from .parameters import Given, argument, assignments, command, option, repeated, require_file, target_option
 
-CHOSEN = ("slip", "load", "slope")  # inputs that a map finds for itself
+CHOSEN = ("slip", "load", "slope")  # inputs that the map chooses
 QUANTILES = (2.5, 50.0, 97.5)
 
 
@@ -82,7 +82,7 @@ def _report(surrogate: Surrogate, training: Training, held_out: Mapping[str, Hel
 
 
 def _prediction(surrogate: Surrogate, at: Mapping[str, float]) -> list[str]:
-    """With 95 % bands, also of pull and torque of this load."""
+    """Lines of a prediction with 95 % bands, including pull and torque at this load."""
     surrogate.require(at)
     x = surrogate.scaled(at).reshape(1, -1)
     rows = [["quantity", "value ± 95 % band"]]

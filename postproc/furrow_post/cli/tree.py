@@ -14,7 +14,7 @@ from .parameters import Command
 
 @dataclass(frozen=True)
 class Entry:
-    """One command: its words, the module here that has it, and its former names."""
+    """Command: its arguments, its module in this folder, and its former names."""
 
     path: str
     module: str
@@ -172,7 +172,7 @@ class Group(click.Group):
         return path[count:] if tuple(path[:count]) == self.words else []
 
     def _below(self) -> dict[str, list[Entry]]:
-        """First further word -> commands."""
+        """Next word of a command -> commands that have it."""
         found: dict[str, list[Entry]] = {}
         for entry in entries():
             for word in self._further(entry)[:1]:

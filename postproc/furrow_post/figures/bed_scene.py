@@ -36,7 +36,7 @@ class BedScene:
         else:
             self.bed_level = float(np.nanmedian(self._heights(reference.x, reference.radius)))
         self.heights = self._heights(self.x, self.radius) - self.bed_level
-        # none is known in a bed that was renewed as a whole
+        # a bed that was renewed completely has no known displacement
         self.followed = bool(np.isfinite(self.moved).any())
         largest = float(np.nanpercentile(self.moved, 99.5)) if self.followed else 1.0
         self.range = Normalize(0, round_up(largest))
@@ -84,7 +84,7 @@ class BedScene:
         """Heights with the pits between single grains filled: medians of 3 x 3 cells, of those that have a value."""
         padded = np.pad(self.heights, 1, constant_values=np.nan)
         around = sliding_window_view(padded, (3, 3)).reshape(*self.heights.shape, 9)
-        with warnings.catch_warnings(action="ignore"):  # where none has a value
+        with warnings.catch_warnings(action="ignore"):  # columns without a value
             median: Floats = np.nanmedian(around, axis=2)
         return median
 

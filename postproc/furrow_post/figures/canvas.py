@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import Floats, Integers
 from ..read.results import Surface
 
-NOTHING = -1  # of the objects, where a pixel shows none
+NOTHING = -1  # index of the object in pixels that show none
 AT_ONCE = 200_000  # pixels of the rectangles around triangles, which limits the memory
 
 

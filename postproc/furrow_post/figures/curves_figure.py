@@ -34,7 +34,7 @@ def draw_curves(result: CurveComparison, target: Path, formulas: Sequence[Line] 
             x, y, noise = MILLIMETRE * curve.x, KILOPASCAL * curve.y, KILOPASCAL * COVERAGE * curve.noise
             axes.plot(x, y, **look)
             axes.fill_between(x, y - noise, y + noise, color=colour, alpha=0.2, lw=0, label=band)
-            band = "_"  # once in the legend
+            band = "_"  # name that the legend skips
         else:
             axes.semilogx(KILOPASCAL * curve.x, curve.y, **look)
     for line, dashes in zip(formulas, ((6, 2), (2, 2), (6, 2, 1, 2), (1, 2))):

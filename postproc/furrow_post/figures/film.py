@@ -24,9 +24,9 @@ from .style import GROUND_COLOURS, use_style
 
 SLOWEST, FASTEST = 2.0, 30.0  # frames a second
 DOTS = 100  # per inch
-ROOM_ABOVE = 0.2  # for words and scale, of the height of what is shown
+ROOM_ABOVE = 0.2  # for text and scale, as a share of the height in view
 VIEW = View.of_angles(-62.0, 24.0)
-GREY = (0.62, 0.62, 0.60)  # of points whose quantity is not known
+GREY = (0.62, 0.62, 0.60)  # of points without a known quantity
 
 
 def _chosen(motion: Motion, key: str | None) -> Quantity | None:
@@ -71,7 +71,7 @@ class MovingPictures:
         self.pixel = float(2 * half[0] / self.width)
 
     def _parts(self, time: float) -> tuple[Floats, Floats, Floats, Surface | None]:
-        """Centres, radii, colours of spheres, and the bodies; x counted from the bodies' middle."""
+        """Centres, radii and colours of spheres, and the bodies; x is measured from the middle of the bodies."""
         bodies = [body.at(time) for body in self.motion.bodies]
         if self.motion.bodies_mirrored:
             bodies += [one.mirrored() for one in bodies]
@@ -152,7 +152,7 @@ def _encoder(target: Path, size: tuple[int, int], rate: float) -> Iterator[IO[by
             yield process.stdin
             process.stdin.close()
         except BrokenPipeError:
-            pass  # it has said why
+            pass  # the program has printed the reason
         said = process.stderr.read().decode(errors="replace").strip()
         if process.wait():
             raise ResultsError(f"{target}: ffmpeg could not write it ({' '.join(said.split())})")

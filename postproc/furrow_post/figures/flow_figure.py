@@ -26,7 +26,7 @@ class Image(NamedTuple):
 
 
 class Row(NamedTuple):
-    """A field of two runs, their difference, and how large it is as a share of its mean."""
+    """Field of two runs, their difference, and this difference over the mean."""
 
     name: str
     unit: str

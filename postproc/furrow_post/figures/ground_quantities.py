@@ -32,16 +32,16 @@ class Quantity:
     high: float
 
     def levels(self, values: Floats) -> Any:
-        """0 ... 254, or 255 where a value is NaN."""
+        """Levels 0 to 254 of values, and 255 for NaN."""
         share = (self.factor * values - self.low) / (self.high - self.low)
         level = np.round((COLOURS - 1) * np.clip(np.nan_to_num(share), 0, 1))
         return np.where(np.isfinite(values), level, COLOURS).astype(np.uint8)
 
 
 def quantities_of(motions: Sequence[Motion]) -> list[Quantity]:
-    """Those that a run has; first what all points of all runs have. @raises ResultsError"""
+    """Quantities of a run; those that all points of all runs have come first. @raises ResultsError"""
     samples: dict[str, list[Floats]] = {}
-    lacking: set[str] = set()  # what points of some cloud do not have at the end
+    lacking: set[str] = set()  # quantities that a cloud of points lacks at the end
     for motion in motions:
         for cloud in motion.clouds:
             for time in evenly_chosen(motion.times, SAMPLES):  # the last is the end

@@ -46,7 +46,7 @@ PANELS = (
     Panel("axle torque", "N m", 1.0, {"drive_torque": "axle torque"}),
     Panel("slip", "%", 100.0, {"slip": "slip"}),
 )
-OF_TYRES = ("tyre_deflection", "rut_depth")  # of a rigid wheel 0, and the hub drop
+OF_TYRES = ("tyre_deflection", "rut_depth")  # channels that are 0 and the hub drop for a rigid wheel
 TOP = 4.0  # height of the values over tests [inch]
 LINE_STYLES = ("-", "--", ":")
 NAMED_BAND = 0.05  # of the axis: a narrower band has no name
@@ -102,7 +102,7 @@ def draw_histories(results: Results, target: Path, against: str = "time") -> Non
 
 
 def _over_tests(folder: Path) -> list[OverTests]:
-    """None of a run that is not complete."""
+    """Errors of a run over tests; empty for an incomplete run."""
     try:
         return over_tests(read_wheel_run(folder))
     except ResultsError:

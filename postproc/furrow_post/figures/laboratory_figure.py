@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The figure of laboratory tests: all runs of one kind, measurements and continuum laws beside."""
+"""The figure of laboratory tests: all runs of one kind, measurements and continuum laws."""
 
 from collections.abc import Callable
 from pathlib import Path

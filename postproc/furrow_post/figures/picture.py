@@ -16,7 +16,7 @@ from .render import OBLIQUE, cut, shaded_picture
 from .style import (CENTIMETRE, MILLIMETRE, WHEEL_COLOUR, add_scale, label_panels, round_up, save, use_style)
 
 WIDTH = 11.0  # of the figure [inch]
-HEAD = 0.95  # of its title [inch]
+HEAD = 0.95  # height of the title [inch]
 
 
 def draw_picture(results: Results, numbers: str, target: Path, pixels: int = 1000) -> None:

@@ -79,7 +79,7 @@ def _stress_unit(*arrays: Floats) -> tuple[float, str]:
 
 
 def _in_suitable_unit(values: Sequence[Floats], label: str) -> tuple[list[Floats], str]:
-    """Values and label "... [Pa]" in the unit that suits their largest; others as they are."""
+    """Values and label "... [Pa]" in the unit that suits the largest value; other labels are unchanged."""
     if not label.endswith("[Pa]"):
         return list(values), label
     size, unit = _stress_unit(*values)

@@ -22,7 +22,7 @@ def corner_normals(surface: Surface) -> Floats:
     corners = x[triangles]
     face = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     unit = face / np.maximum(np.linalg.norm(face, axis=1, keepdims=True), 1e-300)
-    # each corner with all corners at its node, which are sorted by node
+    # pairs of a corner with all corners at its node, sorted by node
     node = triangles.ravel()
     at_node = np.bincount(node, minlength=len(x))
     sorted_corners = np.argsort(node, kind="stable")
@@ -106,7 +106,7 @@ def _lit(shadow_map: Canvas, points: Floats, bias: float) -> Floats:
 
 def _openness(canvas: Canvas, length: float) -> Floats:
     """Ambient occlusion: darker where the surroundings (within length) are nearer to the viewer."""
-    depth = canvas.image(canvas.depth)[::SUPERSAMPLE, ::SUPERSAMPLE]  # it varies little
+    depth = canvas.image(canvas.depth)[::SUPERSAMPLE, ::SUPERSAMPLE]  # the depth varies little within a pixel
     filled = np.where(np.isfinite(depth), depth, 0.0)
     weight = np.isfinite(depth).astype(float)
     factor = np.ones_like(depth)

@@ -75,7 +75,7 @@ def draw_parts(panels: Sequence[Panel], target: Path) -> None:
             axes.set_ylabel("energy over travel [N]")
         entries |= {name: bars for bars, name in zip(*axes.get_legend_handles_labels())}
     label_panels(figure.axes, *(panel.title for panel in panels))
-    names = _ordered(entries)[::-1]  # as they are stacked
+    names = _ordered(entries)[::-1]  # in the order of the stack
     legend = figure.add_subplot(grid[:, columns])
     legend.set_axis_off()
     legend.legend([entries[name] for name in names], names, loc="center left", fontsize=8)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One look for all figures."""
+"""Common style of all figures."""
 
 import string
 from collections.abc import Iterable, Iterator

@@ -53,7 +53,7 @@ class Section:
 
     @property
     def plane(self) -> list[int]:
-        """The axes that lie in the plane."""
+        """Indices of the axes in the plane of the figure."""
         return [1 - self.axis, 2]
 
     def draw_values(self, axes: Axes, values: Floats, norm: Normalize) -> None:
@@ -97,7 +97,7 @@ class Section:
         self._draw_frame(axes)
 
     def draw_tracers(self, axes: Axes) -> None:
-        """Where tracers are now that stood in the plane on vertical lines; thin lines from where they stood."""
+        """Draws tracers that stood on vertical lines in the plane, with thin lines from their first places."""
         terrain = self.terrain
         near = np.abs(terrain.initial_position[:, self.axis] - self.position)
         chosen = near < near.min() + 0.25 * terrain.spacing

@@ -39,7 +39,7 @@ class _Selection:
     motion: Motion
     label: str
     times: Floats
-    stride: int = 1  # every how many points
+    stride: int = 1  # one of so many points is shown
 
     def points(self, cloud: Cloud) -> list[Points]:
         return [self._thinned(cloud.at(time)) for time in self.times]
@@ -49,7 +49,7 @@ class _Selection:
             return points
         kept = points.id % self.stride == 0
         fields = {name: values[kept] for name, values in points.fields.items()}
-        # larger, so that what is left fills the same volume
+        # larger, so that fewer points fill the same volume
         radius = points.radius[kept] * self.stride ** (1 / 3)
         return Points(points.id[kept], points.x[kept], radius, fields)
 

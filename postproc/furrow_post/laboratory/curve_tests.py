@@ -14,9 +14,10 @@ from ..laws.fitter import Parameter, fit
 from ..uncertainty.statistics import block_mean, line_fit
 from ..arrays import Booleans, Floats
 from ..read.laboratory import LaboratoryTest, cell_curve
+from ..read.soil_card import mobilised_share
 from .quantity import LaboratoryQuantity
 
-quantity = LaboratoryQuantity  # as lists of them have it
+quantity = LaboratoryQuantity  # short name for the lists below
 
 REACHED = 0.95  # of the peak: a strength that is then kept, or grows slowly, has been reached there
 
@@ -154,7 +155,7 @@ def shear(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     rise = slice(0, peak + 1)
     start = (float(largest), float(max(travel[peak] / 3, 1e-6)))
     janosi = [Parameter("tau_max", "Pa", start[0], 0.0, np.inf), Parameter("K", "m", start[1], 1e-9, np.inf)]
-    top, length = fit(janosi, lambda x: _janosi(travel[rise], *x) - tau[rise], known=False).parameters
+    top, length = fit(janosi, lambda x: float(x[0]) * mobilised_share(travel[rise], x[1]) - tau[rise], known=False).parameters
     reached = float(travel[np.argmax(tau > REACHED * largest)])
     gap = test.numbers.get("gap", math.nan)  # of results before there was one: none
     at_travel = f"at a displacement of {travel[peak] * 1e3:.2f} mm"
@@ -244,12 +245,6 @@ def _stress_ratio(stress: Floats) -> Floats:
     q = np.sqrt(1.5) * np.linalg.norm(stress - p[:, None], axis=1)
     ratio: Floats = q / np.maximum(p, 1e-30)
     return ratio
-
-
-def _janosi(travel: Floats, top: float, length: float) -> Floats:
-    """tau = tau_max (1 - exp(-j/K)) of Z. Janosi and B. Hanamoto (1961)."""
-    tau: Floats = top * (1 - np.exp(-travel / length))
-    return tau
 
 
 def degrees(radians: Floats) -> tuple[float, float]:

@@ -96,7 +96,7 @@ def slope_angle(height: Floats, edges: Floats) -> tuple[float, float]:
     def between(low: float, high: float) -> float:
         first = int(np.flatnonzero(height < high * top)[0])
         last = int(np.flatnonzero(height > low * top)[-1])
-        if last <= first:  # a cliff between two rings
+        if last <= first:  # the surface drops between two rings
             return 90.0
         part = slice(first, last + 1)
         return -math.degrees(math.atan(np.polyfit(centre[part], height[part], 1)[0]))
@@ -106,7 +106,7 @@ def slope_angle(height: Floats, edges: Floats) -> tuple[float, float]:
 
 
 def outer_radius(height: Floats, edges: Floats, level: float) -> float:
-    """Where a profile of heights (m) in rings of one width falls below a level for the last time [m]."""
+    """Radius at which a profile of heights (m) in rings of one width last falls below a level [m]."""
     centre = 0.5 * (edges[1:] + edges[:-1])
     last = int(np.flatnonzero(height > level)[-1])
     if last + 1 == len(height):

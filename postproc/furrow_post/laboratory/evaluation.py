@@ -17,7 +17,7 @@ EVALUATIONS: dict[str, Callable[[LaboratoryTest], list[LaboratoryQuantity]]] = {
 
 
 def evaluate(test: LaboratoryTest) -> list[LaboratoryQuantity]:
-    """Quantities of one test. @raises ResultsError where its curve or deposit is no such test's"""
+    """Quantities of one test. @raises ResultsError for a curve or deposit of another kind of test"""
     remedy = "was the run stopped, or too short? Make it again"
     with content_of(test.folder, remedy), np.errstate(all="ignore"):
         return EVALUATIONS[test.kind](test)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tests evaluated together: the report for a person, laboratory.json in each folder."""
+"""Tests evaluated together: printed report, and laboratory.json in each folder."""
 
 import json
 import math
@@ -16,7 +16,7 @@ from .together import together
 
 @dataclass
 class LaboratoryReport:
-    """Tests of one kind, what they are laid beside, and what they say."""
+    """Report on tests of one kind: references and results."""
 
     tests: list[LaboratoryTest]
     measured: Oedometer | None

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Formulas and laws: what they predict, and the fit of their parameters to measurements."""
+"""Formulas and laws: predictions, and the fit of parameters to measurements."""

@@ -35,7 +35,7 @@ class Traction:
     sinkage: float = math.nan  # [m] at this slip
     towed_resistance: float = math.nan  # motion resistance over load of a towed wheel
     towed_sinkage: float = math.nan  # [m]
-    mark: str = ""  # what of the formula is known from memory or assumed
+    mark: str = ""  # assumptions of the formula, and parts that were not checked with the source
 
     @property
     def net(self) -> float:
@@ -108,7 +108,7 @@ class ConeFormula:
     method: str
     source: str
     equations: Equations
-    deflected: bool  # it needs the deflection of the tyre
+    deflected: bool  # the formula needs the deflection of the tyre
     mark: str
 
     def __call__(self, cone_index: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
@@ -277,7 +277,7 @@ class Formulas:
     refused: tuple[str, ...]  # formulas without an answer, with the cause
 
     def band(self, quantity: str) -> tuple[float, float, float] | None:
-        """Mean, least and greatest of the formulas within their ranges; None without any."""
+        """Mean, minimum and maximum of the formulas within their ranges; None if no formula is in its range."""
         values = [getattr(answer, quantity) for answer in self.answers if not answer.outside]
         values = [value for value in values if math.isfinite(value)]
         return (sum(values) / len(values), min(values), max(values)) if values else None

@@ -16,8 +16,9 @@ from scipy.optimize import brentq
 
 from ..arrays import Floats
 from ..errors import ResultsError
+from ..read.soil_card import mobilised_share
 from ..read.wheel_run import WheelRun
-from .prediction import Limit, OutOfRange, Prediction, Result
+from .prediction import Limit, OutOfRange, PredictedValue, Prediction
 from .prediction import report_of, require_positive, require_range, require_wheel
 from .terrain_values import TerrainValues, terrain, terrains
 
@@ -105,7 +106,7 @@ def nrmm(
         Limit("final over initial density", final / density, 1, math.inf, "", "snow does not swell"),
     ]
     outside = require_range("NRMM", limits, extrapolate)
-    resistance, extra = nrmm_resistance(density, width, radius, z), (Result("final density", final, "kg/m3"),)
+    resistance, extra = nrmm_resistance(density, width, radius, z), (PredictedValue("final density", final, "kg/m3"),)
     return Prediction("NRMM", NRMM_SOURCE, z, resistance, load, NRMM_SINKAGE_RMS, NRMM_COEFFICIENT_RMS, outside, extra)
 
 
@@ -135,7 +136,7 @@ class SnowTraction:
         return self.coefficient * self.load
 
     def report(self) -> str:
-        """Lines for a person."""
+        """Lines of the printed report."""
         rows = [
             ("contact pressure", f"{self.pressure / 1e3:.4g} kPa"),
             ("gross traction", f"{self.gross:.4g} N"),
@@ -200,7 +201,7 @@ def _wong_reece_sums(theta_1: float, slip: float, radius: float, width: float, g
         mirrored = theta if low > 0 else theta_1 - theta / theta_m * (theta_1 - theta_m)
         sigma = k * np.maximum(np.cos(mirrored) - np.cos(theta_1), 0.0) ** n
         j = radius * (theta_1 - theta - (1 - slip) * (np.sin(theta_1) - np.sin(theta)))
-        tau = (ground.c + sigma * np.tan(np.radians(ground.phi))) * (1 - np.exp(-j / ground.K))
+        tau = (ground.c + sigma * np.tan(np.radians(ground.phi))) * mobilised_share(j, ground.K)
         totals += [
             np.sum(weight * (sigma * np.cos(theta) + tau * np.sin(theta))),
             np.sum(weight * (tau * np.cos(theta) - sigma * np.sin(theta))),
@@ -249,10 +250,10 @@ def wong_reece(
     ]
     outside = require_range("Wong-Reece", limits, extrapolate)
     extra = (
-        Result("torque", torque, "N m"),
-        Result("drawbar pull", pull, "N"),
-        Result("entry angle", float(np.degrees(entry)), "deg"),
-        Result("slip", slip, ""),
+        PredictedValue("torque", torque, "N m"),
+        PredictedValue("drawbar pull", pull, "N"),
+        PredictedValue("entry angle", float(np.degrees(entry)), "deg"),
+        PredictedValue("slip", slip, ""),
     )
     return Prediction("Wong-Reece", WONG_REECE_SOURCE, z, -pull, load, outside=outside, extra=extra)
 

@@ -36,7 +36,7 @@ Residuals = Callable[[Floats], Floats]  # of the values of the parameters. @rais
 
 
 class NotComputed(ResultsError):
-    """There is no such material or tyre, or the model has no state."""
+    """Refusal of a trial: impossible parameters, or a model without a solution."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Parameter:
 
     @property
     def bounded(self) -> bool:
-        """On both sides, in z."""
+        """True for a parameter with bounds on both sides, in z."""
         return math.isfinite(self.low) and math.isfinite(self.high)
 
     @property
@@ -126,7 +126,7 @@ class Fitted:
     value: float
     deviation: float  # standard deviation, linearised; infinite where not determined, NaN: unknown
     determined: bool
-    remark: str  # why it is not determined, or that it stands at a bound
+    remark: str  # reason why the parameter is not determined, or its bound
     share: float = math.nan  # of the prior's variance that the data removed
 
     def interval(self, coverage: float = 0.95) -> tuple[float, float]:
@@ -152,7 +152,7 @@ class Fit:
     scatter: float  # s
     known: bool
     evaluations: int = 0
-    end: str = ""  # why the iteration ended
+    end: str = ""  # reason for the end of the iteration
     converged: bool = True
 
     @property
@@ -177,7 +177,7 @@ class Fit:
     def with_samples(self, samples: Sequence[Floats]) -> "Fit":
         """Errors with the scatter of further samples: their residuals at the solution, of the rows that were fitted."""
         parameters = [fitted.parameter for fitted in self.parameters]
-        wider = judge(parameters, self.z, self.residuals, self.slope, self.known, None, samples)
+        wider = assess(parameters, self.z, self.residuals, self.slope, self.known, None, samples)
         kept = ("start", "held", "evaluations", "end", "converged")
         return replace(wider, **{name: getattr(self, name) for name in kept})
 
@@ -211,7 +211,7 @@ class _Problem:
         return np.array([p.value(one) for p, one in zip(self.parameters, z)])
 
     def at(self, z: Floats) -> Floats:
-        """All rows. @raises NotComputed"""
+        """Residuals of all rows. @raises NotComputed"""
         key = z.tobytes()
         if key not in self.cache:
             self.evaluations += 1
@@ -312,7 +312,7 @@ def fit(
     rows = problem.at(z)
     ends = {0: f"{search.evaluations} evaluations were not enough", 2: "the sum of squares no longer falls"}
     return replace(
-        judge(parameters, z, rows, found.jac[: len(rows[problem.fitted])], known, held),
+        assess(parameters, z, rows, found.jac[: len(rows[problem.fitted])], known, held),
         start=start,
         evaluations=problem.evaluations,
         end=ends.get(found.status, "the parameters no longer change"),
@@ -331,7 +331,7 @@ def slopes(parameters: Sequence[Parameter], residuals: Residuals, z: Floats, sea
     return problem.differences(z, problem.at(z))
 
 
-def judge(
+def assess(
     parameters: Sequence[Parameter],
     z: Floats,
     rows: Floats,
@@ -357,7 +357,7 @@ def judge(
         scatter = max(scatter, float(np.sqrt(np.mean(apart))))
 
     covariance = np.zeros((len(z), len(z)))
-    left_open: dict[int, str] = {}  # parameter -> why it is not determined
+    left_open: dict[int, str] = {}  # parameter -> reason why it is not determined
     names = [parameter.name for parameter in parameters]
     if priors:
         covariance = np.linalg.inv(information / scatter**2 + np.diag(weight**2))

@@ -62,7 +62,7 @@ def fit_law(parameters: Sequence[Parameter], curves: Sequence[Curve], model: Mod
 
 
 def report(point: PointCurves, fit: LawFit) -> str:
-    """Parameters with uncertainties, what is not determined, correlations."""
+    """Report: parameters with uncertainties, undetermined parameters, correlations."""
     lines = [
         point.title,
         f"  material      {point.material} ({point.law})",

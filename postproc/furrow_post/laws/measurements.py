@@ -32,7 +32,7 @@ class Column:
 
 
 def read_columns(path: Path) -> list[Column]:
-    """All columns of numbers. @raises ResultsError"""
+    """Reads all columns of numbers. @raises ResultsError"""
     return _read(path, [])
 
 

@@ -26,7 +26,7 @@ class Curve:
 
     name: str
     path: str  # its type
-    driven_by: str  # with its unit, as compared
+    driven_by: str  # name with unit, as `compared`
     driven: Floats
     channel: str
     compared: str
@@ -109,5 +109,5 @@ def _parameter(head: dict[str, Any]) -> Parameter:
 
 
 def _curve(head: dict[str, Any]) -> Curve:
-    columns = {name: np.array(head[name], dtype=np.float64) for name in ("driven", "measured")}  # null: NaN
+    columns = {name: np.array(head[name], dtype=np.float64) for name in ("driven", "measured")}  # null becomes NaN
     return Curve(**{**head, **columns})

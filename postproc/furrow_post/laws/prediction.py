@@ -43,7 +43,7 @@ class Limit:
 
 
 @dataclass(frozen=True)
-class Result:
+class PredictedValue:
     """A further result of a formula."""
 
     name: str
@@ -63,7 +63,7 @@ class Prediction:
     sinkage_scatter: float = math.nan
     coefficient_scatter: float = math.nan
     outside: tuple[str, ...] = ()  # the limits that are not met, in words
-    extra: tuple[Result, ...] = ()
+    extra: tuple[PredictedValue, ...] = ()
 
     def __post_init__(self) -> None:
         values = (self.sinkage, self.resistance, self.load, *(r.value for r in self.extra))
@@ -75,7 +75,7 @@ class Prediction:
         return self.resistance / self.load
 
     def report(self) -> str:
-        """Lines for a person."""
+        """Lines of the printed report."""
         sinkage = f"{1e3 * self.sinkage:.1f} mm"
         if self.sinkage_scatter > 0:
             sinkage += f"  (scatter of tests {1e3 * self.sinkage_scatter:.0f} mm)"
@@ -94,7 +94,7 @@ class Prediction:
 def report_of(
     title: str, source: str, rows: Iterable[tuple[str, str]], wide: int, notes: Iterable[str] = ()
 ) -> str:
-    """Lines for a person: title with source, names and values in columns, notes."""
+    """Lines of a report: title with source, names and values in columns, notes."""
     lines = [*(f"{name:{wide}} {value}" for name, value in rows), *notes]
     return "\n".join([f"{title}  ({source})", *(f"  {line}" for line in lines)])
 

@@ -20,7 +20,7 @@ TRIED = 1901  # values between the ends
 
 @dataclass(frozen=True)
 class Identified:
-    """The parameter, its range, and what is left of each quantity, rms."""
+    """Identified parameter, its range, and the rms residual of each quantity."""
 
     value: float
     low: float
@@ -44,7 +44,7 @@ class Response:
         return np.linspace(min(self.values), max(self.values), TRIED)
 
     def at(self, quantity: str, places: Sequence[float]) -> Floats:
-        """(value tried, place)"""
+        """Response of quantities at a tried value, for each place."""
         rows = np.array([np.interp(places, self.places, line) for line in self.quantities[quantity]])
         fits = np.polyfit(np.array(self.values) ** -2.0, rows, 2)
         return np.array([np.polyval(fit, self.tried() ** -2.0) for fit in fits.T]).T

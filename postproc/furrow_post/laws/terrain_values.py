@@ -22,7 +22,7 @@ class TerrainValues:
 
     name: str
     kind: str
-    pressure: str  # whose pressure-sinkage law: "bekker" or "reece"
+    pressure: str  # author of the pressure-sinkage law: "bekker" or "reece"
     k_1: float
     k_2: float
     n: float
@@ -35,7 +35,7 @@ class TerrainValues:
     assumed: tuple[str, ...] = ()  # values that no source of this ground has, in words
 
     def report(self) -> str:
-        """The values in a line for a person."""
+        """Text of the values in one line."""
         names = ("k_c", "k_phi") if self.pressure == "bekker" else ("k_1", "k_2")
         values = (*zip(names, (self.k_1, self.k_2)), *((name, getattr(self, name)) for name in VALUES))
         return ", ".join(f"{name} {value:.6g}" for name, value in values if math.isfinite(value))

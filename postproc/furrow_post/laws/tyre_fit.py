@@ -23,7 +23,7 @@ from ..csv_table import read_numbers
 from ..errors import ResultsError
 from ..programs import find_program
 from ..run.tools import Refused, answer
-from .fitter import NotComputed, Parameter, Residuals, Search, fit, judge, slopes
+from .fitter import NotComputed, Parameter, Residuals, Search, assess, fit, slopes
 from .tyre_estimate import Catalogue, Guess, guesses, tyre_text
 
 # Columns of a test, as furrow-tyre prints them -> relative error of a measurement
@@ -125,7 +125,7 @@ class TyreFit:
     parameters: list[FittedTyre]
     singular_values: Floats  # of J, falling
     correlation: Floats
-    stretch: float  # how much larger than assumed the misfit makes the tests' errors
+    stretch: float  # factor on the assumed errors of the tests, from the misfit
 
     def values(self) -> dict[str, float]:
         return {parameter.name: parameter.value for parameter in self.parameters}
@@ -173,11 +173,11 @@ def fit_tyre(known: Catalogue, tests: Sequence[PlateTest], solve: Solver = press
         correction = misfit(at, FINE) - misfit(at, COARSE)
         return lambda x: misfit(x, COARSE) + correction
 
-    found = judge(parameters, np.zeros(len(start)), np.zeros(0), np.zeros((0, len(start))))
+    found = assess(parameters, np.zeros(len(start)), np.zeros(0), np.zeros((0, len(start))))
     if tests:
         found = fit(parameters, coarse(found.z), SEARCH)
         slope = slopes(parameters, coarse(found.z), found.z, SEARCH)
-        found = judge(parameters, found.z, misfit(found.z, FINE), slope)
+        found = assess(parameters, found.z, misfit(found.z, FINE), slope)
     results = zip(start.items(), values(found.z).values(), found.parameters)
     fitted = [
         FittedTyre(name, value, guess.spread * one.deviation, one.share, guess)

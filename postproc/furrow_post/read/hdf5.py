@@ -47,7 +47,7 @@ def opened(file: Path) -> Iterator[Any]:
 
 @lru_cache(maxsize=None)
 def _require_sound(file: Path, modified: int, size: int) -> None:
-    """@raises ResultsError"""
+    """Requires a file that the child process can read completely. @raises ResultsError"""
     try:
         trouble = _reader_of(os.getpid()).trouble(file, size)
     except EOFError:  # perhaps not because of this file
@@ -95,12 +95,12 @@ def _reader_of(process: int) -> _Reader:
 
 
 def _read_all(pipe: Connection, other: Connection) -> None:
-    """In the child: of each file asked for, sends what is wrong, or an empty text."""
+    """Loop of the child process: sends the fault of each requested file, or an empty text."""
     other.close()
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # which a program that makes runs takes
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # a program that makes runs handles these signals
         signal.signal(number, signal.SIG_DFL)
     with open(os.devnull, "w", encoding="utf-8") as nowhere:
-        os.dup2(nowhere.fileno(), 2)  # what the C library says when it stops the process
+        os.dup2(nowhere.fileno(), 2)  # hides the message of the C library when it stops the process
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with contextlib.suppress(EOFError):
         while True:

@@ -52,7 +52,7 @@ class LaboratoryTest:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """All facts that are numbers."""
+        """Facts that are numbers."""
         known = {name: number_or_text(text) for name, text in self.facts.items()}
         return {name: value for name, value in known.items() if isinstance(value, float)}
 

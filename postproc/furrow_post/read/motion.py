@@ -202,7 +202,7 @@ def _radius_of(volume: Floats) -> Floats:
 
 
 def evenly_chosen(times: Floats, number: int) -> Floats:
-    """At most this number of times, the first and the last among them."""
+    """At most a number of the times, with the first and the last."""
     if number >= len(times):
         return times
     places = np.round(np.linspace(0, len(times) - 1, number)).astype(int)

@@ -78,7 +78,7 @@ class Surface(NamedTuple):
 
     @classmethod
     def together(cls, surfaces: Sequence["Surface"]) -> "Surface":
-        """Several as one."""
+        """Joins several surfaces into one."""
         first = np.cumsum([0, *(len(one.x) for one in surfaces)])
         return cls(
             np.concatenate([one.triangles + n for one, n in zip(surfaces, first)]),
@@ -86,7 +86,7 @@ class Surface(NamedTuple):
         )
 
     def mirrored(self) -> "Surface":
-        """Its image in y = 0."""
+        """Mirror image of the surface in y = 0."""
         # the other way round: normals stay outward
         return Surface(self.triangles[:, ::-1], self.x * MIRROR)
 
@@ -99,7 +99,7 @@ class Grains:
     x: Floats  # (n, 3) [m]
     radius: Floats  # (n) [m]
     period: Floats  # (3) [m], 0 along an axis that is not periodic
-    bed_level: float  # [m], NaN where the bed did not measure itself
+    bed_level: float  # [m], NaN for a bed that was not measured
     # (n, 3) [J] xx, yy, zz of stress times volume by contacts between grains, tension positive
     virial: Floats | None = None
 
@@ -144,7 +144,7 @@ class Style:
 
     id: str
     style: str  # e.g. "terrain/continuum"
-    kind: str  # e.g. "terrain": what it is, whatever its style
+    kind: str  # kind of the fix for any style, e.g. "terrain"
     options: dict[str, list[Option]]  # keyword -> its values, SI units and degrees
 
     def has(self, keyword: str) -> bool:
@@ -275,7 +275,7 @@ class Results:
 
     @property
     def effective_input(self) -> str:
-        """Styles with their values, and the script, for people."""
+        """Text of the styles with their values, and of the script."""
         return read_effective_input(self.file)
 
     @property

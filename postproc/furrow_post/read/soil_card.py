@@ -20,7 +20,7 @@ from ..errors import ResultsError, content_of
 from ..json_text import parse_json
 
 REMEDY = "write it with furrow-post card make"
-SCALES = {"": 1.0, "k": 1e3, "M": 1e6}  # before a unit
+SCALES = {"": 1.0, "k": 1e3, "M": 1e6}  # factors of the prefixes of a unit
 OTHER_UNITS = {  # unit of a parameter -> others, and their size
     "degree": {"degrees": 1.0, "deg": 1.0, "°": 1.0, "rad": math.degrees(1)},
     "m": {"cm": 1e-2, "mm": 1e-3, "in": 0.0254},
@@ -39,9 +39,9 @@ CHRONO = {  # key of Chrono's "Soil parameters" -> name
 }
 EARTH = 9.80665  # [m/s2]
 RFT_PLATE = 0.875  # stress under a level plate over strength and depth, resistive force theory [Agarwal2023]
-SMALLEST_K = 5e-4  # [m] that a soil has
+SMALLEST_K = 5e-4  # least K of a soil [m]
 INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
-REACHED = 0.98  # of it, by the last row of a test
+REACHED = 0.98  # least depth of the tests over INDEX_DEPTH
 STANDARD_CONE = 0.02027  # [m] base of 323 mm2, ASABE S313.3
 
 
@@ -55,7 +55,7 @@ class Fitted:
 
 @dataclass(frozen=True)
 class Range:
-    """Where the tests were made."""
+    """Range of a variable in the tests."""
 
     low: float
     high: float
@@ -88,9 +88,15 @@ class PressureSinkage:
         return slope / RFT_PLATE, abs(n - 1) / (n + 2) / math.sqrt(2 * n + 1)
 
 
+def mobilised_share(displacement: Floats, length: float) -> Floats:
+    """Shear stress over strength after a shear displacement j: 1 - exp(-j/K) of Z. Janosi and B. Hanamoto (1961)."""
+    share: Floats = 1 - np.exp(-displacement / length)
+    return share
+
+
 @dataclass(frozen=True)
 class Shear:
-    """tau = (c + sigma tan phi)(1 - exp(-j/K)) of Z. Janosi and B. Hanamoto (1961)."""
+    """tau = (c + sigma tan phi)(1 - exp(-j/K)), with the mobilised_share()."""
 
     instrument: ClassVar[str] = "ring"
     c: Fitted = field(metadata={"unit": "Pa"})
@@ -103,7 +109,7 @@ class Shear:
 
     def at(self, displacement: Floats, normal: Floats) -> Floats:
         strength = self.c.value + normal * math.tan(math.radians(self.phi.value))
-        stress: Floats = strength * (1 - np.exp(-displacement / self.K.value))
+        stress: Floats = strength * mobilised_share(displacement, self.K.value)
         return stress
 
 
@@ -168,7 +174,7 @@ class SoilCard:
 
     @property
     def parts(self) -> dict[str, PressureSinkage | Shear | Cone | NoResult]:
-        """Section -> its result."""
+        """Results of the card by section."""
         return {name: getattr(self, name) for name in SECTIONS}
 
     def failures(self) -> dict[str, str]:
@@ -199,10 +205,10 @@ class SoilCard:
             )
 
     def condition(self) -> str:
-        """Where the values hold, for a person and for the files of other codes."""
+        """Text of the range of validity, for the reader and for files of other codes."""
         return f"holds in a gravity of {self.gravity:g} m/s2 only"
 
-    def doubts(self) -> list[str]:
+    def warnings(self) -> list[str]:
         """Warnings to read before a vehicle code takes the values."""
         plate = self.pressure_sinkage
         if isinstance(plate, NoResult) or plate.k_c.value >= 0.0:
@@ -219,11 +225,11 @@ class SoilCard:
         return {name: value for name, value in found.items() if isinstance(value, Fitted)}
 
     def texts(self) -> dict[str, str]:
-        """Name -> value and error for a person."""
+        """Parameter -> text of value and error."""
         return {name: shown(fitted) for name, fitted in self.parameters().items()}
 
     def ranges(self) -> list[tuple[str, Range, str]]:
-        """Meaning, range, unit."""
+        """Meaning, range and unit of the tested variables."""
         found = [
             (str(one.metadata["meaning"]).format(part), getattr(part, one.name), str(one.metadata["unit"]))
             for part in self.parts.values()
@@ -233,7 +239,7 @@ class SoilCard:
         return [one for one in found if math.isfinite(one[1].high)]
 
     def report(self) -> str:
-        """Lines for a person."""
+        """Lines of the printed report."""
         lines = [self.title]
         for name, text in self.texts().items():
             lines.append(f"  {name:12} {text:>22} {UNITS[name]}")

@@ -177,7 +177,7 @@ def _lattice_spacing(coordinates: Floats) -> float:
 
 
 class Outline:
-    """Where a wheel, tyre or plate stood at the end; without one, the middle of the terrain.
+    """Place of a wheel, tyre or plate at the end, or the middle of the terrain without a body.
 
     surface: Surface or None, of both halves of a half model; centre (3) [m]; half_width [m], NaN
     without a body.

@@ -25,7 +25,7 @@ APPENDED = b'<AppendedData encoding="raw">'
 
 @dataclass(frozen=True)
 class Frames:
-    """Frames of one thing in the order of time: times[k] [s] is that of files[k]."""
+    """Frames of a body or of grains in the order of time: times[k] [s] belongs to files[k]."""
 
     times: Floats
     files: tuple[Path, ...]
@@ -97,7 +97,7 @@ def read_vtp(file: Path) -> PolyData:
 
 
 def _unpacked(content: bytes, place: int, word: np.dtype[Any]) -> bytes:
-    """The blocks of zlib that start here: number, size, size of the last, packed sizes, data."""
+    """Unpacks blocks of zlib: number, size, size of the last, packed sizes, data."""
     blocks = int(np.frombuffer(content, word, 1, place)[0])
     sizes = np.frombuffer(content, word, blocks, place + 3 * word.itemsize)
     place += (3 + blocks) * word.itemsize
@@ -110,7 +110,7 @@ def _unpacked(content: bytes, place: int, word: np.dtype[Any]) -> bytes:
 
 @contextmanager
 def _content_of(file: Path) -> Iterator[None]:
-    """content_of(), for what the parsers of XML and zlib raise as well."""
+    """Calls content_of() and converts errors of the parsers of XML and zlib too."""
     try:
         with content_of(file, REMEDY):
             yield

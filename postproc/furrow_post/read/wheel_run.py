@@ -43,7 +43,7 @@ class Condition:
 
     @property
     def number(self) -> float:
-        """NaN for a word."""
+        """Number of a condition; NaN for a word."""
         return self.value if isinstance(self.value, float) else float("nan")
 
     def text(self) -> str:
@@ -243,7 +243,7 @@ def _read_grains(
     run.size, run.elements = float(2 * reference.radius.mean()), len(reference.id)
     level = reference.bed_level if np.isfinite(reference.bed_level) else run.ground_level
     low, high = reference.corners
-    inner: Floats = (high - low)[:2]  # what the grains fill: walls may stand outside of the bed
+    inner: Floats = (high - low)[:2]  # size of the region with grains; walls can lie outside the bed
     run.domain = (float(inner[0]), float(inner[1]))
     base = bed.number("base", 0.0) if bed else 0.0
     floor = float(low[2]) + base
@@ -318,5 +318,5 @@ def _read_cost(run: WheelRun) -> None:
     cost = run.results.cost
     run.wall_time = cost.get("wall_time", float("nan"))
     run.cpu_time = run.wall_time * cost.get("ranks", 1.0)
-    if record := read_record(run.folder / FINISHED):  # it does not count what other programs took
+    if record := read_record(run.folder / FINISHED):  # the CPU time of the record excludes other programs
         run.cpu_time = record.cpu_time

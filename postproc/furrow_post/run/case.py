@@ -54,8 +54,8 @@ class Case:
     may_fail: bool = False  # its failure is a result of the study too
     fallback: Mapping[str, Value] = field(default_factory=dict)  # variables of a second attempt
     ranks: int = 1  # of MPI; the results do not depend on them but for rounding
-    reads: tuple[Path, ...] = ()  # further files that it is made from
-    start: Path | None = None  # where the program is started; None: in the folder of the run
+    reads: tuple[Path, ...] = ()  # further input files of the run
+    start: Path | None = None  # folder in which the program starts; None for the folder of the run
     keeps_checkpoint: bool = False  # can be continued from the checkpoint that a signal makes
     checkpoint: float = 0.0  # [s] between further checkpoints; 0: none
     continued: bool = False  # begins from a checkpoint in its folder
@@ -77,7 +77,7 @@ class Case:
         return words
 
     def start_in(self, folder: Path) -> Path:
-        """Where the program is started: a folder with blanks has the name "." from inside."""
+        """Folder in which the program starts; a path with blanks is "." inside this folder."""
         return folder if self.start is None or _has_blanks(folder) else self.start
 
     def identity(self, root: Path) -> dict[str, object]:
@@ -155,7 +155,7 @@ def _add_with_named(path: Path, found: dict[Path, None]) -> None:
 
 
 def _named_in(text: str, folder: Path) -> Iterator[Path]:
-    """Files that values of a YAML text name; what is no YAML names none."""
+    """Files that the values of a YAML text name; none for other texts."""
     return _files_among(_words_of(text), folder)
 
 

@@ -17,9 +17,9 @@ from .progress import Progress
 from .record import FAILED, FINISHED, Record, claimed, digest, digests, forget, is_busy, read_record
 from .tools import Tools
 
-LOOK_EVERY = 1.0  # [s] at what is running
+LOOK_EVERY = 1.0  # interval between looks at the running programs [s]
 PROGRAM = ""  # name of the program's digest among those of files
-PATIENCE = 10.0  # [s] in which a run that is being stopped leaves its folder
+PATIENCE = 10.0  # time in which a stopped run releases its folder [s]
 
 
 class State(enum.Enum):
@@ -52,7 +52,7 @@ class Run:
 
     @property
     def seconds(self) -> float:
-        """Core seconds, to a tenth."""
+        """Core time in seconds, rounded to a tenth."""
         return round(self.record.cpu_time, 1)
 
     def number(self, variable: str, default: float = 0.0) -> float:

@@ -23,7 +23,7 @@ from ..whole_file import replaced
 from .case import Case
 
 CHECKPOINT = "checkpoint.data"  # the last one that a signal made
-FORCED = "restart_forced_liggghts_*.data"  # as LIGGGHTS names it, where the run was started
+FORCED = "restart_forced_liggghts_*.data"  # name that LIGGGHTS gives, in the folder where the run started
 PARTICLES = ".particles"  # ending of the folder next to a checkpoint, with the particles of terrain
 LOOK_EVERY = 0.2  # [s] at the output of a program and at its checkpoints
 SCREEN, ERRORS = "screen.txt", "errors.txt"  # stdout and stderr of the program
@@ -56,7 +56,7 @@ class Job:
 
     case: Case
     command: Sequence[str]
-    folder: Path  # of its output
+    folder: Path  # folder of the output
     show: Callable[[str], None] | None = None  # takes each line for the screen
     low_priority: bool = False
 
@@ -67,7 +67,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Ending:
-    """How a program ended."""
+    """Ending of a program: status and reason."""
 
     status: int  # below 0: ended by this signal
     wall_time: float  # [s]
@@ -110,7 +110,7 @@ class Processes:
             send(process, number)
 
     def require_no_signal(self) -> None:
-        """@raises Stopped after a signal"""
+        """Ends the program if a signal has arrived. @raises Stopped after a signal"""
         if self._signal:
             raise Stopped(self._signal)
 
@@ -211,7 +211,7 @@ def keep_checkpoint(start: Path, folder: Path, since: int) -> bool:
 
 
 def _move_particles(file: Path, folder: Path) -> set[str]:
-    """Names of particle files, which move before their checkpoint: until then the stored one is whole."""
+    """Moves particle files before their checkpoint, so that the stored checkpoint stays complete."""
     source, target = Path(f"{file}{PARTICLES}"), folder / f"{CHECKPOINT}{PARTICLES}"
     if not source.is_dir():
         return set()

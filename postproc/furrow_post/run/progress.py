@@ -11,7 +11,7 @@ from ..formatting import duration
 from .process import ERRORS, SCREEN, show_line
 from .record import Record
 
-DONE = re.compile(rb"^\[[^\]]*\]\s+([\d.]+) %", re.MULTILINE)  # as fix progress says it
+DONE = re.compile(rb"^\[[^\]]*\]\s+([\d.]+) %", re.MULTILINE)  # line of fix progress
 TAIL = 4096  # [bytes] of a run's output that are looked at
 
 
@@ -36,7 +36,7 @@ class Progress:
         return (lambda line: show_line(label + line)) if self.watch else None
 
     def report(self, name: str, folder: Path, record: Record) -> None:
-        """A run has ended."""
+        """Shows the end of a run."""
         if self.watch:
             if record.error:
                 _show_end(folder)
@@ -88,7 +88,7 @@ class Progress:
         return (of_running + waiting * each) / max(min(self.jobs, len(running) + waiting), 1)
 
     def clear(self) -> None:
-        """Takes the line away."""
+        """Removes the line of progress from the screen."""
         if self._shown:
             print(f"\r{' ' * len(self._shown)}\r", end="", flush=True)
             self._shown = ""

@@ -69,7 +69,7 @@ class Record:
         return str(self.job.get("program", ""))
 
     def variable(self, name: str) -> str:
-        """As the last attempt had it. @raises KeyError"""
+        """Value of a variable in the last attempt. @raises KeyError"""
         variables = self.job["variables"]
         assert isinstance(variables, Mapping)
         return str({**variables, **self.changes}[name])
@@ -139,6 +139,6 @@ def lock(handle: int) -> bool:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         return False
-    except OSError:  # no locks here
+    except OSError:  # the file system has no locks
         pass
     return True

@@ -19,7 +19,7 @@ from .progress import Progress
 
 FOLDER, SCRIPT, JOB = "slurm", "job.sh", "job.json"  # below the folder of the sweep
 LOOK_EVERY = 2.0  # [s] at the queue and the points
-SETTLING = 10.0  # [s] that a file may take from a node to this machine
+SETTLING = 10.0  # [s] delay of a file from a node to this machine
 
 BATCH = """#!/bin/bash
 # Written by inputs/run --submit slurm. Partition, account, time: the variables SBATCH_* of sbatch.

@@ -101,12 +101,12 @@ class Summary:
 
     @property
     def verdict(self) -> str:
-        """One line; empty in files of earlier versions."""
+        """Verdict of one line; empty in files of earlier versions."""
         return str(self.content.get("verdict", ""))
 
     @property
     def parts(self) -> ResistanceParts | None:
-        """None where the file has none."""
+        """Parts of the resistance; None in a file without them."""
         return self._parts_in(self.content)
 
     @property

@@ -15,7 +15,7 @@ from ..run.case import RESULTS, continued_script
 from ..run.executor import Failed
 from ..run.process import CHECKPOINT
 from ..run.tools import Tools
-from ..sweep.sweep_plan import Plan
+from ..sweep.sweep_plan import SweepPlan
 from .catalogue import Variables, head_lines, quick_variables, script_of
 from .one import SceneRun, ranks_remark, require_folder, run_scenes, show, words_of
 from .options import called, require_fitting
@@ -31,9 +31,9 @@ class Request:
 
     options: Any
     folder: Path  # of the results
-    script: Path | None = None  # None: the runs without a scene
+    script: Path | None = None  # None for runs without a scene
     preset: Variables = field(default_factory=list)  # of --quick
-    plan: Plan | None = None  # of --sweep
+    plan: SweepPlan | None = None  # of --sweep
     former: Former | None = None  # of --continue
 
 
@@ -68,7 +68,7 @@ def _how_to_continue(request: Request) -> str:
 
 
 def checked(options: Any) -> Request:
-    """@raises ResultsError, OSError"""
+    """Checks the options and makes the request. @raises ResultsError, OSError"""
     scene: str = options.scene
     request = Request(options, options.folder or _default_folder(options))
     if not scene:
@@ -114,7 +114,7 @@ def _default_folder(options: Any) -> Path:
 
 
 def _run(request: Request, post: Post) -> int:
-    """@raises ResultsError, Failed, Interrupted"""
+    """Runs the request; returns the exit status. @raises ResultsError, Failed, Interrupted"""
     options, folder, script = request.options, request.folder, request.script
     if script is None:
         run_two_grounds(folder, options.quick, post)

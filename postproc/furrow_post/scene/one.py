@@ -17,9 +17,9 @@ from .catalogue import Variables, is_shipped
 from .restart import continuation, write_command
 
 
-# As inputs/guide/howto/cluster.md has them
+# values of inputs/guide/howto/cluster.md
 GAIN_FROM_PARTICLES, GAIN_FROM_GRAINS = 30_000, 20_000
-SHARE_OF_A_CORE = 0.3  # of the last rank, that may be busy
+SHARE_OF_A_CORE = 0.3  # busy share of a core that does not exclude a rank
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ def run_scenes(
 
 
 def run_missing(folder: Path, scenes: Sequence[SceneRun], jobs: int = 1) -> None:
-    """The same, but those that are there with the same inputs. @raises ResultsError, Interrupted, Failed"""
+    """Runs the cases that are not stored with the same inputs. @raises ResultsError, Interrupted, Failed"""
     executor, cases = _prepared(folder, scenes, jobs)
     executor.run(cases)
     _require_done(executor, cases)
@@ -143,5 +143,5 @@ def show(folder: Path, quick: bool, shown: bool = True) -> None:
 
 
 def words_of(scene: str, variables: Sequence[tuple[str, str]]) -> str:
-    """The scene and its options as they are typed."""
+    """Arguments of the command line for the scene and its options."""
     return shlex.join([scene, *(word for pair in variables for word in ("-v", *pair))])

@@ -14,7 +14,7 @@ OF_SWEEPS = ("samples", "packings", "jobs", "submit", "again", "check", "formula
 
 
 def called() -> str:
-    """How a user starts this program."""
+    """Command by which a user starts this program."""
     return os.environ.get(CALLED, "furrow-post run")
 
 

@@ -13,7 +13,7 @@ from ..run.process import FORCED, PARTICLES
 from ..run.record import FINISHED
 from .catalogue import Variables
 
-COMMAND = "command.json"  # what the run was asked to do
+COMMAND = "command.json"  # arguments of the run
 FROM, BEGIN = "from", "begin"  # variables of scripts: a checkpoint for a bed; what makes the box
 REMEDY = "start without --continue"
 
@@ -24,8 +24,8 @@ class Former:
 
     variables: Variables
     ranks: int
-    checkpoint: Path | None  # None: it was killed before the first one
-    finished: bool = False  # it came to its end
+    checkpoint: Path | None  # None for a run killed before its first checkpoint
+    finished: bool = False  # true for a run that reached its end
 
 
 def write_command(folder: Path, script: Path, variables: Variables, ranks: int) -> None:
@@ -55,7 +55,7 @@ def read_former(folder: Path, script: Path) -> Former:
 
 
 def _checkpoints(folder: Path) -> list[Path]:
-    """Those of the script, of --checkpoint, and of a run whose command was killed."""
+    """Checkpoints of the script, of --checkpoint, and of a run whose command was killed."""
     found = [*folder.glob("checkpoint*"), *folder.glob(FORCED)]
     return [file for file in found if file.suffix != ".part" and file.is_file()]
 

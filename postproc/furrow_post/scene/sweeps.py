@@ -14,7 +14,7 @@ from ..run.executor import Executor, State
 from ..run import slurm
 from ..sweep.cases import SweepRequest, case_of, plan_of
 from ..sweep.sweep_files import Named, Wanted, evaluate, report_lines, write_sweep
-from ..sweep.sweep_plan import Plan, read_plan
+from ..sweep.sweep_plan import SweepPlan, read_plan
 from .catalogue import Variables
 from .options import called
 
@@ -30,7 +30,7 @@ def wanted_of(options: Any, script: Path) -> Wanted:
     )
 
 
-def planned(options: Any, script: Path, preset: Variables) -> Plan:
+def planned(options: Any, script: Path, preset: Variables) -> SweepPlan:
     """The points that are asked for; prints warnings. @raises ResultsError"""
     request = SweepRequest(
         script,
@@ -50,7 +50,7 @@ def planned(options: Any, script: Path, preset: Variables) -> Plan:
     return plan
 
 
-def make_sweep(options: Any, script: Path, plan: Plan, folder: Path) -> int:
+def make_sweep(options: Any, script: Path, plan: SweepPlan, folder: Path) -> int:
     """The exit status. @raises ResultsError, Interrupted"""
     folder = folder.resolve()
     former = read_plan(folder)
@@ -84,7 +84,7 @@ def make_point(folder: Path, name: str) -> int:
     return 0 if executor.state(case) is State.DONE else 1
 
 
-def _by_slurm(executor: Executor, cases: Sequence[Case], plan: Plan, at_a_time: int | None) -> list[str]:
+def _by_slurm(executor: Executor, cases: Sequence[Case], plan: SweepPlan, at_a_time: int | None) -> list[str]:
     """Makes the points by an array job, after one that is still in the queue."""
     folder = executor.results / slurm.FOLDER
     job = slurm.read_job(folder)
@@ -106,7 +106,7 @@ def _by_slurm(executor: Executor, cases: Sequence[Case], plan: Plan, at_a_time: 
 
 
 def _this_program() -> list[str]:
-    """furrow-post: beside the package in the source tree, in bin where it is installed."""
+    """Path of furrow-post: next to the package in the source tree, or in bin if installed."""
     beside = PACKAGE.parent / "furrow-post"
     return [sys.executable, str(beside if beside.is_file() else find_program("furrow-post"))]
 

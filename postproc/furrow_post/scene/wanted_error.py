@@ -82,7 +82,7 @@ class Forecast:
 
 
 @dataclass(frozen=True)
-class Plan:
+class ErrorPlan:
     """The run to make, and the pilot that the forecast rests on."""
 
     forecast: Forecast
@@ -121,7 +121,7 @@ def limit_of(budget: Budget, scale: float, name: str, run: WheelRun) -> str:
     return f"{what}{source}" + (f"; {remedy}" if remedy else "")
 
 
-def plan(script: Path, given: Variables, folder: Path, error: float, time: float) -> Plan:
+def plan(script: Path, given: Variables, folder: Path, error: float, time: float) -> ErrorPlan:
     """Makes the pilot in a folder below the results, unless it is there. @raises ResultsError, Interrupted, Failed"""
     fixed = dict(given)
     sizes = {name: size for name, size in sizes_of(script, given).items() if name not in fixed}
@@ -132,7 +132,7 @@ def plan(script: Path, given: Variables, folder: Path, error: float, time: float
         for finer in (STEPS if sizes else (1.0,))
         for longer in (LONGER if length else (1.0,))
     ]
-    return Plan(_chosen(found, error, time), pilot, error, time)
+    return ErrorPlan(_chosen(found, error, time), pilot, error, time)
 
 
 def _chosen(found: Sequence[Forecast], error: float, time: float) -> Forecast:
@@ -186,7 +186,7 @@ def _exponent(run: WheelRun) -> float:
     return EXPONENTS[not run.ground_kind.random]
 
 
-def outcome(made: Plan, folder: Path) -> list[str]:
+def outcome(made: ErrorPlan, folder: Path) -> list[str]:
     """Remarks on whether the finished run is within the error, and which part dominates. @raises ResultsError"""
     run = read_wheel_run(folder)
     found = budgets_of(folder)

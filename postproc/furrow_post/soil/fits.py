@@ -15,7 +15,7 @@ from ..laws.fitter import fit, plain
 from ..uncertainty.statistics import line_fit
 from ..arrays import Floats
 from ..errors import ResultsError
-from ..read.soil_card import INDEX_DEPTH, Cone, Fitted, PressureSinkage, Range, Shear
+from ..read.soil_card import INDEX_DEPTH, Cone, Fitted, PressureSinkage, Range, Shear, mobilised_share
 
 FIRST = 0.05  # of the greatest sinkage: where a fit begins, behind first touch
 LARGEST_CONDITION = 1e14  # of the normal equations
@@ -35,7 +35,7 @@ class PlateCurve:
     pressure: Floats
 
     def used(self) -> "PlateCurve":
-        """Without first touch and what lies beyond the greatest sinkage."""
+        """Curve without first touch and without the rows after the greatest sinkage."""
         use = (self.sinkage > FIRST * self.sinkage.max()) & (self.pressure > 0)
         return PlateCurve(self.radius, self.sinkage[use], self.pressure[use])
 
@@ -48,7 +48,7 @@ class ShearCurve:
     normal: Floats
     shear: Floats
     speed: float = 0.0
-    load: float = 0.0  # [Pa] that the drive should hold; 0: not known
+    load: float = 0.0  # [Pa] target pressure of the drive; 0 if not known
     sinking: float = 0.0  # sinkage over shear displacement in its second half
     widening: float = 1.0  # of the sheared area, as cells next to the ring shear too: a factor of the cohesion
     compacts: bool = False  # sinks as its strength grows, where the correction of share() does not hold
@@ -84,7 +84,7 @@ class ConeCurve:
     angle: float
 
     def down_to(self, depth: float) -> "ConeCurve":
-        """Without what lies deeper [m]."""
+        """Curve down to a sinkage [m]."""
         use = self.depth <= depth
         return ConeCurve(self.depth[use], self.pressure[use], self.size, self.angle)
 
@@ -166,7 +166,7 @@ def fit_shear(curves: Sequence[ShearCurve], fast: ShearCurve | None = None) -> S
             strength = (x[0] * curve.widening + curve.normal / top * x[1]) * curve.share(x[1])
             if fast:
                 strength = strength + x[3] * math.sqrt(curve.speed / slow.speed)
-            parts.append(strength * (1 - np.exp(-curve.displacement / (longest * x[2]))) - curve.shear / top)
+            parts.append(strength * mobilised_share(curve.displacement, longest * x[2]) - curve.shear / top)
         return parts
 
     count = 4 if fast else 3

@@ -23,13 +23,13 @@ class GrainCone:
     weight: float
 
     def scaled(self) -> Fitted:
-        """Index over the weight."""
+        """Cone index over the weight per volume [m]."""
         index = cone_index(self.curve).index
         return Fitted(index.value / self.weight, index.error / self.weight)
 
 
 def widest(cones: Sequence[GrainCone]) -> list[GrainCone]:
-    """One for each packing."""
+    """Cones in the widest bed, one for each packing."""
     return [cone for cone in cones if cone.grains == max(each.grains for each in cones)]
 
 

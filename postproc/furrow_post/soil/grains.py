@@ -27,7 +27,7 @@ BARS, PARTS = 16, 4  # grousers around the ring; one part in so many of the way 
 HEIGHT = 5.0  # of the ring, in grains
 # On the Earth; in another gravity times and speeds keep the inertial number of the grains, so that rigid grains
 # without cohesion have one curve of pressure over gravity
-PRESS_TIME = 0.12  # [s] in which the ring is pressed before it turns
+PRESS_TIME = 0.12  # [s] time of pressing before the ring turns
 ACCELERATE_TIME = 0.02  # [s] of every instrument
 PLATE_SPEED, RING_SPEED = 0.2, 0.12  # [m/s] of the middle of the ring
 PRESS_SPEED = 0.2  # [m/s] of the ring without load
@@ -42,7 +42,7 @@ STICKING_LOADS = (0.06, 0.12)  # the same on grains that stick: a larger load pr
 FAMILIES = ("sand", "snow_bonded")  # beds of the laboratory that have room for plates and ring
 SEEDS = (86028121, 49979687)  # of the packings
 FACE_FRICTION = 0.5  # of plates, ring and grains
-CONTINUUM = ("terrain/continuum", "terrain/scm", "material", "cell")  # what a ground of grains does not have
+CONTINUUM = ("terrain/continuum", "terrain/scm", "material", "cell")  # variables that a ground of grains lacks
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ PLATE_PACE, PRESS_PACE, CONE_PACE = 1 / 300, 1 / 400, 1 / 60
 RING_PACE, FAST_RING_PACE = 1 / 1600, 1 / 400
 FASTEST = 1.0  # [m/s] 100 Pa of dynamic pressure on snow, 800 Pa on sand
 RING = (0.2, 0.12)  # [m] outer and inner diameter
-PRESS = 0.015  # [m] that the drive would move in the time of pressing
+PRESS = 0.015  # [m] travel of a free drive in the time of pressing
 # Young's modulus over the pressure under the smallest plate. Above STIFF one step of the drive changes the pressure
 # of the ring by more than its load, and the ring's ground has SCALED. Sand has 20 to 100, snow 1000 to 4000
 STIFF, SCALED = 500, 100
@@ -112,7 +112,7 @@ def ring_tests(
     torque. scale: of Young's modulus"""
     outer, inner = 0.5 * RING[0], 0.5 * RING[1]
     middle = mean_radius(outer, inner)
-    slower = math.sqrt(scale)  # as waves are
+    slower = math.sqrt(scale)  # waves are slower by this factor
     press_speed = bench.speed(PRESS_PACE * slower)
     speeds = [bench.speed(load.pace * slower) for load in loads]
     cases = [
@@ -149,7 +149,7 @@ def mean_radius(outer: float, inner: float) -> float:
 
 
 def ring_curve(rows: Floats, outer: float, inner: float, speed: float, pressure: float) -> ShearCurve:
-    """From the torque, which a uniform shear stress has: tau = T / (2 pi integral r^2 dr). Radii in m."""
+    """Shear curve from the torque, with a uniform shear stress: tau = T / (2 pi integral r^2 dr). Radii in m."""
     middle = mean_radius(outer, inner)
     turning = rows[rows[:, 5] > 0]
     tau = -turning[:, 4] / (2 / 3 * math.pi * (outer**3 - inner**3))

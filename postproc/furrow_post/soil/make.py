@@ -62,7 +62,7 @@ class Strength:
         return p
 
     def yield_strength(self, mean: Floats) -> Floats:
-        """Hydrostatic, of the cap whose corner is at this mean stress."""
+        """Hydrostatic yield strength of the cap with its corner at a mean stress."""
         p: Floats = mean + float(CAP.value) * (self.d + mean * self.tangent)
         return p
 
@@ -108,7 +108,7 @@ def material_of(
     guessed_strength: bool = False,
     head: Sequence[str] = (),
 ) -> NewMaterial:
-    """The law whose confined compression is this curve."""
+    """Law with this curve in confined compression."""
     nu = float(POISSON.value)
     elastic = float(young.value)
     bulk = elastic / (3 * (1 - 2 * nu))
@@ -230,7 +230,7 @@ class SoilClass:
 
     @property
     def coarse(self) -> bool:
-        """Without cohesion: the cone index measures the friction angle."""
+        """True for ground without cohesion, in which the cone index measures the friction angle."""
         return self.c == 0
 
 

@@ -18,7 +18,7 @@ from ..read.soil_card import contact_of
 from ..run.tools import answer
 
 OF_GRAINS = ".lig"  # ending of a ground of grains
-TYPICAL_PRESSURE = 1e4  # [Pa] where laws whose stiffness grows with pressure have their elastic constants
+TYPICAL_PRESSURE = 1e4  # [Pa] pressure of the elastic constants of laws with pressure-dependent stiffness
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ class NewMaterial:
     hardening: Parameter  # origin of the table
 
     def text(self) -> str:
-        """The material file."""
+        """Text of the material file."""
         lines = [f"title: {yaml_text(self.title)}", *(f"# {line}" for line in self.head)]
         lines += ["law:", "  type: drucker_prager_cap"]
         lines += [_line(name, parameter) for name, parameter in self.law.items()]
@@ -147,7 +147,7 @@ class UsualRange:
 
 @cache
 def usual_ranges() -> dict[str, UsualRange]:
-    """By key, as the program prints them. @raises ResultsError without it"""
+    """Usual range of each key, from furrow-point. @raises ResultsError without the program"""
     table = parse_json(answer([find_program("furrow-point"), "usual"]))
     return {key: UsualRange(**row) for key, row in table.items()}
 

@@ -47,7 +47,7 @@ SMALL_K = (
 
 @dataclass(frozen=True)
 class Effort:
-    """How much a card costs. cells: across plate, ring and cone."""
+    """Cost settings of a card. cells: across plate, ring and cone."""
 
     plate_cells: int
     ring_cells: int
@@ -104,7 +104,7 @@ def make_card(
 def make_grain_card(
     bench: GrainBench, sizes: Sequence[float], effort: Packings, formats: Sequence[str]
 ) -> SoilCard:
-    """As make_card, on beds of grains. Their cone is wider than the standard one, and they have none where they stick.
+    """Makes a card on beds of grains. The cone is wider than the standard one; sticking grains have none.
     @raises ResultsError, Interrupted"""
     plates = bench.plates(sizes, effort.seeds)
     carried = carried_pressure(plates)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Studies: runs that are made when they are missing, and their tables and figures."""
+"""Studies: runs, which start if they are missing, with tables and figures."""

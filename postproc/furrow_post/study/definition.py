@@ -134,7 +134,7 @@ def _case(
     variables: dict[str, Value] = all_filled("variables")
     files = {name: str(filled(texts.get(text, text))) for name, text in all_filled("files").items()}
     for name_of_file, text in files.items():
-        if text.startswith("="):  # a study may hold programs
+        if text.startswith("="):  # a study can contain programs
             files[name_of_file] = str(eval(text[1:], dict(vars(evaluation_of(folder)))))
     more: dict[str, Any] = {key: run[key] for key in ("what", "time_limit", "may_fail", "ranks") if key in run}
     more |= {"stage": "" if stage == "all" else stage, "fallback": all_filled("fallback"), "files": files}

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..csv_table import read_rows, rows_text
 from .provenance import read_origins
-from .values import AGREE, VERDICTS, Registry, Value
+from .values import AGREE, VERDICTS, Registry, StudyValue
 
 HEAD = (
     "# Every value of the studies. error: standard error, or that it is not estimated; error_of: its",
@@ -26,7 +26,7 @@ def path_of(root: Path) -> Path:
     return root / "inputs" / "validation" / "experiments.csv"
 
 
-def commits(value: Value) -> str:
+def commits(value: StudyValue) -> str:
     """Commits of the source trees that made the table of a value, "+" with changes; empty where not known."""
     if value.stored is None:
         return ""
@@ -40,7 +40,7 @@ def report_items(root: Path) -> list[dict[str, str]]:
     return read_rows(path_of(root).with_name("report_items.csv"))
 
 
-def answers(value: Value, item: dict[str, str]) -> bool:
+def answers(value: StudyValue, item: dict[str, str]) -> bool:
     """True if a pattern of the item fits the value's id."""
     return any(fnmatchcase(value.id, pattern) for pattern in item["rows"].split())
 
@@ -60,7 +60,7 @@ def experiments_text(registry: Registry, items: list[dict[str, str]]) -> str:
     )
 
 
-def counts(values: Iterable[Value]) -> str:
+def counts(values: Iterable[StudyValue]) -> str:
     """How many values have which verdict, and how many of those that agree are a test."""
     rows = [(value, value.verdict()) for value in values]
     found = [verdict for _, verdict in rows]

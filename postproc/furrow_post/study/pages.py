@@ -11,14 +11,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..errors import ResultsError
-from .values import Registry, Value, number
+from .values import Registry, StudyValue, number
 
 MARK = re.compile(r"(<!-- value: ([\w.+-]+)(?: (\w+))? -->)(.*?)(<!-- end value -->)", re.DOTALL)
 FORMS = ("value", "error", "reference", "verdict")
 LEFT_OUT = {"build", "results", ".git"}
 
 
-def shown(value: Value, form: str = "") -> str:
+def shown(value: StudyValue, form: str = "") -> str:
     """The text of a value: rounded to its error, with it; or one of its parts.
 
     @raises ResultsError where the value does not have that part
@@ -56,14 +56,14 @@ def with_values(text: str, registry: Registry) -> str:
 
 
 def pages(root: Path) -> Iterator[Path]:
-    """All pages of a project."""
+    """Paths of all pages of a project."""
     for path in sorted(root.rglob("*.md")):
         if not LEFT_OUT & set(path.relative_to(root).parts):
             yield path
 
 
 def stale_pages(root: Path, registry: Registry) -> dict[Path, str]:
-    """Page -> what it should be, of those whose values are not the stored ones."""
+    """Page -> correct text, for pages with other values than the stored ones."""
     found = {}
     for path in pages(root):
         text = path.read_text(encoding="utf-8")

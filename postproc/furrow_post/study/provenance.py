@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Where the tables and figures of a study come from: provenance.csv beside them, a row per file."""
+"""Provenance of tables and figures of a study: a row per file in provenance.csv next to them."""
 
 import shlex
 import sys
@@ -28,7 +28,7 @@ class Origin:
     commit: str = ""
     runs: str = ""  # day, or first and last day of the runs
     written: str = ""  # day
-    command: str = ""  # that wrote it
+    command: str = ""  # command that wrote the file
     note: str = ""
 
     def joined(self, former: "Origin | None") -> "Origin":
@@ -64,7 +64,7 @@ def origin(file: str, records: Iterable[Record], root: Path) -> Origin:
 
 
 def read_origins(folder: Path) -> dict[str, Origin]:
-    """File -> its origin, for files that provenance.csv has."""
+    """Origin of each file in provenance.csv."""
     path = folder / FILE
     return {row["file"]: Origin(**row) for row in read_rows(path)} if path.is_file() else {}
 

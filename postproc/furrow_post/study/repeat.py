@@ -5,14 +5,14 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from ..csv_table import read_rows
-from .values import Value
+from .values import StudyValue
 
 TOLERANCE = 0.03  # of the stored number: what another processor or compiler may change
 COSTS = ("user_s", "cpu_s")  # columns of a study's tables with the core seconds of a run
 LISTED = "costs.csv"  # table of a study with every run's
 
 
-def missed(values: Iterable[Value], made: Path, whole: bool) -> Iterator[str]:
+def missed(values: Iterable[StudyValue], made: Path, whole: bool) -> Iterator[str]:
     """Sentences about the values that the tables of a folder have otherwise than they are stored.
 
     whole: of all values, not of those alone whose runs cost seconds
@@ -22,7 +22,7 @@ def missed(values: Iterable[Value], made: Path, whole: bool) -> Iterator[str]:
             yield f"{value.id}: {sentence}"
 
 
-def difference(value: Value, made: Path) -> str:
+def difference(value: StudyValue, made: Path) -> str:
     """Difference that counts: of a limit the verdict, of others the number; beyond TOLERANCE the error of its time
     average, not how far the next size is. @raises ResultsError"""
     stored, again = value.computed(), value.computed(made)

@@ -9,7 +9,7 @@ from ..run.case import Case
 from ..run.executor import Executor, Run
 from ..run.tools import answer
 
-__all__ = ["Run", "Runs"]  # what evaluations import
+__all__ = ["Run", "Runs"]  # names that evaluations import
 
 
 class Runs:
@@ -24,7 +24,7 @@ class Runs:
         return [run for case in chosen if (run := self.executor.ended(case))]
 
     def done(self, *names: str) -> list[Run]:
-        """The same, without those that failed."""
+        """Rows of the runs that succeeded."""
         return [run for run in self.ended(*names) if not run.error]
 
     def resistance(self, run: Run, *options: object) -> list[dict[str, float]]:

@@ -73,7 +73,7 @@ def carry_out(study: Study, parsed: Any) -> int:
 
 
 def _evaluate(study: Study, executor: Executor, chosen: Sequence[Case], check: bool, merge: bool) -> int:
-    """Tables go beside the driver when they are complete, else into the results folder."""
+    """Writes complete tables next to the driver, others into the results folder."""
     ended = {case.name: run for case in study.cases if (run := executor.ended(case))}
     done = [run for run in ended.values() if not run.error]
     complete = not study.cases or bool(done) and all(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Where the tables, figures and page sections of a study go, with their provenance."""
+"""Destination of tables, figures and page sections of a study, with their provenance."""
 
 import shutil
 import tempfile
@@ -33,7 +33,7 @@ def _wrapped(line: str) -> str:
 
 
 def with_section(page: str, lines: Sequence[str], begin: str = BEGIN, end: str = END) -> str:
-    """The page with these lines between its marks, which are added where it has none."""
+    """Page with these lines between its marks; marks are added to a page without."""
     text = "\n".join(_wrapped(line) for line in lines).strip()
     before, found, rest = page.partition(begin)
     after = rest.partition(end)[2] if end in rest else "\n"
@@ -89,7 +89,7 @@ class Output:
         self._written.cleanup()
 
     def path(self, name: str) -> Path:
-        """Where the study writes the file of this name."""
+        """Path at which the study writes a file."""
         if name not in self.files:
             self.files.append(name)
         return Path(self._written.name) / name

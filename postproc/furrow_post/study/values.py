@@ -19,9 +19,9 @@ from ..csv_table import read_rows
 from ..errors import ResultsError, content_of, refuse_others
 
 DEFINITION = "study.yaml"
-RESULTS = "results.csv"  # table of a value that names none
+RESULTS = "results.csv"  # default table of a value
 LABELS = ("fitted", "known", "held out", "blind", "scored")
-REFERENCES = ("measured", "report", "formula", "ours", "program")  # who gives the reference
+REFERENCES = ("measured", "report", "formula", "ours", "program")  # kinds of sources of a reference
 SOURCES = (  # of errors
     "time average", "cells", "grain size", "domain", "packings", "parameters", "contact", "tests", "none",
 )  # fmt: skip
@@ -118,7 +118,7 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Value:
+class StudyValue:
     """A number of a study, and what it is compared with.
 
     reference: a number, or another stored one; limit: "upper" or "lower" where the reference is
@@ -137,13 +137,13 @@ class Value:
     reference: float | Stored | None = None
     reference_error: float = 0.0  # standard error; of a mean of tests it follows from their scatter
     reference_scatter: float = 0.0  # standard deviation of one test
-    reference_tests: int = 1  # whose mean the reference is
+    reference_tests: int = 1  # number of tests in the mean of the reference
     reference_of: str = ""
     limit: str = ""
     label: str = "known"
     reason: str = ""
     remark: str = ""
-    hours: str = ""  # [h] that the source's computation took
+    hours: str = ""  # [h] duration of the computation of the source
     cost: Stored | None = None  # [s] of one core
     cheap: bool = False  # the test of seconds repeats it
     without: str = NOT_DONE
@@ -170,7 +170,7 @@ class Value:
         return self._sum([part for part in self.error or () if part.of in ("time average", TABLE)])
 
     def sources(self) -> str:
-        """Where the error comes from."""
+        """Sources of the error."""
         return "; ".join(part.of for part in self.error or ())
 
     def expected(self) -> float | None:
@@ -303,9 +303,9 @@ def _error(folder: Path, given: dict[str, Any], stored: Stored | None, where: st
     return (Part(TABLE, _stored(folder, error, stored, f"{where}: error")),)
 
 
-def _value(folder: Path, entry: Mapping[str, Any]) -> Value:
+def _value(folder: Path, entry: Mapping[str, Any]) -> StudyValue:
     where = f"{folder / DEFINITION}: value '{entry.get('id', '')}'"
-    refuse_others(where, entry, {*(item.name for item in fields(Value)), "next", *STORED_KEYS})
+    refuse_others(where, entry, {*(item.name for item in fields(StudyValue)), "next", *STORED_KEYS})
     if not entry.get("id"):
         raise ResultsError(f"{where} has no id; give each value one")
     if "over" in entry and "next" in entry:
@@ -319,14 +319,14 @@ def _value(folder: Path, entry: Mapping[str, Any]) -> Value:
             one = _stored(folder, given[key], stored, f"{where}: {key}")
             # a cost is in seconds and has no scale
             given[key] = replace(one, scale=1.0) if key == "cost" and isinstance(given[key], str) else one
-    value = Value(**given)
+    value = StudyValue(**given)
     for key, allowed in ALLOWED.items():
         if getattr(value, key) not in allowed:
             raise ResultsError(f"{where}: {key} is one of {', '.join(filter(None, allowed))}")
     return value
 
 
-def values_of(folder: Path) -> list[Value]:
+def values_of(folder: Path) -> list[StudyValue]:
     """Values of the study in this folder. @raises ResultsError"""
     return [_value(folder, entry) for entry in load_yaml(folder / DEFINITION).get("values") or []]
 
@@ -339,8 +339,8 @@ def study_folders(root: Path) -> list[Path]:
 class Registry:
     """The values of all studies by their id. @raises ResultsError where two have the same"""
 
-    def __init__(self, values: Sequence[Value]) -> None:
-        self.values: dict[str, Value] = {}
+    def __init__(self, values: Sequence[StudyValue]) -> None:
+        self.values: dict[str, StudyValue] = {}
         for value in values:
             if value.id in self.values:
                 raise ResultsError(f"two values are called '{value.id}'; rename one of them")
@@ -350,10 +350,10 @@ class Registry:
     def of(cls, root: Path) -> "Registry":
         return cls([value for folder in study_folders(root) for value in values_of(folder)])
 
-    def __iter__(self) -> Iterator[Value]:
+    def __iter__(self) -> Iterator[StudyValue]:
         return iter(self.values.values())
 
-    def __getitem__(self, id: str) -> Value:
+    def __getitem__(self, id: str) -> StudyValue:
         if id not in self.values:
             raise ResultsError(f"no value is called '{id}'; inputs/validation/experiments.csv lists all")
         return self.values[id]

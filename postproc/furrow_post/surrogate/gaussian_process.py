@@ -57,7 +57,7 @@ class Process:
         return values
 
     def mean_at(self, x: Floats) -> Floats:
-        """At points (m, inputs)."""
+        """Mean of the process at points (m, inputs)."""
         mean: Floats = self.mean + self.deviation * (self.kernel(x, self.x) @ self.weights)
         return mean
 

@@ -38,8 +38,8 @@ class Vehicle:
 
 
 UNITS = {  # of the mobility of a cell
-    "probability": "",  # that the wheel climbs
-    "pull": "N",  # that remains at the wanted speed, 0 where it does not climb
+    "probability": "",  # probability that the wheel climbs
+    "pull": "N",  # pull that remains at the wanted speed; 0 if the wheel does not climb
     "energy": "J/m",  # NaN where it does not climb, as all below
     "speed": "m/s",
     "slip": "",
@@ -124,7 +124,7 @@ def mobility_of(fields: Mapping[str, Floats], vehicle: Vehicle, slope: Floats) -
 
 
 @dataclass(frozen=True)
-class Table:
+class MobilityTable:
     """The fields on a grid over those quantities that differ between cells."""
 
     axes: Mapping[str, tuple[float, float]]
@@ -143,7 +143,7 @@ class Table:
         }
 
 
-def tabulate(surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats]) -> Table:
+def tabulate(surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats]) -> MobilityTable:
     """A table for cells, refined until its errors at some of them are within TOLERANCE.
 
     @raises ResultsError where they stay above
@@ -165,9 +165,9 @@ def tabulate(surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats
         rest = {name: np.full(nodes ** len(axes), values[0]) for name, values in ground.items()}
         found = evaluate(surrogate, vehicle, {**rest, **grid})
         fields = {name: values.reshape([nodes] * len(axes)) for name, values in found.items()}
-        errors = _errors(Table(axes, nodes, fields, {}).at(some), exact, some)
+        errors = _errors(MobilityTable(axes, nodes, fields, {}).at(some), exact, some)
         if all(errors[name] <= TOLERANCE[name] for name in TOLERANCE):
-            return Table(axes, nodes, fields, errors)
+            return MobilityTable(axes, nodes, fields, errors)
     worst = max(errors, key=lambda name: errors[name] / TOLERANCE[name])
     raise ResultsError(
         f"the table over {', '.join(axes)} has an interpolation error of {errors[worst]:.2g} in '{worst}', "

@@ -34,7 +34,7 @@ class Input:
         return self.low > 0 and self.high > DECADE * self.low
 
     def scaled(self, values: Floats) -> Floats:
-        """From the range to [0, 1]."""
+        """Values scaled from the range to [0, 1]."""
         low, high = self.low, self.high
         if self.logarithmic:
             values, low, high = np.log(values), math.log(low), math.log(high)
@@ -151,7 +151,7 @@ def fit(training: Training, origin: Mapping[str, str]) -> tuple[Surrogate, dict[
 
 
 def read_surrogate(file: Path) -> Surrogate:
-    """@raises ResultsError, OSError"""
+    """Reads a surrogate from its file. @raises ResultsError, OSError"""
     with content_of(file, "make it with 'furrow-post surrogate'"):
         content = parse_json(file.read_text(encoding="utf-8"))
         if content["format"] != FORMAT:

@@ -31,7 +31,7 @@ class Raster:
     projection: str = ""
 
     def require_same(self, other: "Raster", name: str) -> None:
-        """@raises ResultsError"""
+        """Requires the size and the place of another raster. @raises ResultsError"""
         if self.values.shape != other.values.shape or not np.allclose(
             self.transform, other.transform
         ):
@@ -69,7 +69,7 @@ def _read(data: Any) -> Raster:
 
 
 def read_raster(file: Path) -> Raster:
-    """@raises ResultsError"""
+    """Reads the first band of a raster file. @raises ResultsError"""
     return _read(_open(_gdal(), file))
 
 

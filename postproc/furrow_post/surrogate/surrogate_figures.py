@@ -20,7 +20,7 @@ DOTS = 1500  # of a panel
 def draw_held_out(
     runs: Mapping[str, Floats], held_out: Mapping[str, HeldOut], target: Path
 ) -> None:
-    """Bars: 95 % band."""
+    """Draws predictions over held-out runs; bars show the 95 % band."""
     use_style()
     figure, panels = plt.subplots(2, 2, figsize=(9, 8), layout="constrained")
     for axes, letter, (name, held) in zip(panels.flat, panel_letters(), held_out.items()):

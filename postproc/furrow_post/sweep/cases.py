@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The runs of a sweep: what is asked for, checked against the script, and their cases."""
+"""Runs of a sweep: the request, checked against the script, and its cases."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -9,7 +9,7 @@ from pathlib import Path
 from ..errors import ResultsError
 from ..run.case import RESULTS, Case, scene_case
 from ..run.script import RESERVED, ScriptVariables, check_variables, require_files, script_variables
-from .sweep_plan import Plan, Point, points_of
+from .sweep_plan import PlannedRun, SweepPlan, points_of
 from .sampling import sampled
 from .sweep_values import further_seeds, parse_variables, product
 
@@ -23,9 +23,9 @@ class SweepRequest:
     """Request of the command line for a sweep."""
 
     script: Path
-    sweep: Sequence[str]  # as --sweep has them
-    given: Sequence[tuple[str, str]] = ()  # as -v has them
-    preset: Sequence[tuple[str, str]] = ()  # of --quick: what is given or swept comes first
+    sweep: Sequence[str]  # values of --sweep
+    given: Sequence[tuple[str, str]] = ()  # values of -v
+    preset: Sequence[tuple[str, str]] = ()  # values of --quick; given and swept values have priority
     packings: int = 1
     ranks: int = 1
     until_steady: float = 0.0
@@ -33,7 +33,7 @@ class SweepRequest:
     samples: int = 0  # points in the box of the variables; 0: all combinations of values
 
 
-def plan_of(request: SweepRequest) -> tuple[Plan, list[str]]:
+def plan_of(request: SweepRequest) -> tuple[SweepPlan, list[str]]:
     """The plan, and warnings. @raises ResultsError for what the script does not take; OSError"""
     if request.samples:
         points = sampled(request.sweep, request.samples)
@@ -63,7 +63,7 @@ def plan_of(request: SweepRequest) -> tuple[Plan, list[str]]:
             f"folder; give the script 'variable {RESULTS} index ...' as the folder of its results"
         )
     seeds = _seeds(request, names, known, fixed)
-    plan = Plan(
+    plan = SweepPlan(
         str(request.script.resolve()),
         tuple(names),
         fixed,
@@ -108,7 +108,7 @@ def _seeds(
         raise ResultsError(f"--packings: '{SEED}' is '{first}', no whole number") from None
 
 
-def case_of(plan: Plan, point: Point) -> Case:
+def case_of(plan: SweepPlan, point: PlannedRun) -> Case:
     """The run of a point."""
     script = Path(plan.script)
     seed = {SEED: point.seed} if point.seed else {}

@@ -27,14 +27,14 @@ class ConeBand:
     line: Line
     soil: Soil
     formulas: tuple[Formulas | None, ...]  # of each point; None without an answer
-    note: str  # why points have none; empty: all have
+    note: str  # reason why points lack a band; empty if all have one
 
     @property
     def label(self) -> str:
         return f"formulas, cone index {1e-3 * self.soil.cone_index:.0f} kPa ({self.line.label})"
 
     def values(self, y: Axis) -> list[tuple[float, float, float, float]]:
-        """x, mean, least and greatest; empty where the formulas do not speak of y."""
+        """Rows of x, mean, minimum and maximum; empty if no formula gives y."""
         found = []
         for x, formulas, point in zip(self.line.x, self.formulas, self.line.points):
             quantity = (TOWED[self.soil.kind] if _is_towed(point.runs[0]) else DRIVEN).get(y, "")

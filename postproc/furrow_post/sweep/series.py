@@ -26,13 +26,13 @@ from ..run.summary import ResistanceParts, Summary
 from ..read.wheel_run import WheelRun, read_wheel_run
 from ..run.process import SCREEN
 from ..run.record import FAILED, FINISHED, read_record
-from .sweep_plan import Plan, Point, read_plan
+from .sweep_plan import PlannedRun, SweepPlan, read_plan
 
 WARNED = "WARNING: run_until_steady: "
 
 
 @dataclass(frozen=True)
-class Value:
+class SweepValue:
     """One quantity of a point, SI."""
 
     mean: float
@@ -47,18 +47,18 @@ class Value:
         return self.parts.total
 
 
-def quantities(runs: Sequence[WheelRun], families: Families) -> dict[str, Value]:
+def quantities(runs: Sequence[WheelRun], families: Families) -> dict[str, SweepValue]:
     """Name -> value of a point; runs: its packings. families: of a table of errors, may be empty"""
     each = [_of_run(run, families) for run in runs]
     names = [name for name in each[0] if all(name in one for one in each)]
     return {name: _averaged([one[name] for one in each]) for name in names}
 
 
-def _of_run(run: WheelRun, families: Families) -> dict[str, Value]:
+def _of_run(run: WheelRun, families: Families) -> dict[str, SweepValue]:
     summary = Summary(run.folder)
     steady = {name: run.values.get(name) or summary.quantity(name) for name in summary.quantities}
     errors = RunErrors(run, families).all()
-    found = {name: Value(v.mean, v.unit, errors[name], v.steady, v.imposed) for name, v in steady.items() if v}
+    found = {name: SweepValue(v.mean, v.unit, errors[name], v.steady, v.imposed) for name, v in steady.items() if v}
     load, pull, torque = found["force_z"], found["drawbar_pull"], found["drive_torque"]
     if "net_traction_coefficient" not in found:
         ratio = _ratio(pull, load)
@@ -75,19 +75,19 @@ def speed_over_rim(slip: float) -> float:
     return 1 - slip if slip >= 0 else 1 / (1 + slip)
 
 
-def _ratio(above: Value, below: Value, factor: float = 1.0) -> Value:
+def _ratio(above: SweepValue, below: SweepValue, factor: float = 1.0) -> SweepValue:
     if not below.mean:
-        return Value(math.nan, "", Budget(), False)
+        return SweepValue(math.nan, "", Budget(), False)
     ratio = factor * above.mean / below.mean
     error = math.hypot(
         factor * above.parts.time / below.mean, ratio * below.parts.time / below.mean
     )
     parts = Budget(time=error, packing=above.parts.packing)
-    return Value(ratio, "", parts, above.steady and below.steady)
+    return SweepValue(ratio, "", parts, above.steady and below.steady)
 
 
-def _averaged(values: Sequence[Value]) -> Value:
-    """Over packings; the other parts are those of each."""
+def _averaged(values: Sequence[SweepValue]) -> SweepValue:
+    """Mean over packings; parts of the error besides the packings are those of one."""
     first, number = values[0], len(values)
     if number == 1:
         return first
@@ -106,7 +106,7 @@ class SweepPoint:
     name: str  # folder of its first run
     values: Mapping[str, str]  # of the variables that were set
     runs: tuple[WheelRun, ...]
-    quantities: Mapping[str, Value]
+    quantities: Mapping[str, SweepValue]
 
     @property
     def steady(self) -> bool:
@@ -151,12 +151,12 @@ class Series:
     """The points of one folder."""
 
     label: str
-    variables: tuple[str, ...] = ()  # that were set; none for a folder without sweep.json
+    variables: tuple[str, ...] = ()  # variables that were set; none for a folder without sweep.json
     points: list[SweepPoint] = field(default_factory=list)
     failures: list[Remark] = field(default_factory=list)  # runs that stopped with an error
     missing: list[str] = field(default_factory=list)  # runs that did not come to their end
     unread: list[Remark] = field(default_factory=list)  # runs that gave no steady values
-    unsteady: list[Remark] = field(default_factory=list)  # what run_until_steady says of a run
+    unsteady: list[Remark] = field(default_factory=list)  # remarks of run_until_steady on a run
     makers: set[tuple[str, str]] = field(default_factory=set)  # digests of program and script of the runs
 
     @property
@@ -182,9 +182,9 @@ def read_series(folder: Path, label: str | None, families: Families) -> Series:
     return series
 
 
-def _of_plan(folder: Path, label: str, plan: Plan, families: Families) -> Series:
+def _of_plan(folder: Path, label: str, plan: SweepPlan, families: Families) -> Series:
     series, script = Series(label, plan.variables), Path(plan.script).name
-    groups: dict[tuple[str, ...], list[Point]] = {}
+    groups: dict[tuple[str, ...], list[PlannedRun]] = {}
     for point in plan.points:
         groups.setdefault(tuple(point.values[name] for name in plan.variables), []).append(point)
     for points in groups.values():
@@ -231,7 +231,7 @@ def _not_reached(folder: Path) -> list[str]:
 
 
 def uniquely_labelled(series: list[Series]) -> list[Series]:
-    """Where labels are equal each gets a number."""
+    """Labels with a number added to equal ones."""
     labels = [one.label for one in series]
     return [
         replace(one, label=f"{one.label} ({k + 1})") if labels.count(one.label) > 1 else one

@@ -11,7 +11,7 @@ from ..analyse.conditions import TOLERANCES, answers_of_ground
 from ..arguments import is_number
 from ..errors import ResultsError
 from ..formatting import in_unit
-from .series import Series, SweepPoint, Value
+from .series import Series, SweepPoint, SweepValue
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ SIDEWAYS = (
 
 @dataclass(frozen=True)
 class Curve:
-    """A named curve: what it shows against the condition."""
+    """Curve with a name: a quantity over the condition."""
 
     name: str
     y: Axis
@@ -76,7 +76,7 @@ class Line:
     points: tuple[SweepPoint, ...]
     x: tuple[float, ...]  # SI
 
-    def values(self, y: Axis) -> list[tuple[float, SweepPoint, Value]]:
+    def values(self, y: Axis) -> list[tuple[float, SweepPoint, SweepValue]]:
         """x, point and value, where there is one."""
         return [
             (x, point, point.quantities[y.key])
@@ -169,7 +169,7 @@ def _varying(points: Sequence[SweepPoint]) -> list[str]:
 def _positions(
     series: Sequence[Series], x: str
 ) -> tuple[Callable[[SweepPoint], float], tuple[str, ...]]:
-    """Where a point lies on the x axis, and the words there if it is no number.
+    """Place of each point on the x axis, and its text if it is not a number.
 
     A condition is that of the run; the slip is measured. @raises ResultsError
     """

@@ -54,8 +54,8 @@ class Wanted:
 
 
 @dataclass(frozen=True)
-class Result:
-    """A sweep as it is drawn."""
+class SweepResult:
+    """Data of the figures of a sweep."""
 
     series: Sequence[Series]
     figure: Figure
@@ -64,7 +64,7 @@ class Result:
     measured: Sequence[MeasuredPoints]
 
     def remarks(self) -> list[str]:
-        """Remarks on what is not in the curves, a sentence each."""
+        """Remarks on runs that are not in the curves, one sentence each."""
         found = []
         for one in self.series:
             found += [f"{one.label}: {r.folder} failed: {r.text}" for r in one.failures]
@@ -94,7 +94,7 @@ class Result:
         return found + [text for band in self.bands for curve in self.figure.curves for text in band.departures(curve.y)]
 
 
-def evaluate(folders: Sequence[Named], wanted: Wanted) -> Result:
+def evaluate(folders: Sequence[Named], wanted: Wanted) -> SweepResult:
     """@raises ResultsError where no point has values, or the axes are not determined"""
     wanted.check()
     families = {}
@@ -112,10 +112,10 @@ def evaluate(folders: Sequence[Named], wanted: Wanted) -> Result:
         for points in read_measured_points(file.path, file.label, figure)
     ]
     formulas = formula_lines(figure.lines, wanted.formulas, wanted.extrapolate)
-    return Result(series, figure, formulas, cone_bands(figure.lines), measured)
+    return SweepResult(series, figure, formulas, cone_bands(figure.lines), measured)
 
 
-def write_sweep(result: Result, folder: Path) -> list[str]:
+def write_sweep(result: SweepResult, folder: Path) -> list[str]:
     """All files of the result, each in one step. @return their names"""
     folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=folder, prefix=".sweep") as scratch:
@@ -130,7 +130,7 @@ def write_sweep(result: Result, folder: Path) -> list[str]:
         return names
 
 
-def report_lines(result: Result) -> list[str]:
+def report_lines(result: SweepResult) -> list[str]:
     """The table of the figure for a terminal, and the remarks."""
     head, rows = shown_rows(result.figure)
     lines = [line.rstrip() for line in in_columns([head, *rows])]
@@ -140,7 +140,7 @@ def report_lines(result: Result) -> list[str]:
 CAPTION_OF_TABLE = "± is one standard error, from the parts that are known."
 
 
-def _page(result: Result, picture: Path, parts: Path | None) -> str:
+def _page(result: SweepResult, picture: Path, parts: Path | None) -> str:
     names = [curve.name for curve in result.figure.curves]
     title = " and ".join(dict.fromkeys(one.title for one in result.series))
     head, rows = shown_rows(result.figure)

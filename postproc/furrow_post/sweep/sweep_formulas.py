@@ -19,7 +19,7 @@ class FormulaLine:
     """Values of a formula along a line, where it is valid."""
 
     formula: str
-    line: str  # label of the line whose conditions it has; empty: of all
+    line: str  # label of the line with these conditions; empty for all lines
     x: tuple[float, ...]  # SI
     predictions: tuple[Prediction, ...]
     radii: tuple[float, ...]  # of the wheels [m]
@@ -49,7 +49,7 @@ class FormulaLine:
 
 
 def _value(prediction: Prediction, y: Axis, radius: float) -> float:
-    """NaN where the formula has none. Bekker and NRMM speak of wheels that are towed."""
+    """Value of a formula; NaN outside its range. Bekker and NRMM cover towed wheels alone."""
     extra = {result.name: result.value for result in prediction.extra}
     pull, torque = extra.get("drawbar pull", math.nan), extra.get("torque", math.nan)
     if y == EFFICIENCY and pull > 0 and torque > 0:

@@ -15,7 +15,7 @@ FILE = "sweep.json"
 
 
 @dataclass(frozen=True)
-class Point:
+class PlannedRun:
     """One run of a sweep."""
 
     folder: str  # below that of the sweep
@@ -24,19 +24,19 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Plan:
+class SweepPlan:
     """The runs of a sweep."""
 
     script: str  # absolute path
     variables: tuple[str, ...]  # names, as they were given
     fixed: Mapping[str, str] = field(default_factory=dict)  # further variables of the script
-    points: tuple[Point, ...] = ()
+    points: tuple[PlannedRun, ...] = ()
     ranks: int = 1
     until_steady: float = 0.0  # relative error; 0: as long as the script says
     time_limit: float = 0.0  # [s] of one run; 0: none
 
-    def joined(self, other: "Plan") -> "Plan":
-        """With the points of the other too, where that is the same scene in other respects."""
+    def joined(self, other: "SweepPlan") -> "SweepPlan":
+        """Plan with the points of another plan of the same scene added."""
         if other.settings() != self.settings():
             return self
         points = {point.folder: point for point in (*other.points, *self.points)}
@@ -53,25 +53,25 @@ class Plan:
             part.write_text(json.dumps(asdict(self), indent=1) + "\n", encoding="utf-8")
 
 
-def read_plan(folder: Path) -> Plan | None:
-    """None where the folder is not that of a sweep. @raises ResultsError for a damaged file"""
+def read_plan(folder: Path) -> SweepPlan | None:
+    """Plan of a sweep; None for another folder. @raises ResultsError for a damaged file"""
     path = folder / FILE
     if not path.is_file():
         return None
     with content_of(path, "start the sweep again, which writes it"):
         content = parse_json(path.read_text(encoding="utf-8"))
-        points = tuple(Point(**point) for point in content.pop("points"))
+        points = tuple(PlannedRun(**point) for point in content.pop("points"))
         variables = tuple(content.pop("variables"))
-        return Plan(variables=variables, points=points, **content)
+        return SweepPlan(variables=variables, points=points, **content)
 
 
-def points_of(rows: Sequence[Mapping[str, str]], seeds: Sequence[int]) -> tuple[Point, ...]:
+def points_of(rows: Sequence[Mapping[str, str]], seeds: Sequence[int]) -> tuple[PlannedRun, ...]:
     """rows: values of each; seeds: of further packings, the first one is that of the script."""
     points = []
     for values in rows:
-        points.append(Point(folder_name(values), values))
+        points.append(PlannedRun(folder_name(values), values))
         for seed in seeds:
-            points.append(Point(folder_name({**values, "seed": str(seed)}), values, str(seed)))
+            points.append(PlannedRun(folder_name({**values, "seed": str(seed)}), values, str(seed)))
     folders = [point.folder for point in points]
     twice = [folder for folder in folders if folders.count(folder) > 1]
     if twice:

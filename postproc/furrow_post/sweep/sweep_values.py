@@ -55,7 +55,7 @@ def number_of(text: str) -> float | None:
 
 
 def _range(name: str, text: str, fields: Sequence[str]) -> Iterator[str]:
-    """@raises ResultsError"""
+    """Values of a range FIRST:LAST:COUNT. @raises ResultsError"""
     ends = [number_of(field) for field in fields[:2]]
     if len(fields) != 3 or None in ends:
         raise ResultsError(f"--sweep {name}: '{text}' is no range FIRST:LAST:COUNT; {HOW}")
@@ -77,7 +77,7 @@ def _range(name: str, text: str, fields: Sequence[str]) -> Iterator[str]:
 
 
 def parse_variables(texts: Sequence[str]) -> tuple[Variable, ...]:
-    """@raises ResultsError, also for a variable that is given twice or too many points"""
+    """Variables of --sweep with their values. @raises ResultsError, also for a variable that is given twice or too many points"""
     variables = tuple(map(parse_variable, texts))
     require_once([variable.name for variable in variables])
     points = math.prod(len(variable.values) for variable in variables)

@@ -82,7 +82,7 @@ def _write_column(content: Any, name: str, values: Sequence[Cell]) -> None:
 
 
 def shown_rows(figure: Figure) -> tuple[list[str], list[list[str]]]:
-    """Head and rows of the table for people: what the figure shows."""
+    """Head and rows of the printed table, with the values of the figure."""
     head = ["", figure.x.label, *(curve.y.label for curve in figure.curves), "steady", "CPU time"]
     rows = []
     for line in figure.lines:

@@ -24,7 +24,7 @@ def plate(run: Run, whole: bool = True) -> Row:
 
 
 def smooth_plate(run: Run, width: float) -> Row:
-    """The same as means over a width of sinkage [m]."""
+    """Columns of plate() as means over a width of sinkage [m]."""
     curve = whole_plate_curve(run.folder)
     bins = (curve[:, 1] / width).astype(int)
     means = np.array([curve[bins == k].mean(axis=0) for k in np.unique(bins)])

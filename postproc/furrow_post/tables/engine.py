@@ -191,7 +191,7 @@ class Engine:
         except ResultsError:
             if not run.error:
                 raise
-            found = [] if whole else [names]  # it failed before it had any
+            found = [] if whole else [names]  # the run failed before its first row
         else:
             if "expand" in block:
                 found = [{**one, **more} for one in found for more in value_of(block["expand"], one, where)]
@@ -209,7 +209,7 @@ class Engine:
         parts: list[Row] = [{}]
         wanted = block.get("measure") or {}
         for one, arguments in ({wanted: {}} if isinstance(wanted, str) else wanted).items():
-            if parts:  # else a measure has no rows
+            if parts:  # a measure can have no rows
                 given = filled(arguments or {}, {**names, **parts[0]}, f"{self.where(name)}, run {run.name}")
                 found = self.measure(one, runs, name)(run, **given)
                 several = found if isinstance(found, list) else [found]
@@ -230,7 +230,7 @@ class Engine:
         return all(self.is_of_stored(one) for one in (*panels.listed(spec["of"]), *joined))
 
     def derived(self, name: str, tables: Tables) -> pandas.DataFrame:
-        """A table made of others."""
+        """Computes a table from other tables."""
         spec = self.tables[name]
         sources = [spec["of"]] if isinstance(spec["of"], str) else spec["of"]
         texts = spec.get("texts") or []
@@ -285,7 +285,7 @@ class Engine:
         return list(self.missed(tables))
 
     def draw(self, name: str, spec: Spec, runs: Runs, tables: Tables, output: Output) -> None:
-        """A figure of what is there; none where a table of it has no rows or a line no run."""
+        """Draws a figure; skips it if a table has no rows or a line no run."""
         sources = panels.sources_of(spec)
         if any("table" in one and one["table"] in self.tables and not len(tables[one["table"]]) for one in sources):
             return
@@ -301,7 +301,7 @@ class Engine:
             else:
                 function(runs, tables, output.path(name), **given)
                 if not output.path(name).is_file():
-                    output.files.remove(name)  # none of its runs is there
+                    output.files.remove(name)  # no run of the table is stored
         else:
             curve = partial(self.curve, runs)
             panels.draw(spec, panels.Sources(runs, tables, {**self.constants, "tables": tables}, names_of, curve), output.path(name))

@@ -56,7 +56,7 @@ def plain(value: Any) -> Any:
 
 
 def rows_of(frame: pandas.DataFrame) -> list[Row]:
-    """Rows for a CSV file."""
+    """Rows of a frame for a CSV file."""
     return [{name: plain(value) for name, value in row.items()} for row in frame.to_dict("records")]
 
 
@@ -90,7 +90,7 @@ def value_of(text: Any, names: Mapping[str, Any], where: str) -> Any:
     if not isinstance(text, str):
         return text
     try:
-        return eval(text, {**FUNCTIONS, **names})  # a study may hold programs, too
+        return eval(text, {**FUNCTIONS, **names})  # a study can contain programs, too
     except NameError:
         raise
     except Exception as error:

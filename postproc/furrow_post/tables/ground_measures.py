@@ -116,7 +116,7 @@ class NearGround:
 def stress_layers(
     folder: Path, near: float, depths: Sequence[float], greatest: int, under: Sequence[float], beside: Sequence[float]
 ) -> list[Row]:
-    """By depth: largest compression and shear and where they are ahead of the axle; the largest principal stress, and
+    """Rows over depth: largest compression and shear and their places ahead of the axle; the largest principal stress, and
     the |cos| of the angle between its axis and the way from the middle of the contact, under and beside it."""
     ground, stress = NearGround.read(folder, near), TerrainStress.read(folder)
     principal = stress.principal[ground.chosen]

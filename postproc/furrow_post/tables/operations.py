@@ -64,13 +64,13 @@ def where(frame: pandas.DataFrame, known: Known, condition: str) -> pandas.DataF
 
 
 def derive(frame: pandas.DataFrame, known: Known, /, **columns: Any) -> pandas.DataFrame:
-    """Further columns, row by row."""
+    """Table with further columns, computed row by row."""
     new = pandas.DataFrame(of_rows(frame, known, columns, "derive"), index=frame.index, columns=list(columns))
     return pandas.concat([frame.drop(columns=[c for c in columns if c in frame]), new], axis=1)
 
 
 def select(frame: pandas.DataFrame, known: Known, /, **columns: Any) -> pandas.DataFrame:
-    """These columns alone, row by row."""
+    """Rows with the chosen columns."""
     return pandas.DataFrame(of_rows(frame, known, columns, "columns"), columns=list(columns), dtype=object)
 
 
@@ -261,7 +261,7 @@ def sort(frame: pandas.DataFrame, known: Known, by: Names, falling: bool = False
 
 
 def append(frame: pandas.DataFrame, known: Known, table: str) -> pandas.DataFrame:
-    """Rows of another table below."""
+    """Table with the rows of another table below."""
     return pandas.concat([frame, known.tables[table]], ignore_index=True)
 
 

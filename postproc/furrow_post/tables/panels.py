@@ -61,7 +61,7 @@ class Sources:
 
 
 def sources_of(spec: Spec) -> list[Spec]:
-    """Lines of all panels, or the figure itself, where they have a source."""
+    """Sources of the lines of all panels, or of the figure."""
     lines = [line for panel in spec.get("panels") or [] for line in panel.get("lines") or []]
     return [one for one in (*lines, spec) if "table" in one or "runs" in one]
 
@@ -113,7 +113,7 @@ def draw_line(axes: Axes, line: Spec, sources: Sources) -> None:
 
 
 def named_arrays(line: Spec, sources: Sources) -> Iterator[tuple[Row, Row]]:
-    """Names of each line, and its further looks."""
+    """Keys of the arrays of each line, and its further style."""
     looks = line.get("looks") or {}
     if "runs" in line:
         chosen = sources.runs.ended(*listed(line["runs"])) if line.get("failed") else sources.runs.done(*listed(line["runs"]))

@@ -142,7 +142,7 @@ def wall_lean(points: Sequence[Point], wall: tuple[int, int]) -> float:
 
 
 def rib_lean(run: Run, pressure: float, height: Sequence[float], lean: float, places: Sequence[str] = ()) -> list[Row]:
-    """By how much each load leans the walls of ribs below the axle: leans[PLACE] [degrees]. places: names of the walls by
+    """Lean of the walls of ribs below the axle under each load: leans[PLACE] [degrees]. places: names of the walls by
     their y [cm], of another pressure."""
     unloaded = below_axle(run.folder / f"{pressure:.0f}kPa_0N.vtp")
     found = walls(unloaded, height, lean)
@@ -261,7 +261,7 @@ def lines_of_plane(nodes: Print, step: float, half_tread: float, across: int, fi
 
 
 def lines_of_ground(folder: Path, inflation: float, step: float, half_tread: float) -> list[Floats]:
-    """The same in the uppermost particles below the tread, from the first to the last that is loaded."""
+    """Pressures [Pa] along the travel in the uppermost particles below the tread, from the first to the last loaded one."""
     terrain = read_terrain_fields(folder)
     initial, pressure = terrain["initial_position"], -terrain["vertical_stress"]
     top = initial[:, 2] > initial[:, 2].max() - 1e-5
@@ -298,6 +298,6 @@ def lift_on_plane(
 
 
 def lift_on_ground(run: Run, pressure: float, around: int, radius: float, half_tread: float) -> Row:
-    """The same on a continuum."""
+    """unevenness() of the contact lines on a continuum."""
     step = 2 * math.pi * radius / around
     return unevenness(lines_of_ground(run.folder, 1e3 * pressure, step, half_tread), 1e3 * pressure)

@@ -44,7 +44,7 @@ def steady(run: Run, metres: float) -> Row:
 
 
 def passes(run: Run, metres: float, count: int) -> list[Row]:
-    """The same of each pass in one rut, over the last part of its cruise; number: of the pass."""
+    """Row of each pass in one rut, over the last part of its cruise, with the number of the pass."""
     wheel = Results(run.folder).columns
     found: list[Row] = []
     for number in range(1, count + 1):
@@ -62,7 +62,7 @@ def watched(run: Run, metres: float, step: float, column: int = 2, columns: int 
 
 
 def watched_share(run: Run, metres: float) -> Row:
-    """The same of the second column without the step of the run; first: of the first row."""
+    """watched: mean of the second column of watch.txt over the last part of the travel [m]; first: its first value."""
     time = (history := Results(run.folder).columns)["time"]
     watch = read_matrix(run.folder / "watch.txt", 2)
     since = (watch[:, 0] - watch[0, 0]) / (watch[-1, 0] - watch[0, 0])

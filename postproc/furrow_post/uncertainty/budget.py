@@ -30,11 +30,11 @@ class Budget:
     NAMES: ClassVar[tuple[str, ...]] = (
         "time", "size", "domain", "packing", "step", "contact", "held", "material", "model",
     )  # fmt: skip
-    NUMERICAL: ClassVar[tuple[str, ...]] = NAMES[:4]  # what runs of other sizes, grounds and packings show
+    NUMERICAL: ClassVar[tuple[str, ...]] = NAMES[:4]  # parts from runs of other sizes, grounds and packings
 
     @classmethod
     def single(cls, part: str, error: float, source: str) -> "Budget":
-        """One known part with its source."""
+        """Budget of one known part with its source."""
         return replace(cls(), **{part: error}, sources={part: source})
 
     def part(self, name: str) -> float:
@@ -63,7 +63,7 @@ class Budget:
         return replace(self, **{name: other.part(name) for name in other.known}, sources=sources)
 
     def label(self, part: str) -> str:
-        """Name of a part for people."""
+        """Name of a part of the error, as printed."""
         return {"size": self.elements, "domain": "ground"}.get(part, part)
 
     def text(self, value: float, unit: str = "", names: Sequence[str] = NAMES) -> str:

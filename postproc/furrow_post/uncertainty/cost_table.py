@@ -49,7 +49,7 @@ class Row:
     sinkage: float  # [m]
     sinkage_error: float  # standard error of the time average
     coefficient: float  # resistance coefficient
-    coefficient_error: float  # the same
+    coefficient_error: float  # standard error of the time average of the coefficient
     cpu_time: float  # [s]
 
     @property
@@ -113,7 +113,7 @@ class Family:
         self.domain = commonest([r.domain for r in rows])
         self.seed = commonest([r.seed for r in rows])
         bases = [r for r in rows if r.domain == self.domain and r.seed == self.seed]
-        self.bases = sorted(bases, key=lambda r: -r.size)  # the finest last
+        self.bases = sorted(bases, key=lambda r: -r.size)  # from the coarsest to the finest
         self._series: dict[str, Convergence | None] = {}
 
     @property
@@ -126,7 +126,7 @@ class Family:
         return [row for row in self.rows if row.domain == self.domain]
 
     def convergence(self, key: str) -> Convergence | None:
-        """None with fewer than two sizes."""
+        """Convergence over the sizes; None with fewer than two sizes."""
         if key not in self._series:
             several = len({row.size for row in self.bases}) > 1
             self._series[key] = self._converged(key) if several else None
@@ -207,7 +207,7 @@ def families(rows: Iterable[Row]) -> dict[FamilyKey, Family]:
     return {key: Family(group) for key, group in grouped(rows, lambda row: row.family).items()}
 
 
-# ---- for people
+# ---- output as text
 
 
 def numerical_errors(rows: Iterable[Row]) -> list[tuple[Row, dict[str, Budget]]]:

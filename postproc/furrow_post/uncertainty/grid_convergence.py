@@ -42,7 +42,7 @@ class Convergence:
     values: tuple[float, ...]  # of each, means
     value: float  # at size zero, or that of the finest size
     index_error: float  # half of the grid convergence index
-    noise: float  # what errors of the values leave open in value
+    noise: float  # uncertainty of value from errors of the values
     order: float = math.nan  # observed; NaN where none could be
     used_order: float = math.nan  # of the extrapolation
     slope: float = math.nan  # a
@@ -58,7 +58,7 @@ class Convergence:
         return math.hypot(self.index_error, self.noise)
 
     def at(self, size: float) -> float:
-        """On the curve, or straight between the values."""
+        """Value of a size on the curve, or by a straight line between the values."""
         if self.extrapolated:
             return float(self.value + self.slope * size**self.used_order)
         return float(np.interp(size, self.sizes, self.values))
@@ -76,7 +76,7 @@ def grid_convergence(
     count, series = len(h), (tuple(h), tuple(f))
 
     def finest(index: float, reason: str, order: float = math.nan) -> Convergence:
-        """Not extrapolated. index: the bound"""
+        """Result of the finest size without extrapolation. index: bound of its error"""
         return Convergence(*series, float(f[0]), index / COVERAGE, float(u[0]), order, reason=reason)
 
     if count < 2:
@@ -160,7 +160,7 @@ def _grouped(sizes: Sequence[float], values: Sequence[float], errors: Sequence[f
 
 
 def _weights(f: Floats, u: Floats) -> Floats:
-    """One over the errors; where none is known, over a thousandth of a value."""
+    """Weights of the fit: one over the errors, or over a thousandth of the value without known errors."""
     largest = float(np.max(u))
     least = 1e-3 * largest or LEAST_RELATIVE_ERROR * max(float(np.max(np.abs(f))), 1e-300)
     weights: Floats = 1.0 / np.maximum(u, least)
@@ -177,7 +177,7 @@ def noise_of(value: float, error: float, packing: float) -> float:
 
 
 def same_size(a: float, b: float) -> bool:
-    """Within 2 %: grains of another packing have another mean. Not known is no difference."""
+    """True for sizes within 2 %, as packings have different means, or if one is not known."""
     return not abs(a - b) > 0.02 * abs(b)
 
 

@@ -26,7 +26,7 @@ OF_CARD = ("pressure_sinkage", "shear")  # sections that a height field reads
 class Interval:
     """A parameter of a file with its standard error."""
 
-    keys: tuple[str | int, ...]  # where it is in the file
+    keys: tuple[str | int, ...]  # path of the value in the file
     value: float
     error: float
 
@@ -69,7 +69,7 @@ def _with_bases(file: Path) -> list[Path]:
 
 
 def _merged(file: Path) -> dict[str, Any]:
-    """With its bases, section by section, as Furrow reads it."""
+    """Material file merged with its bases by sections, as Furrow reads it."""
     merged: dict[str, Any] = {}
     for name, section in (item for one in _with_bases(file) for item in _content(one).items()):
         below: Any = merged.get(name)

@@ -205,7 +205,7 @@ def _count(tests: Sequence[Test]) -> int:
 
 
 def _mean(tests: Sequence[Test], value: Callable[[Test], float]) -> float:
-    """NaN of none."""
+    """Mean of numbers; NaN without any."""
     return sum(test.tests * value(test) for test in tests) / _count(tests) if tests else math.nan
 
 
@@ -215,7 +215,7 @@ def _range(values: Iterable[float]) -> tuple[float, float]:
 
 
 def model_error(regimes: Sequence[Regime], quantity: str, case: Case) -> ModelError | None:
-    """By the nearest tests of a quantity; of equally near ones those with the larger error. None where none is near."""
+    """Error by the nearest tests of a quantity, the larger one of equally near tests; None without a near test."""
     known = [(round(regime.distance(case), 6), regime) for regime in regimes if regime.quantity == quantity]
     if not known:
         return None
@@ -241,7 +241,7 @@ class Scored:
 
 
 def leave_one_study_out(tests: Sequence[Test]) -> list[Scored]:
-    """Tests whose quantity another study has measured."""
+    """Tests with the error that the other studies predict for them."""
     found = []
     for study in _studies(tests):
         others = regimes_of(test for test in tests if test.study != study[0].study)

@@ -110,7 +110,7 @@ def summary_values(folder: Path) -> dict[str, SteadyValue]:
 
 
 def read_convergence(path: Path) -> SceneConvergence:
-    """@raises ResultsError"""
+    """Reads the convergence of a scene over sizes. @raises ResultsError"""
     with content_of(path, "write it again with 'furrow-post converge SCENE'"):
         content: dict[str, Any] = parse_json(path.read_text(encoding="utf-8"))
         quantities = {name: [(float(a), float(b)) for a, b in rows] for name, rows in content["quantities"].items()}
@@ -122,7 +122,7 @@ def read_convergence(path: Path) -> SceneConvergence:
 
 
 def read_material_error(path: Path) -> SceneMaterial:
-    """@raises ResultsError"""
+    """Reads the errors of a scene from its material. @raises ResultsError"""
     with content_of(path, "write it again with 'furrow-post converge SCENE --material'"):
         content = parse_json(path.read_text(encoding="utf-8"))
         parts = {name: {key: float(change) for key, change in one.items()} for name, one in content["parts"].items()}
@@ -130,7 +130,7 @@ def read_material_error(path: Path) -> SceneMaterial:
 
 
 def places(script: Path, results: Path, ending: str = CONVERGENCE) -> list[Path]:
-    """Where a file of a scene may be: next to its script, and next to its results."""
+    """Possible places of a file of a scene: next to its script, and next to its results."""
     name = script.stem + ending
     return [script.parent / name, results.resolve().parent / name]
 

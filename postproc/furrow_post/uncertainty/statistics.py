@@ -12,7 +12,7 @@ from ..arrays import Floats
 
 Item = TypeVar("Item")
 Key = TypeVar("Key", bound=Hashable)
-BLOCKS = 8  # of a series, for the standard error of its mean
+BLOCKS = 8  # number of blocks of a series, for the standard error of its mean
 
 
 def rms(values: npt.ArrayLike) -> float:

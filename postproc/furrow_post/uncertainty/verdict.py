@@ -71,7 +71,7 @@ class Entry:
     kind: str  # RUN, BEST, FORMULA, MEASURED
     note: str = ""
     cpu_time: float = math.nan
-    steady: bool = True  # else the time average has no error that is known
+    steady: bool = True  # false if the error of the time average is unknown
 
     @property
     def label(self) -> str:
@@ -85,7 +85,7 @@ class Entry:
 
     @property
     def uncertainty(self) -> float:
-        """NaN where nothing of it is known."""
+        """Standard uncertainty; NaN if no part is known."""
         return self.parts.total
 
     @property
@@ -113,7 +113,7 @@ class Verdict:
     unknown: tuple[str, ...] = ()  # parts of the uncertainty that are not known, "size of a"
 
 
-def judge(a: Entry, b: Entry) -> Verdict:
+def verdict_between(a: Entry, b: Entry) -> Verdict:
     """The verdict on two entries of a quantity."""
     quantity, difference = a.quantity, b.value - a.value
     allowed = COVERAGE * math.hypot(a.uncertainty, b.uncertainty)
@@ -149,7 +149,7 @@ def remedies(unknown: Sequence[str]) -> list[str]:
 
 
 def summed_up(among: Sequence[Verdict], who: str) -> str:
-    """Several verdicts in one line; who: were judged."""
+    """Several verdicts in one line; who: kind of the compared entries, for example runs."""
     names = {kind: list(dict.fromkeys(v.quantity.name for v in among if v.agreement is kind)) for kind in Agreement}
     differ, inconclusive = names[Agreement.DIFFER], names[Agreement.INCONCLUSIVE]
     agree = [name for name in names[Agreement.AGREE] if name not in differ + inconclusive]

@@ -180,7 +180,7 @@ class RunErrors:
         return {name: self.of(name, value) for name, value in steady_values(self.run).items()}
 
     def model(self, name: str) -> ModelError | None:
-        """By the nearest tests of this quantity; None where none is near."""
+        """Error of the model by the nearest tests of a quantity; None without a near test."""
         if name == "slip" and self.case.motion == "towed":
             return None  # the tests are of wheels that drive
         quantity = "depth" if name == "hub_drop" and not self.run.deformable else OF_RUN.get(name, "")
@@ -212,7 +212,7 @@ class RunErrors:
         return found.updated(Budget.single("model", size, model.source()))
 
     def _certain(self) -> Budget:
-        """Nothing in cells is random, a road has no end."""
+        """Parts of the error that are 0: packing on cells, ground on a road."""
         if self.run.ground == "none":
             return Budget(packing=0.0, domain=0.0)
         return Budget() if self.run.ground_kind.random else Budget(packing=0.0)
@@ -241,17 +241,17 @@ class RunErrors:
 
 def budgets_of(folder: Path) -> dict[str, Budget]:
     """Error budgets of a results folder by quantity. Without a complete run of a wheel only the error over time is known."""
-    return _budgets_and_doubt(folder)[0]
+    return _budgets_and_reason(folder)[0]
 
 
-def _budgets_and_doubt(folder: Path) -> tuple[dict[str, Budget], str]:
+def _budgets_and_reason(folder: Path) -> tuple[dict[str, Budget], str]:
     """Error budgets, with the reason why the run is not complete, else ""."""
     try:
         return RunErrors(read_wheel_run(folder)).all(), ""
     except ResultsError as error:
-        doubt = str(error)
+        reason = str(error)
     values = summary_values(folder).items()
-    return {name: IMPOSED if value.imposed else Budget(time=value.standard_error) for name, value in values}, doubt
+    return {name: IMPOSED if value.imposed else Budget(time=value.standard_error) for name, value in values}, reason
 
 
 # ---- a value over the nearest tests
@@ -264,9 +264,9 @@ class OverTests:
     name: str
     value: float
     error: float
-    missing: str  # what is not in the error
+    missing: str  # errors that are excluded
     sign: float  # of the tests' values: -1 where a run resists and the tests pull
-    tests: Sequence[Test]  # whose values are known
+    tests: Sequence[Test]  # tests with known values
     nearest: str  # regime; empty: no test is near
 
     @property
@@ -297,7 +297,7 @@ def over_tests(run: WheelRun) -> list[OverTests]:
     return found
 
 
-# ---- for people and programs
+# ---- output as text and as files
 
 IN_PEOPLES_UNITS = {"m": (1e3, "mm"), "": (1.0, "")}
 TITLES = {"drive_torque": "torque"}
@@ -322,7 +322,7 @@ def headline(folder: Path, known: Mapping[str, Budget] | None = None) -> str:
     """
     summary, values = Summary(folder), summary_values(folder)
     known = budgets_of(folder) if known is None else known
-    texts: dict[str, list[str]] = {}  # what is not in ± -> values
+    texts: dict[str, list[str]] = {}  # errors excluded from ± -> values
     for name in summary.headline:
         text = f"{TITLES.get(name, name.replace('_', ' '))} {value_text(name, values[name], known[name])}"
         texts.setdefault(known[name].missing_text(), []).append(text)
@@ -334,12 +334,12 @@ def headline(folder: Path, known: Mapping[str, Budget] | None = None) -> str:
 
 def report(folder: Path) -> str:
     """The headline quantities with their parts, and the nearest tests. @raises ResultsError without steady values"""
-    names, values, (known, doubt) = Summary(folder).headline, summary_values(folder), _budgets_and_doubt(folder)
+    names, values, (known, reason) = Summary(folder).headline, summary_values(folder), _budgets_and_reason(folder)
     if not names:
         raise ResultsError(f"{folder}: has no steady values in summary.json; run longer")
     lines = ["± is one standard error of all that is known; in brackets its parts"]
-    if doubt:
-        lines.append(f"  only the error over time is known: {doubt}")
+    if reason:
+        lines.append(f"  only the error over time is known: {reason}")
     sources: dict[str, dict[str, None]] = {}
     for name in names:
         value, budget, title = values[name], known[name], name.replace("_", " ")
@@ -355,7 +355,7 @@ def report(folder: Path) -> str:
 
 
 def write_budget(folder: Path) -> None:
-    """budget.json, for programs. @raises ResultsError"""
+    """Writes budget.json. @raises ResultsError"""
     (folder / BUDGET).write_text(json.dumps(as_json(folder), indent=1) + "\n", encoding="utf-8")
 
 

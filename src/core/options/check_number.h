@@ -18,7 +18,7 @@ void check_number(double value, const Range& range, const std::string& where,
 /// @throws InputError "tyre, elements around is 6; allowed: an integer in [12, 2000]"
 void check_integer(long value, const Range& range, const std::string& where);
 
-/// @throws InputError with these words unless it is fulfilled
+/// Requires a condition. @throws InputError with these texts unless it is fulfilled
 void need(bool fulfilled, const std::string& where, const std::string& problem,
           const std::string& allowed, const std::string& remedy = "");
 

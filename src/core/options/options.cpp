@@ -40,10 +40,10 @@ std::string remedy_of(const Key& key) {
 }
 
 /// Warning about the first number outside of the key's usual range; empty without one.
-std::string doubt_of(const Key& key, const std::vector<double>& numbers) {
+std::string range_warning(const Key& key, const std::vector<double>& numbers) {
   const UsualRange* usual = find_usual_range(key.name, key.unit);
   for (const double number : numbers)
-    if (usual && !usual->contains(number)) return usual->doubt(number);
+    if (usual && !usual->contains(number)) return usual->warning(number);
   return {};
 }
 
@@ -213,8 +213,8 @@ void Schema::accept(Options& options, const Key& key, const std::vector<std::str
       value.numbers.push_back(*number);
     }
   }
-  if (const std::string doubt = doubt_of(key, value.numbers); given && !doubt.empty())
-    options.warnings_.push_back(where + " " + doubt);
+  if (const std::string warning = range_warning(key, value.numbers); given && !warning.empty())
+    options.warnings_.push_back(where + " " + warning);
   options.values_[key.name] = std::move(value);
 }
 
@@ -273,7 +273,7 @@ void Schema::check(const std::vector<std::string>& words) const {
     if (std::any_of(values.begin(), values.end(), unknown) ||
         (key->count == 0 && i < words.size() && unknown(words[i]))) {
       if (key->count != 1 || (i < words.size() && !resolve(words[i]))) return;
-      continue;  // one word stood for the value
+      continue;  // the value took one word
     }
     Options scratch;
     accept(scratch, *key, values, true, {}, fmt::format("{}, keyword '{}'", subject_, name));

@@ -33,7 +33,7 @@ struct Range {
   std::string text() const;           ///< "> 0", "in [0, 0.5)", "any number"
 };
 
-/// One declared key.
+/// Declaration of a keyword.
 struct Key {
   enum class Kind { number, integer, numbers, choice, text, flag };
 
@@ -47,7 +47,7 @@ struct Key {
   bool required = true;
   /// used when not required and not given; may be empty
   std::vector<std::string> default_values = {};
-  bool may_change = false;  ///< when a run is continued from a checkpoint
+  bool may_change = false;  ///< true if a continued run can have another value
 
   std::string allowed() const;  ///< "a number > 0 [m]", "one of: towed, slip, torque"
 };

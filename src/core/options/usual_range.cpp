@@ -38,7 +38,7 @@ const std::vector<UsualRange>& usual_ranges() {
 
 std::string UsualRange::remedy() const { return unit.empty() ? hint : "give SI units: " + hint; }
 
-std::string UsualRange::doubt(double value) const {
+std::string UsualRange::warning(double value) const {
   if (contains(value)) return {};
   const std::string of_unit = unit.empty() ? "" : " " + unit;
   return fmt::format("is {:g}{}; usual is {:g} to {:g}{}{}; {}", value, of_unit, range.lower,

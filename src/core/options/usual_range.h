@@ -24,7 +24,7 @@ struct UsualRange {
   std::string remedy() const;
   /// Warning: "is 0.3 kg/m3; usual is 40 to 3000 kg/m3; give SI units: g/cm3 times 1000"; empty for
   /// a usual value.
-  std::string doubt(double value) const;
+  std::string warning(double value) const;
 };
 
 const std::vector<UsualRange>& usual_ranges();

@@ -9,7 +9,7 @@ namespace furrow {
 
 /// A column of measurements.
 struct MeasuredColumn {
-  std::string heading;         ///< as the file has it
+  std::string heading;         ///< heading in the file
   std::string name;            ///< without the unit
   std::string unit;            ///< in the heading; empty without
   std::string si;              ///< unit of the values: "Pa", "" for a ratio

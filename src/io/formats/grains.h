@@ -12,7 +12,7 @@ namespace furrow {
 
 /// The spheres of a bed at one instant, in any order; SI units.
 struct Grains {
-  std::vector<std::int64_t> id;  ///< the same grain has the same id at all times
+  std::vector<std::int64_t> id;  ///< id of a grain, constant over time
   Matrix3X x;                    ///< [m]   3 x grains, inside the box where it is periodic
   Matrix3X v;                    ///< [m/s] 3 x grains
   VectorX radius;                ///< [m]

@@ -30,7 +30,7 @@ class Hdf5File {
   /// names in the order they were made
   std::vector<std::string> members(const std::string& group) const;
   void create_group(const std::string& group);
-  void remove(const std::string& object);  ///< nothing happens when it is not there
+  void remove(const std::string& object);  ///< does nothing for a missing object
 
   // Attributes of a group or a dataset; set replaces.
   void set_attribute(const std::string& object, const std::string& name, const std::string& text);

@@ -31,14 +31,14 @@ namespace furrow {
 namespace {
 
 constexpr std::uintmax_t largest_heightmap_file = 400'000'000;  // [bytes]
-constexpr double most_nodes = 5e7;
-constexpr double most_gaps = 4.0;           // nodes over points; with more gaps it is no grid
+constexpr double maximum_nodes = 5e7;
+constexpr double maximum_gaps = 4.0;        // largest ratio of nodes to points of a grid
 constexpr double regular = 1e-3;            // of a spacing: by which a coordinate may be off
-constexpr double largest_height = 1e5;      // [m] what is larger marks a cell without data
+constexpr double largest_height = 1e5;      // [m] larger heights mark cells without data
 constexpr double largest_coordinate = 1e9;  // [m]
 constexpr const char* kind = "a heightmap";
 constexpr const char* formats = "an ESRI ASCII grid, lines of x y z, or a BMP or PNG picture";
-constexpr std::size_t least_scan = 50;  // points that may be resampled
+constexpr std::size_t minimum_scan = 50;  // points that may be resampled
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double number(const TextLines& lines, std::size_t word) {
@@ -62,11 +62,11 @@ std::string read_text(const std::string& path) {
 }
 
 void check_count(const TextLines& lines, double columns, double rows) {
-  if (columns >= 1.0 && rows >= 1.0 && columns * rows <= most_nodes &&
+  if (columns >= 1.0 && rows >= 1.0 && columns * rows <= maximum_nodes &&
       columns == std::floor(columns) && rows == std::floor(rows))
     return;
   lines.refuse(0, fmt::format("has {:g} columns and {:g} rows", columns, rows),
-               fmt::format("whole numbers, at most {:g} heights", most_nodes));
+               fmt::format("whole numbers, at most {:g} heights", maximum_nodes));
 }
 
 void check_height(const TextLines& lines, int line, double height, double x, double y) {
@@ -167,7 +167,7 @@ RegularAxis regular_axis(const TextLines& lines, std::vector<double> coordinates
   if (spacing == 0.0)
     lines.refuse(0, fmt::format("has a single {}", name), "at least two along x and along y");
   const double intervals = std::round(length / spacing);
-  if (!(intervals < most_nodes))
+  if (!(intervals < maximum_nodes))
     lines.refuse(0, fmt::format("has points {:.3g} m apart along {}", spacing, name),
                  "points of a regular grid");
   return {lower, length / intervals, static_cast<int>(intervals) + 1};
@@ -328,14 +328,14 @@ Heightmap read_points(TextLines& lines) {
   const auto is_scan = [&] {
     const auto [left, right] = std::minmax_element(x.begin(), x.end());
     const auto [front, back] = std::minmax_element(y.begin(), y.end());
-    return z.size() >= least_scan && *right > *left && *back > *front;
+    return z.size() >= minimum_scan && *right > *left && *back > *front;
   };
   const RegularAxis along_x = regular_axis(lines, x, "x"), along_y = regular_axis(lines, y, "y");
   const double nodes = static_cast<double>(along_x.count) * along_y.count;
-  if (nodes > most_gaps * static_cast<double>(z.size()) && is_scan())
+  if (nodes > maximum_gaps * static_cast<double>(z.size()) && is_scan())
     return resampled(lines, points);
   check_count(lines, along_x.count, along_y.count);
-  if (nodes > most_gaps * static_cast<double>(z.size()))
+  if (nodes > maximum_gaps * static_cast<double>(z.size()))
     lines.refuse(0,
                  fmt::format("has {} points for {:.0f} nodes of a regular grid", z.size(), nodes),
                  fmt::format("x and y in steps of {:.6g} and {:.6g} m, every point once",

@@ -23,7 +23,7 @@ namespace furrow {
 namespace {
 
 constexpr std::uintmax_t largest_mesh_file = 200'000'000;  // [bytes]
-constexpr std::size_t most_facets = 300'000;               // which take seconds to check
+constexpr std::size_t maximum_facets = 300'000;            // facets whose check takes seconds
 constexpr double largest_mesh_coordinate = 1e9;            // in any unit
 constexpr const char* mesh_kind = "a mesh file, STL, OBJ or VTP";
 
@@ -53,7 +53,7 @@ class MeshLines : public TextLines {
 MeshFacets read_ascii_stl(const std::string& path, const std::string& text) {
   MeshFacets read;
   MeshLines lines(path, text);
-  int corners = -1;  // of the facet so far; -1 outside of one
+  int corners = -1;  // corners read of the present facet; -1 outside a facet
   while (lines.next()) {
     const std::string_view word = lines.words().front();
     if (word == "facet") {
@@ -204,9 +204,9 @@ void MeshFacets::add_polygon(const std::vector<int>& corners, int facet) {
 SolidMesh mesh_of_facets(const std::string& path, const MeshFacets& read) {
   if (read.triangles.empty())
     throw InputError(path, "has no facets", "the mesh of a solid", "export the mesh again");
-  if (read.triangles.size() > most_facets)
+  if (read.triangles.size() > maximum_facets)
     throw InputError(path, fmt::format("has {} facets", read.triangles.size()),
-                     fmt::format("at most {}", most_facets), "export a coarser mesh");
+                     fmt::format("at most {}", maximum_facets), "export a coarser mesh");
   return welded(path, read);
 }
 

@@ -15,7 +15,7 @@ namespace {
 struct Kind {
   InputKind kind;
   std::string name;
-  std::vector<std::string> sections;  ///< that no other kind has
+  std::vector<std::string> sections;  ///< sections of this kind of file alone
   std::string use;
 };
 

@@ -44,7 +44,7 @@ const YamlTree& text_of(const YamlTree& map, const std::string& key, const std::
   return *value;
 }
 
-constexpr std::size_t most_bases = 8;
+constexpr std::size_t maximum_bases = 8;
 const std::string cone_index = "cone_index";
 
 /// The cone index of a file. @throws InputError for a value that is none
@@ -69,9 +69,9 @@ std::string base_of(const YamlTree& name, const std::vector<std::string>& files)
           name.origin + ": base",
           fmt::format("leads back to {}: {} -> {}", file, fmt::join(files, " -> "), path.string()),
           "a base that does not need this file", "remove 'base' from one of them");
-  if (files.size() > most_bases)
+  if (files.size() > maximum_bases)
     throw InputError(name.origin + ": base", fmt::format("is the base of {} files", files.size()),
-                     fmt::format("{} one after the other", most_bases));
+                     fmt::format("{} one after the other", maximum_bases));
   return path.string();
 }
 
@@ -188,17 +188,17 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
     check_plausible(*material);
     return 0;
   });
-  const bool doubtful = !result.warnings.empty();
+  const bool has_warnings = !result.warnings.empty();
   result.warnings.insert(result.warnings.end(), of_cone_index.begin(), of_cone_index.end());
-  if (doubtful) return result;  // one of the keys is the reason of what follows
-  for (const std::string& doubt : doubts(*material))
-    result.warnings.push_back(fmt::format("{}: {}", path, doubt));
+  if (has_warnings) return result;  // these warnings cause further ones
+  for (const std::string& warning : plausibility_warnings(*material))
+    result.warnings.push_back(fmt::format("{}: {}", path, warning));
   const MaterialOptions options = read_sections(model, result.sections);
-  for (const std::string& doubt : doubts(options))
-    result.warnings.push_back(fmt::format("{}: {}", path, doubt));
-  if (model.doubts)
-    for (const std::string& doubt : model.doubts(options))
-      result.warnings.push_back(fmt::format("{}: {}", path, doubt));
+  for (const std::string& warning : plausibility_warnings(options))
+    result.warnings.push_back(fmt::format("{}: {}", path, warning));
+  if (model.warnings)
+    for (const std::string& warning : model.warnings(options))
+      result.warnings.push_back(fmt::format("{}: {}", path, warning));
   return result;
 }
 

@@ -12,7 +12,7 @@ namespace furrow {
 /// Soil of a patch, which begins at a place.
 struct PatchInput {
   double begin = 0.0;  ///< [m] on the axis
-  std::string soil;    ///< as the line has it
+  std::string soil;    ///< name in the line
 };
 
 /// Patches in the order of their places, along one axis.

@@ -17,7 +17,7 @@ namespace furrow {
 
 namespace {
 
-constexpr double most_steps = 2e6;  // of a path; half a gigabyte
+constexpr double maximum_steps = 2e6;  // of a path; half a gigabyte
 
 Schema head_schema(const std::string& subject) {
   Schema schema(subject);
@@ -99,11 +99,12 @@ std::string flow_text(const Schema& schema, const Options& options, const std::s
 PointPath checked_length(PointPath path) {
   double steps = 0.0;
   for (const PathSegment& segment : path.segments) steps += segment.steps;
-  if (steps > most_steps)
-    throw InputError(fmt::format("path {}", path.type),
-                     fmt::format("has {:.6g} steps in {} pieces", steps, path.segments.size()),
-                     fmt::format("at most {:.6g} in all: every one is kept in memory", most_steps),
-                     "lower 'steps'");
+  if (steps > maximum_steps)
+    throw InputError(
+        fmt::format("path {}", path.type),
+        fmt::format("has {:.6g} steps in {} pieces", steps, path.segments.size()),
+        fmt::format("at most {:.6g} in all: every one is kept in memory", maximum_steps),
+        "lower 'steps'");
   return path;
 }
 
@@ -136,7 +137,7 @@ PointPath read_path(const YamlTree& map, std::string* effective) {
   return in_path(map, [&] { return checked_length(table_path(options, rows)); });
 }
 
-/// A map of one key and one text: {density: rho_kgm3}.
+/// Reads a map of one key and one text: {density: rho_kgm3}.
 std::pair<std::string, const YamlTree*> one_pair(const YamlTree& curve, const std::string& key,
                                                  const std::string& meaning) {
   const YamlTree& map = curve.map(key, meaning);

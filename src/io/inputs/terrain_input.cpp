@@ -27,7 +27,7 @@ constexpr double clearance_of_depth = 1.0;
 constexpr double min_cells_in_depth = 2.0;
 constexpr double round_off = 1e-6;  // of a length
 constexpr double max_blocks = 1e6;
-constexpr double least_triangles_across = 4.0;  // of a surface mesh that shows a rut
+constexpr double minimum_triangles_across = 4.0;  // of a surface mesh that shows a rut
 
 std::vector<std::string> split_list(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -219,13 +219,13 @@ std::size_t read_surface_mesh_every(const Options& options, const TerrainParamet
                      "remove it, or write 'surface_mesh yes'");
   const double across = std::min(Axis::cell_count(ground.x) * ground.particles_per_cell[0],
                                  Axis::cell_count(ground.y) * ground.particles_per_cell[1]);
-  const double most = std::max(1.0, std::floor(across / least_triangles_across));
+  const double most = std::max(1.0, std::floor(across / minimum_triangles_across));
   if (ground.surface_mesh && every > most)
     throw InputError(
         where,
         fmt::format("is {:g}, and the terrain has {:.4g} particles from edge to edge", every,
                     across),
-        fmt::format("1 to {:g}: at least {:g} triangles across", most, least_triangles_across));
+        fmt::format("1 to {:g}: at least {:g} triangles across", most, minimum_triangles_across));
   return static_cast<std::size_t>(every);
 }
 

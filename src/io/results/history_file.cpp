@@ -27,9 +27,10 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double flush_interval = 5.0;       // [s] between flushes that come by themselves
-constexpr double least_flush_ratio = 100.0;  // of that interval to the duration of a flush
-// names in older files, and what they are called since
+constexpr double flush_interval = 5.0;  // [s] between flushes that come by themselves
+constexpr double minimum_flush_ratio =
+    100.0;  // least ratio of the flush interval to the duration of a flush
+// former and present name of a channel
 constexpr std::pair<const char*, const char*> former_channels[] = {{"phase", stage_channel},
                                                                    {"sinkage", hub_drop_channel}};
 
@@ -60,7 +61,7 @@ void check_channels(const std::string& path, const std::vector<Channel>& found,
                   path, list(found), list(expected)));
 }
 
-/// Drops what is later than time, and refuses a file that ends before it.
+/// Drops the rows after a time, and refuses a file that ends before it.
 void cut_at(const std::string& path, History& history, double time) {
   const std::vector<double> times = history.column(history.channels().front().name);
   if (times.size() < 2) {
@@ -175,7 +176,7 @@ void HistoryFile::append(const std::vector<double>& row) {
                                  row[0], *last_time_));
   rows_.append(row);
   last_time_ = row[0];
-  if (seconds_since(last_flush_) >= std::max(flush_interval, least_flush_ratio * flush_duration_))
+  if (seconds_since(last_flush_) >= std::max(flush_interval, minimum_flush_ratio * flush_duration_))
     flush();
 }
 

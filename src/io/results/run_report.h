@@ -33,13 +33,13 @@ struct EnergyTerm {
 struct Audit {
   /// [J] the terms of the energy balance, each with its sign in it
   std::vector<EnergyTerm> energies;
-  double energy_residual = 0.0;  ///< [J] what the terms do not account for
+  double energy_residual = 0.0;  ///< [J] difference of the sums of the terms
   /// [J] the largest of the terms: the residual is judged against it
   double energy_scale = 0.0;
   /// [N] largest |sum of nodal forces + sum of grain wall forces| of any step
   double force_imbalance = 0.0;
   double force_scale = 0.0;       ///< [N] largest sum of |contact force| of any step
-  double moment_imbalance = 0.0;  ///< [N m] the same of moments
+  double moment_imbalance = 0.0;  ///< [N m] largest imbalance of moments
   double moment_scale = 0.0;      ///< [N m]
 
   /// Sets the terms, their residual and their scale.

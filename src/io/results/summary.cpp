@@ -30,7 +30,7 @@ std::string with_error(double value, double error, int digits = 2) {
 constexpr char over_time[] = "± over time only";
 
 constexpr char verdict_head[] = "Verdict: ";
-constexpr std::size_t longest_verdict = 91;  // with its head a line of 100 characters
+constexpr std::size_t longest_verdict = 91;  // length of a line of 100 characters without its head
 
 /// Number of characters of a text in UTF-8.
 std::size_t characters(const std::string& text) {

@@ -37,7 +37,7 @@ Summary summarise(const std::string& folder, const ResistanceOptions& options = 
 /// most 100.
 std::string verdict_of(const Summary& summary);
 
-/// Two lines: what is not in these errors, and the command that adds it.
+/// Two lines: the excluded errors, and the command that adds them.
 std::string error_note(const std::string& folder);
 
 std::string summary_text(const Summary& summary);

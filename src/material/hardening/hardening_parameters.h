@@ -10,7 +10,7 @@ struct HardeningParameters {
 
   Kind kind = Kind::linear_table;
   double first = 0.0;       ///< eps_vol_pl where the data begin
-  double last = 1e300;      ///< and where they end
+  double last = 1e300;      ///< end of the data
   bool stop_below = false;  ///< rules outside the data: stop, or extrapolate
   bool stop_beyond = false;
   double first_value = 0.0;  ///< strength at `first` [Pa]

@@ -348,7 +348,7 @@ PointChannel find_point_channel(const Material& material, const std::string& nam
 }
 
 /// Fresh snow of 100 kg/m3 is ice after -2.2; a shear strain gamma of 20 is 3.
-std::string doubt_of_strains(const PointHistory& history) {
+std::string strain_warning(const PointHistory& history) {
   constexpr double large = 3.0;
   const PointRecord* worst = nullptr;
   Eigen::Index component = 0;

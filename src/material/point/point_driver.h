@@ -63,13 +63,13 @@ PointChannel find_point_channel(const Material& material, const std::string& nam
 PointHistory drive_point(const Material& material, const PointPath& path);
 
 /// A warning about strains that no ground reaches; empty without.
-std::string doubt_of_strains(const PointHistory& history);
+std::string strain_warning(const PointHistory& history);
 
 /// Error of the step size: comparison with the same path with every step halved, at the ends of the
 /// segments.
 struct StepError {
   double p = 0.0;        ///< largest change of p, relative to the largest p or q of the run
-  double q = 0.0;        ///< the same of q
+  double q = 0.0;        ///< largest change of q, relative to the largest p or q of the run
   double eps_vol = 0.0;  ///< largest change of the volume strain
 };
 StepError step_error(const Material& material, const PointPath& path, const PointHistory& history);

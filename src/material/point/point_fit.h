@@ -19,7 +19,7 @@ namespace furrow {
 struct FitParameterInput {
   /// "law.d", "elasticity.E", or one of a list: "hardening.p[2]", counted from 1
   std::string name;
-  std::optional<double> start;  ///< else the material's value
+  std::optional<double> start;  ///< start value; by default that of the material
   /// bounds in addition to the key's declared range
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();

@@ -53,5 +53,26 @@ struct SectionKernel<SectionParameters::Kind::matsuoka_nakai> {
   }
 };
 
+/// A kind as a type, for template arguments.
+template <SectionParameters::Kind kind>
+struct SectionKind {
+  static constexpr SectionParameters::Kind value = kind;
+};
+
+/// Calls a function of the SectionKind of a section. @return its result
+template <class Function>
+auto for_section(const SectionParameters& section, const Function& function) {
+  using Kind = SectionParameters::Kind;
+  switch (section.kind) {
+    case Kind::abaqus:
+      return function(SectionKind<Kind::abaqus>{});
+    case Kind::matsuoka_nakai:
+      return function(SectionKind<Kind::matsuoka_nakai>{});
+    case Kind::round:
+      break;
+  }
+  return function(SectionKind<Kind::round>{});
+}
+
 }  // namespace FURROW_ISA
 }  // namespace furrow

@@ -28,7 +28,7 @@ class ContactSearch {
   };
   struct Candidate {
     ParticleIndex particle;
-    Vector3 position;  ///< when it was found [m]
+    Vector3 position;  ///< position at the search [m]
     /// its triangles in near_triangles(), the nearest first
     std::size_t first;
     std::size_t last;

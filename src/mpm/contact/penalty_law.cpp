@@ -13,8 +13,8 @@ namespace furrow {
 
 namespace {
 
-constexpr double margin = 0.8;          // of a stiffness that is chosen
-constexpr double most_stiffness = 1e3;  // above what a contact may have
+constexpr double margin = 0.8;             // of a stiffness that is chosen
+constexpr double maximum_stiffness = 1e3;  // above what a contact may have
 
 /// An explicit step of dt needs 4 m - 2 dt c - dt^2 k > 0 in every mode, with dampers that act on
 /// the velocity of the step before. A particle with the weights N_i adds to the masses m N_i, so
@@ -51,7 +51,7 @@ double PenaltyLaw::largest_stiffness(const TerrainParameters& terrain,
     throw InputError(where, fmt::format("presses on ground with steps of cfl {}", terrain.cfl),
                      "cfl below sqrt(M/3K), with the wave modulus M and the bulk modulus K",
                      "lower the ground's cfl");
-  double allowed = 0.0, refused = most_stiffness;
+  double allowed = 0.0, refused = maximum_stiffness;
   if (stable(refused)) return refused;
   while (refused - allowed > 1e-4 * refused) {
     const double middle = 0.5 * (allowed + refused);

@@ -193,7 +193,7 @@ void DividedGround::begin_interval() {
   link();
 }
 
-/// The field whose copy a field has at a node.
+/// Field that another field copies at a node.
 int DividedGround::field_at(int i, int j, int k, int field) const {
   if (!box_.contains(i, j, k)) return 0;
   const DividedNode& node = nodes_[box_.index(i, j, k)];

@@ -60,7 +60,7 @@ class DividedGround {
   /// Gives copies of a divided node its motion. Not collective.
   void copy_motion();
 
-  /// All ranks keep all divided nodes.
+  /// Saves or restores the divided nodes, which all ranks keep.
   void checkpoint(Checkpoint& state);
   /// Links nodes after particles and nodes have been restored.
   void resume() { link(); }

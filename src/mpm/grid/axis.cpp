@@ -28,7 +28,7 @@ Tail growing_cells(double distance, double cell, double growth) {
     tail.lengths.push_back(length);
     tail.sum += length;
   }
-  // One cell less where that is nearer: the cells are then stretched instead of shrunk.
+  // One cell less if this is nearer: the cells are then stretched instead of shrunk.
   if (tail.lengths.size() > 1 &&
       distance - (tail.sum - tail.lengths.back()) < tail.sum - distance) {
     tail.sum -= tail.lengths.back();

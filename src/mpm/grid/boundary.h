@@ -123,7 +123,7 @@ class Boundary {
   FaceArray<Vector3> impulse_;
   double work_ = 0.0;
   bool has_initial_tractions_ = true;
-  bool renewal_due_ = false;  // the face behind lies in ground whose traction it does not know
+  bool renewal_due_ = false;  // true while the traction of the ground at the face behind is unknown
 };
 
 }  // namespace furrow

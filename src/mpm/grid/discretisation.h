@@ -16,8 +16,8 @@ namespace furrow {
 
 /// Columns of nodes of all ranks.
 struct AwakeNodes {
-  std::vector<NodeBlock> all;     ///< that computed particles reach
-  std::vector<NodeBlock> moving;  ///< those of them that are not held
+  std::vector<NodeBlock> all;     ///< nodes that computed particles reach
+  std::vector<NodeBlock> moving;  ///< nodes that are not held
 };
 
 /// `grid` stores the nodes of partition.local_nodes(); `groups` holds this rank's particles.

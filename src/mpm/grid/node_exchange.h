@@ -31,7 +31,7 @@ class NodeExchange {
   void count_step() { traffic_.steps += 1.0; }
   /// Traffic of a rank, the mean of all. Collective.
   HaloTraffic mean_traffic(const Communicator& ranks) const;
-  /// Saves the traffic of all ranks; it is rank 0's share afterwards. Collective.
+  /// Saves the traffic of all ranks as the share of rank 0. Collective.
   void checkpoint(Checkpoint& state, const Communicator& ranks);
 
  private:

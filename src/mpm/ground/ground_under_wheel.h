@@ -7,7 +7,7 @@ namespace furrow {
 struct GroundSize {
   double length = 0.0;      ///< [m] along the travel
   double width = 0.0;       ///< [m] across it
-  double fine_width = 0.0;  ///< [m] the part of it that needs fine cells
+  double fine_width = 0.0;  ///< [m] part of the width that needs fine cells
 };
 
 /// Size along the travel: on either side of the axle, half the chord at which a wheel that has sunk

@@ -70,7 +70,7 @@ bool MovingWindow::move() {
   return moved;
 }
 
-/// How far the middle stays behind what it follows, at most [m].
+/// Largest distance of the middle behind the followed body [m].
 double MovingWindow::lead() const {
   const Axis& x = discretisation_.grid.axis(0);
   return cells_ == 1 ? stride_ * x.length(0) : 0.5 * cells_ * x.fine_cell();

@@ -55,7 +55,7 @@ class MovingWindow {
   int stride_ = 1;         // layers that it moves by at a time
   int cells_;              // fine cells of a layer
   std::size_t per_cell_;   // columns of particles
-  bool has_surface_mesh_;  // whose nodes are attached to particles
+  bool has_surface_mesh_;  // true with nodes attached to particles
   Discretisation& discretisation_;
   const ParticleDistribution& distribution_;
   Boundary& boundary_;

@@ -59,7 +59,7 @@ VectorX loaded(const Material& material, const VectorX& state, double stress) {
 
 void find_overburden(const TerrainParameters& parameters, double surcharge,
                      std::vector<ParticleLevel>& levels, std::size_t patch) {
-  double weight = surcharge;  // and of all that lies above [Pa]
+  double weight = surcharge;  // weight of surcharge and ground above [Pa]
   for (std::size_t n = 0; n < levels.size(); ++n) {
     ParticleLevel& level = levels[n];
     level.layer = layer_at(parameters, level.z, patch);

@@ -21,9 +21,11 @@ struct RutPoint {
 class RutRecord {
  public:
   void add(const RutPoint& point) { points_.push_back(point); }
-  const std::vector<RutPoint>& points() const { return points_; }  ///< none but on rank 0
-  std::vector<RutPoint> gather(const Communicator& ranks) const;   ///< on every rank; collective
-  void checkpoint(Checkpoint& state, const Communicator& ranks);   ///< collective
+  const std::vector<RutPoint>& points() const {
+    return points_;
+  }  ///< points of the rut; empty on other ranks than 0
+  std::vector<RutPoint> gather(const Communicator& ranks) const;  ///< on every rank; collective
+  void checkpoint(Checkpoint& state, const Communicator& ranks);  ///< collective
 
  private:
   std::vector<double> gather_numbers(const Communicator& ranks) const;

@@ -12,7 +12,7 @@ namespace furrow {
 
 namespace {
 
-constexpr double least_cells = 2.0;    // below a relief, and one above it
+constexpr double minimum_cells = 2.0;  // below a relief, and one above it
 constexpr double max_off_knot = 1e-6;  // of the cell: the surface is where two cells meet
 
 /// Levels of particles from the surface down, with their state.
@@ -64,7 +64,7 @@ std::vector<double> begins_of(const std::vector<TerrainPatch>& patches) {
   return begins;
 }
 
-/// Likewise from the bottom of a trough down; none without one.
+/// Levels of particles from the bottom of a trough down; none without a trough.
 std::vector<ParticleLevel> make_levels_below(const TroughPlace& trough,
                                              const TerrainParameters& parameters,
                                              const std::vector<ParticleLevel>& beside) {
@@ -231,7 +231,7 @@ const std::vector<ParticleLevel>& TerrainFill::levels_at(const std::array<double
 /// Height of the relief [m]. Every rank asks for every place, so that all of them throw.
 double TerrainFill::height_at(const std::array<double, 2>& place) const {
   const double height = relief_.height(place[0], place[1]);
-  const double lowest = least_cells * shortest_cell_ - depth_,
+  const double lowest = minimum_cells * shortest_cell_ - depth_,
                highest = clearance_ - shortest_cell_;
   if (relief_.flat() || (height >= lowest && height <= highest)) return height;
   throw InputError(

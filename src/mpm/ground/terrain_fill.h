@@ -48,7 +48,7 @@ class TerrainFill {
   std::size_t rows(const Grid& grid) const;
   /// The uppermost one of a row: 0, but in a trough.
   std::size_t first_level(std::size_t row) const;
-  /// Columns go on ahead of a moving window.
+  /// Number of a particle of the initial ground, whose columns continue ahead of a moving window.
   double id(const Grid& grid, std::size_t column, std::size_t row, std::size_t level) const;
   std::size_t column_of(const Grid& grid, double id) const;  ///< of the particle
 

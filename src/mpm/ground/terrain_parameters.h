@@ -27,7 +27,7 @@ struct TerrainLayer {
   /// The law and its effective keys, as a checkpoint compares them; may be empty.
   std::vector<Entry> description = {};
   std::vector<std::string> warnings = {};  ///< of the reader, to be shown
-  std::string name = {};                   ///< of its material
+  std::string name = {};                   ///< name of the material
   GroundContact contact = {};              ///< with bodies
 };
 
@@ -81,7 +81,7 @@ struct TerrainParameters {
   bool thin_parts = false;                 ///< of bodies divide the ground (divided_ground.h)
   bool surface_mesh = false;               ///< carries triangles on its free surface, for grains
   std::size_t surface_mesh_every = 1;      ///< particles from node to node of these triangles
-  bool multirate = false;  ///< one step for as many of these grains as the stable step holds
+  bool multirate = false;  ///< true: one step for as many steps of grains as the stable step allows
   /// tolerance of active_ground.h; 0: all of the ground is computed
   double sleep_tolerance = 0.0;
   bool window = false;  ///< moves along x with what ContinuumTerrain::follow() names

@@ -168,7 +168,7 @@ std::uint64_t ParticleDistribution::Saved::start_of_nodes(std::size_t rank) cons
   return start;
 }
 
-/// Collective calls come first: a rank whose disk is full fails alone.
+/// Collective calls come first, because a rank with a full disk fails alone.
 void ParticleDistribution::checkpoint_values(Checkpoint& state, RankNumbers& numbers) {
   const Communicator& ranks = discretisation_.ranks();
   const bool same_layout = discretisation_.partition.checkpoint(state);

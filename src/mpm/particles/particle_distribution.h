@@ -62,7 +62,7 @@ class ParticleDistribution {
   Partition::Counts count_in_layers() const;
   /// @param of_last_sorting  by the cells of then, which a particle may have left; else by places
   void sort_by_cell(ParticleGroup& group, bool of_last_sorting);
-  std::array<int, 3> cell_of(double number) const;  ///< that a particle keeps
+  std::array<int, 3> cell_of(double number) const;  ///< cell of the number that a particle keeps
 
   Discretisation& discretisation_;
   Boundary& boundary_;

@@ -15,9 +15,9 @@ namespace furrow {
 
 namespace {
 
-// length of a particle over (length of its cell)/(particles per cell): more, and it is divided
+// longer particles are divided: length over (length of the cell)/(particles per cell)
 constexpr double longest_particle = 1.25;
-// that of a pair that is united: not divided again when it moves a little
+// largest length of a united pair, which is not divided again after a small motion
 constexpr double longest_pair = 1.1;
 // Distance of two that are united, over their length along x and their spacing across
 constexpr double furthest_along = 1.5;
@@ -25,7 +25,7 @@ constexpr double furthest_across = 0.5;
 // Differences of two that are united, relative to the larger value
 constexpr double density_tolerance = 0.05;
 constexpr double state_tolerance = 0.1;
-// Differences that do not matter: of a strain, and the strain whose stress does not
+// negligible difference of a strain, and the strain of a negligible stress
 constexpr double strain_floor = 2e-3;
 constexpr double elastic_floor = 1e-5;
 
@@ -78,7 +78,7 @@ ParticleRefinement::ParticleRefinement(const TerrainParameters& parameters, cons
                                        const std::string& where)
     : x_(grid.axis(0)),
       particles_per_cell_(parameters.particles_per_cell),
-      most_parts_(1L << parameters.halvings) {
+      maximum_parts_(1L << parameters.halvings) {
   check_refined_ground(parameters, where);
 }
 
@@ -105,7 +105,7 @@ void ParticleRefinement::refine(std::vector<ParticleGroup>& groups) const {
 void ParticleRefinement::divide(ParticleGroup& group) const {
   Particles& particles = group.particles;
   const auto width = group.material->find_field("band_width");
-  // halves that are appended have their turn too
+  // the loop also reaches the halves that it appends
   for (std::size_t p = 0; p < particles.size(); ++p)
     while (parts(particles, p) > 1 && particles.is_idle(p) &&
            2.0 * particles.data(column::half_x)[p] >
@@ -136,7 +136,7 @@ bool ParticleRefinement::unite(ParticleGroup& group) const {
   std::vector<Half> halves;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const long mine = parts(particles, p);
-    if (mine < most_parts_ &&
+    if (mine < maximum_parts_ &&
         4.0 * particles.data(column::half_x)[p] <= longest_pair * length_wanted(particles, p))
       halves.push_back(
           {static_cast<std::int64_t>(particles.data(column::id)[p]) / (2 * mine), mine, p});

@@ -48,7 +48,7 @@ class ParticleRefinement {
 
   const Axis& x_;
   std::array<int, 3> particles_per_cell_;
-  long most_parts_;
+  long maximum_parts_;
 };
 
 /// True if two particles of one material may become one: their density, stress and internal

@@ -156,7 +156,7 @@ void Particles::average(std::size_t i, std::size_t other) {
   }
 }
 
-/// Particles that stay where they are, at both ends, are not touched if they are many: those of
+/// Many particles that keep their place, at both ends, are not touched: those of
 /// ground at rest.
 void Particles::reorder(const std::vector<std::size_t>& order) {
   if (order.size() == size_) {

@@ -31,7 +31,7 @@ enum : std::size_t {
   volume,  ///< in the reference configuration [m^3]
   quadrature_x,
   quadrature_y,
-  quadrature_z,  ///< where the weights are taken (terrain_step.h) [m]
+  quadrature_z,  ///< quadrature position of the weights (terrain_step.h) [m]
   initial_x,
   initial_y,
   initial_z,  ///< position at the start [m]

@@ -63,7 +63,7 @@ struct BatchStress {
     for (int r = 0; r < 3; ++r) rows[r] = PairedCellSum::carry(row[r][p]);
   }
 #else
-  static void transpose(std::size_t) {}  // rows are put together where they are used
+  static void transpose(std::size_t) {}  // the baseline assembles rows where they are used
   [[gnu::always_inline]] void flux(std::size_t p, Vector4* rows) const {
     const double xx = force[0][p], yy = force[1][p], zz = force[2][p], xy = force[3][p],
                  yz = force[4][p], xz = force[5][p];

@@ -15,7 +15,7 @@ namespace furrow {
 /// Motion of the ground around a particle: v(x) = velocity + affine (x - quadrature_position).
 struct ParticleMotion {
   Vector3 position;             ///< now [m]
-  Vector3 quadrature_position;  ///< where velocity holds [m]
+  Vector3 quadrature_position;  ///< quadrature position of the velocity [m]
   Vector3 velocity;             ///< [m/s]
   Matrix3 affine;               ///< C [1/s]
   Vector3 velocity_at(const Vector3& x) const {

@@ -30,7 +30,7 @@
 namespace furrow {
 
 constexpr std::size_t stencil = 3;  ///< nodes of a particle in each direction
-/// particles whose weights are found together: they fit the first cache
+/// particles per batch of weights: they fit the first cache
 constexpr std::size_t batch = 64;
 
 /// Splines of a batch of particles, axis by axis; those of a node are products over the axes.
@@ -48,7 +48,7 @@ constexpr std::size_t batches(std::size_t particles) { return (particles + batch
 struct GridView {
   AxisView axis[3];
   int first_column[2];         ///< the lowest of these along x and y
-  int columns_along_y;         ///< how many of them
+  int columns_along_y;         ///< number of columns along y
   double* sums;                ///< momentum [N s] and mass [kg], or force [N] and zero
   const double* velocity;      ///< [m/s], and mass
   const double* displacement;  ///< since particles were last moved [m]; the fourth is unused
@@ -57,7 +57,7 @@ struct GridView {
 /// Some neighbouring particles of one material.
 struct ParticleView {
   std::size_t size = 0;
-  const double* quadrature_position[3] = {};  ///< where the weights are taken [m]
+  const double* quadrature_position[3] = {};  ///< quadrature position of the weights [m]
   double* position[3] = {};                   ///< [m]
   double* velocity = nullptr;  ///< four numbers for each particle, the last is unused [m/s]
   /// C column by column: 3 x 4 numbers for each particle, the fourth of a column is zero [1/s]
@@ -87,7 +87,7 @@ struct PointMotion {
 /// Work of the stress in a displacement gradient H [J].
 struct StressWork {
   double total = 0.0;     ///< sum V sigma : H
-  double vertical = 0.0;  ///< sum V sigma_zz H_zz, all of it in confined compression
+  double vertical = 0.0;  ///< sum V sigma_zz H_zz, the whole power in confined compression
 };
 
 /// Kernels of transfer_kernel.h.

@@ -35,7 +35,7 @@ class BrickTyre : public NodalTyre {
   const BrickTyreParameters& parameters() const { return tyre_; }
   const BrickTyreSettings& settings() const { return settings_; }
   /// Smallest volume of the rubber over its stress-free one, at a Gauss point.
-  double least_volume_ratio() const { return bricks_.least_volume_ratio(); }
+  double minimum_volume_ratio() const { return bricks_.minimum_volume_ratio(); }
 
   // Body
   double stable_time_step() const override;

@@ -15,10 +15,11 @@ namespace furrow {
 
 namespace {
 
-constexpr double least_base = 1e-3;      // [m] of rubber under a void
-constexpr double least_distance = 2e-3;  // [m] between places where the section changes
-constexpr double outline_slack = 2e-3;   // [m] by which the last zone may miss the outline's end
-constexpr double outline_wave = 1e-4;    // [m] by which the outline may rise on its way to the bead
+constexpr double minimum_base = 1e-3;      // [m] of rubber under a void
+constexpr double minimum_distance = 2e-3;  // [m] between places where the section changes
+constexpr double outline_slack =
+    2e-3;  // [m] allowed distance of the last zone from the end of the outline
+constexpr double outline_wave = 1e-4;  // [m] allowed rise of the outline towards the bead
 constexpr int outline_samples = 500;
 
 /// Few points make a curve with waves, of which the belts would have a valley all round.
@@ -79,10 +80,10 @@ void check(const TreadVoid& cut, const TreadCapParameters& tread, const std::str
        name + " is not on the tread", fmt::format("0 <= from < to < {:g} m", tread.end()));
   check_number(cut.depth, Range::positive(), fmt::format("{}, depth of {}", where, name), "m");
   const double thickness = std::min(tread.thickness_at(cut.from), tread.thickness_at(cut.to));
-  need(cut.depth <= thickness - least_base, where,
+  need(cut.depth <= thickness - minimum_base, where,
        fmt::format("{} is {:g} m deep", name, cut.depth),
        fmt::format("at most {:.4g} m, which leaves {:g} m of rubber under it",
-                   thickness - least_base, least_base));
+                   thickness - minimum_base, minimum_base));
   need(cut.pitches == 0 || (cut.pitches >= 3 && cut.share > 0.0 && cut.share < 1.0), where,
        fmt::format("{} has {} pitches and a share of {:g}", name, cut.pitches, cut.share),
        "0 for a groove, or 3 pitches at least with a share between 0 and 1");
@@ -99,9 +100,9 @@ void check(const TreadCapParameters& tread, double length, const std::string& wh
   for (std::size_t i = 0; i < n; ++i) {
     need(i == 0 || tread.at[i] > tread.at[i - 1], where, "the tread's values of at do not rise",
          "values that rise from 0");
-    need(i + 1 == n ? tread.thickness[i] == 0.0 : tread.thickness[i] > least_base, where,
+    need(i + 1 == n ? tread.thickness[i] == 0.0 : tread.thickness[i] > minimum_base, where,
          fmt::format("the tread's thickness at {:g} m is {:g} m", tread.at[i], tread.thickness[i]),
-         fmt::format("more than {:g} m, and 0 at its end", least_base));
+         fmt::format("more than {:g} m, and 0 at its end", minimum_base));
   }
   need(tread.layers >= 1 && tread.layers <= 10 && tread.rib_layers >= 1 && tread.rib_layers <= 10,
        where,
@@ -124,11 +125,11 @@ void check(const TreadCapParameters& tread, double length, const std::string& wh
 void check_places(const BrickTyreParameters& tyre, double length, const std::string& where) {
   double last = 0.0;
   for (const double place : places_of_change(tyre, length)) {
-    need(place - last <= same_place || place - last >= least_distance, where,
+    need(place - last <= same_place || place - last >= minimum_distance, where,
          fmt::format("the section changes at {:g} m and again at {:g} m: a zone, a void, or the "
                      "tread's thickness",
                      last, place),
-         fmt::format("places at least {:g} m apart, or the same", least_distance));
+         fmt::format("places at least {:g} m apart, or the same", minimum_distance));
     last = place;
   }
 }

@@ -41,10 +41,11 @@ struct TreadVoid {
 
 /// Rubber on the carcass, normal to it.
 struct TreadCapParameters {
-  std::vector<double> at;         ///< s [m] from 0 to where the tread ends
-  std::vector<double> thickness;  ///< [m] there, straight between; 0 at the end: a wedge
-  int layers = 1;                 ///< layers of bricks below the voids
-  int rib_layers = 1;             ///< next to the voids
+  std::vector<double> at;  ///< s [m] from 0 to where the tread ends
+  std::vector<double>
+      thickness;       ///< [m] at these places, linear between them; 0 at the end makes a wedge
+  int layers = 1;      ///< layers of bricks below the voids
+  int rib_layers = 1;  ///< next to the voids
   Rubber rubber;
   std::vector<TreadVoid> voids;
 

@@ -8,7 +8,7 @@ namespace furrow {
 
 namespace {
 
-constexpr double straight = 1e-6;  // [rad] half angle of what is taken for its chord
+constexpr double straight = 1e-6;  // [rad] half angle below which an arc is its chord
 
 }  // namespace
 

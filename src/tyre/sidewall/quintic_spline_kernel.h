@@ -53,7 +53,7 @@ struct SplineBasis {
     for (int derivative = 0; derivative <= derivatives; ++derivative, scale *= per_step) {
       SplineRow sum;
       for (int n = 5; n >= derivative; --n) {
-        double factor = scale;  // of x^n when it is differentiated
+        double factor = scale;  // factor of x^n after differentiation
         for (int k = 0; k < derivative; ++k) factor *= n - k;
         const SplineRow power(spline_powers[n]);
         for (int k = 0; k < spline_blocks; ++k)

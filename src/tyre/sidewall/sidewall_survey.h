@@ -23,8 +23,8 @@ struct SidewallCurve {
 struct SidewallSurvey {
   TyreParameters tyre;
   double pressure = 0.0;      ///< [Pa]
-  SidewallEnd made;           ///< where the tread edge was made
-  SidewallResponse response;  ///< there, with the chain's shape
+  SidewallEnd made;           ///< position of the tread edge as made
+  SidewallResponse response;  ///< response at this position, with the shape of the chain
   SidewallShape shape;
   std::vector<SidewallCurve> curves;
   std::vector<double> deflections;         ///< [m] of the profiles

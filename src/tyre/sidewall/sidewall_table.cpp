@@ -65,11 +65,12 @@ void SidewallTable::build() {
       for (int k = 0; k < axes[2].nodes; ++k) {
         const SidewallEnd end =
             end_at(axes[0].node(i), axes[1].node(j), axes[2].node(k), chain_.parameters().length);
-        angles.resize(0);  // every node from the arc: the same branch in any order
+        angles.resize(
+            0);  // each node starts from the arc, so that the order does not select the branch
         potential.push_back(chain_.solve(end, pressure_, angles, false).potential);
       }
   spline_ = QuinticSpline3::through(axes, potential);
-  // Where stiff springs make the chain snap, W has kinks that no smooth table follows.
+  // the potential has kinks where stiff springs make the chain snap; no smooth table follows them
   const Accuracy seen = accuracy(0.97, 5);
   if (seen.force_rms > largest_error * seen.force_scale)
     throw StateError(
@@ -125,7 +126,7 @@ void SidewallTable::evaluate(const SidewallEnd* ends, SidewallResponse* response
     const Vector3 x(std::sqrt(1.0 - c * per_length), std::atan2(end.r, end.a), end.phi);
     const bool inside = x[0] >= u_axis.lower && x[0] <= u_axis.upper && x[1] >= chi_axis.lower &&
                         x[1] <= chi_axis.upper && x[2] >= phi_axis.lower && x[2] <= phi_axis.upper;
-    if (!inside) refuse(end, i);  // also for NaN
+    if (!inside) refuse(end, i);  // true also for NaN
     spline_.evaluate(x, W, with_stiffness);
 
     const double per_c = 1.0 / c, u_c = -0.5 * per_length / x[0];  // du/dc

@@ -28,7 +28,7 @@ double value(const BedWords& words, const std::string& name) {
   return std::nan("");
 }
 
-TEST(BedChoice, SpheresOnACubicLatticeOverlapByTheShare) {
+TEST(BedChoice, YoungsModulusGivesTheHertzOverlapOfACubicLattice) {
   const double p = 4e4, nu = 0.25, d = 0.02, share = 0.015;
   const double E = young_for_overlap(p, nu, share);
   // Hertz: F = 4/3 E* sqrt(R*) delta^1.5, R* = d/4; on the lattice each contact carries p d^2
@@ -37,7 +37,7 @@ TEST(BedChoice, SpheresOnACubicLatticeOverlapByTheShare) {
   EXPECT_NEAR(force, p * d * d, 1e-12 * force);
 }
 
-TEST(BedChoice, PutsNumbersInThePlaceOfAutoAndTakesThePressureAway) {
+TEST(BedChoice, ModulusAndStepReplaceAutoAndThePressureIsDropped) {
   BedWords words = line({{"young", "auto"}, {"step", "auto"}, {"pressure", "4e4"}});
   const std::string said = choose_bed_values(words);
   const double young = young_for_overlap(4e4, 0.25, chosen_overlap);
@@ -49,21 +49,21 @@ TEST(BedChoice, PutsNumbersInThePlaceOfAutoAndTakesThePressureAway) {
   EXPECT_THAT(said, HasSubstr("0.2 of the smallest grain's Rayleigh time"));
 }
 
-TEST(BedChoice, TheStepOfSnowIsChosenByItsContactTime) {
+TEST(BedChoice, StepOfSnowFollowsItsContactTime) {
   BedWords words = {{"diameter", "0.04"}, {"density", "323"}, {"modulus", "2e7"}, {"step", "auto"}};
   choose_bed_values(words);
   const double time = snow_contact_time(0.5 * 0.85 * 0.04, 323, 2e7);
   EXPECT_NEAR(value(words, "step"), 0.2 * time, 1e-3 * time);
 }
 
-TEST(BedChoice, ALineWithoutAutoStaysAsItIs) {
+TEST(BedChoice, LineWithoutAutoIsUnchanged) {
   BedWords words = line({{"young", "1e7"}, {"step", "1e-5"}, {"pressure", "4e4"}});
   const BedWords before = words;
   EXPECT_EQ(choose_bed_values(words), "");
   EXPECT_EQ(words, before);
 }
 
-TEST(BedChoice, SaysWhatItNeeds) {
+TEST(BedChoice, MissingOrWrongKeywordsAreRefused) {
   const auto refusal = [](BedWords words) {
     return test::error_of<InputError>([&] { choose_bed_values(words); });
   };

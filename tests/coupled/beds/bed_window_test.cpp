@@ -57,7 +57,7 @@ struct Bed {
 
 class BedWindow : public testing::TestWithParam<Bed> {};
 
-TEST_P(BedWindow, RenewedSlabsFitWithoutAJolt) {
+TEST_P(BedWindow, RenewedSlabsKeepGrainsAtRest) {
   Scene scene;
   const auto [make, contact, speed, steps] = GetParam();
   make(scene);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double load = 1500.0, dt = 1e-5;  // [N], [s]
 
-TEST(BrickTyreOnBed, KeepsMomentumOnGrainsInItsGrooves) {
+TEST(BrickTyreOnBed, GrainsInGroovesKeepMomentum) {
   Scene scene;
   scene.granular_box(Vector3(-0.5, -0.3, -0.01), Vector3(0.5, 0.3, 1.0), 0.004);
   scene.contact_properties(1e7, 0.3, 0.3, 0.6);

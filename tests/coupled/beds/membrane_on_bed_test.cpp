@@ -45,7 +45,7 @@ void make_bed_on_membrane(Scene& scene, const MembraneMaterial& material, double
   scene.commands("thermo 100000");
 }
 
-TEST(MembraneOnBed, InflatedAgainstABedCarriesItsWeight) {
+TEST(MembraneOnBed, InflatedMembraneCarriesItsWeight) {
   Scene scene;
   // 1 mm rubber, two sub-steps a LIGGGHTS step; twice the pressure of the bed, so that it bulges
   // upwards.
@@ -78,7 +78,7 @@ TEST(MembraneOnBed, InflatedAgainstABedCarriesItsWeight) {
 
 /// No damping in the membrane, elastic enough to throw the grains up again and again: 1e5 steps,
 /// works and energies must add up.
-TEST(MembraneOnBed, BouncingKeepsTheEnergyBalanceOver1e5Steps) {
+TEST(MembraneOnBed, EnergyBalanceClosesOver100000StepsOfBouncing) {
   Scene scene;
   make_bed_on_membrane(scene, {2e6, 0.3, 0.5e-3, 1000.0, 0.0}, 0.0, 5e6, 1e-5);
   auto& membrane = static_cast<Membrane&>(scene.body("cover"));

@@ -30,7 +30,7 @@ void make_bed(Scene& scene) {
   scene.commands("fix calm all viscous 0.5\nthermo 100000\nrun 8000\nunfix calm");
 }
 
-TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
+TEST(TyreOnBed, RollingTyreKeepsMomentumAndEnergy) {
   Scene scene;
   make_bed(scene);
   const double level = scene.top_of_grains();

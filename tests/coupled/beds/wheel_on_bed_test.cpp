@@ -110,7 +110,7 @@ Outcome roll(Scene& scene, double slip) {
   return run;
 }
 
-TEST(WheelOnBed, CarriesItsLoadAndKeepsMomentumAndEnergy) {
+TEST(WheelOnBed, WheelCarriesItsLoadAndKeepsMomentumAndEnergy) {
   Scene scene;
   const Outcome run = roll(scene, 0.2);
   EXPECT_NEAR(run.standing_force / run.expected_force, 1.0, 1e-6);

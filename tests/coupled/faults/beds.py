@@ -11,7 +11,7 @@ import signal
 import sys
 import time
 
-from faults import WHEEL, Said, Table, run_script
+from fault_table import WHEEL, Said, Table, run_script
 from furrow_run import going, wait_until
 
 SAND = {"length": "0.16", "width": "0.08", "depth": "0.03", "clearance_above": "0.05", "diameter": "0.014", "density": "2600",

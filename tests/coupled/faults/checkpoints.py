@@ -11,7 +11,7 @@ import shutil
 import subprocess
 import sys
 
-from faults import CONTINUED, GRAINS, WHEEL, Table, run_script
+from fault_table import CONTINUED, GRAINS, WHEEL, Table, run_script
 from furrow_run import INPUTS, going, wait_until
 
 WRITE = GRAINS + "run 10\nwrite_restart ck.10\n"

@@ -7,7 +7,7 @@ crash the parser of LIGGGHTS.
 
 import sys
 
-from faults import Table, run, run_script
+from fault_table import Table, run, run_script
 
 SCRIPT = """variable length index 1
 variable speed index 2

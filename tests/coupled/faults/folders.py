@@ -8,7 +8,7 @@ import os
 import sys
 from pathlib import Path
 
-from faults import Table, run, run_script
+from fault_table import Table, run, run_script
 from furrow_run import going, wait_until
 
 REFUSED = "is 'results', which another run is writing to; allowed: a folder for each run"

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 
-from faults import CONTINUED, GRAINS, WHEEL, Said, Table, run_script
+from fault_table import CONTINUED, GRAINS, WHEEL, Said, Table, run_script
 from furrow_run import columns, going, wait_until
 
 WITHIN = 10.0  # s

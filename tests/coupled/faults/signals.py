@@ -4,7 +4,7 @@
     signals.py <furrow> [<mpirun -n>]
 
 Without a launcher the cases of one process, with it those of one rank of two.
-The grains of faults.py fall on a floor while a signal comes; the run that continues gives the same
+The grains of fault_table.py fall on a floor while a signal comes; the run that continues gives the same
 state, bit for bit, as a run without a break.
 """
 
@@ -14,7 +14,7 @@ import subprocess
 import sys
 import time
 
-from faults import CONTINUED, GRAINS, WHEEL, Said, Table, run_script
+from fault_table import CONTINUED, GRAINS, WHEEL, Said, Table, run_script
 from furrow_run import going, wait_until
 
 BEGIN = GRAINS + WHEEL

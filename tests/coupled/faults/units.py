@@ -149,7 +149,7 @@ def main(furrow: str) -> None:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             (folder / "card.yaml").write_text(CARD_TEXT)
-            def judged(what: str, text: str) -> None:
+            def check_message(what: str, text: str) -> None:
                 nonlocal count
                 count += 1
                 status, said, columns = run(furrow, folder, text)
@@ -164,13 +164,13 @@ def main(furrow: str) -> None:
             for key, factors in units.items():
                 for unit, factor in factors.items():
                     changed = {**values, key: f"{float(values[key]) * factor:.10g}"}
-                    judged(f"{key} in {unit}", script.format(**changed, results="results"))
+                    check_message(f"{key} in {unit}", script.format(**changed, results="results"))
             if feature == "card":
                 for key, factors in CARD_UNITS.items():
                     for unit, factor in factors.items():
                         (folder / "card.yaml").write_text(re.sub(
                             rf"\b{key}: (\{{value: )?([\d.e+]+)", lambda m, f=factor: f"{key}: {m[1] or ''}{float(m[2]) * f:.10g}", CARD_TEXT))
-                        judged(f"{key} in {unit}", text)
+                        check_message(f"{key} in {unit}", text)
     print(f"{count} numbers in other units, {len(failures)} silent")
     if failures:
         sys.exit("\n".join(failures))

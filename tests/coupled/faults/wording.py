@@ -15,7 +15,7 @@ from pathlib import Path
 
 import yaml
 
-from faults import Table, run, run_script
+from fault_table import Table, run, run_script
 from furrow_run import INPUTS
 
 BOX = """units si

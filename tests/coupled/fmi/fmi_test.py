@@ -97,7 +97,7 @@ class Case(unittest.TestCase):
 
 
 class Results(Case):
-    def test_results_are_those_of_the_python_module(self) -> None:
+    def test_results_equal_those_of_the_python_module(self) -> None:
         command = [sys.executable, "-c", REFERENCE, str(SCRIPT)]
         done = subprocess.run(command, check=True, text=True, capture_output=True)
         expected = [line.split() for line in done.stdout.splitlines()]
@@ -124,7 +124,7 @@ class Results(Case):
                 self.assertEqual(advance(wheel, k, k + 1), [alone[k]])
         self.assertRaisesRegex(FmuError, "time step of 0.001 s", other.step, 30 * STEP, 1e-5)
 
-    def test_reset_and_parameters(self) -> None:
+    def test_reset_restores_parameters(self) -> None:
         wheel = self.opened()
         first = advance(wheel, 0, 30)
         wheel.call("fmi2Reset")
@@ -151,7 +151,7 @@ class Results(Case):
         found = [text for text in wheel.messages if "3.6 cells across 'wheel'" in text]
         self.assertEqual(len(found), 1, wheel.messages)
 
-    def test_inputs_that_are_not_set_follow_from_the_script_and_the_rates(self) -> None:
+    def test_unset_inputs_follow_script_and_rates(self) -> None:
         wheel = self.opened()
         self.assertEqual(wheel.get("position_z"), 0.351)
         wheel.set({"velocity_x": 0.5, "load": 800.0})
@@ -177,7 +177,7 @@ class Results(Case):
 
 
 class Version3(Case):
-    def test_results_states_and_refusals_are_those_of_fmi_2(self) -> None:
+    def test_results_states_and_refusals_equal_those_of_fmi_2(self) -> None:
         expected = advance(self.opened(), 0, 40)
         fmu = Fmu3(exported(self.folder, fmi=3))
         references = [variable.attrib["valueReference"] for variable in fmu.variables.values()]
@@ -227,7 +227,7 @@ class States(Case):
             with self.assertRaisesRegex(FmuError, "DeSerializeFMUstate: the bytes are no state of this FMU, or are damaged"):
                 wheel.deserialize(damaged)
 
-    def test_instances_in_two_threads_take_turns(self) -> None:
+    def test_instances_in_two_threads_run_alternately(self) -> None:
         expected = advance(self.opened(), 0, 20)
         wheels, rows = [self.opened(), self.opened()], [[], []]
         threads = [threading.Thread(target=lambda i=i: rows[i].extend(advance(wheels[i], 0, 20)), daemon=True) for i in range(2)]
@@ -280,7 +280,7 @@ class StatesOfGrains(Case):
             rows.append([wheel.get(name) for name in OUTPUTS])
         return rows
 
-    def test_steps_repeat_from_states_held_together(self) -> None:
+    def test_several_states_repeat_their_steps(self) -> None:
         alone = self.press(self.on_sand(), 0, 24)
         wheel = self.on_sand()
         states, rows = {0: wheel.get_state()}, self.press(wheel, 0, 9)
@@ -312,7 +312,7 @@ class Refusals(Case):
     def refused(self, text: str, wheel: Instance, function: str, *arguments: object) -> None:
         self.assertRaisesRegex(FmuError, text, getattr(wheel, function), *arguments)
 
-    def test_wrong_sequences(self) -> None:
+    def test_wrong_sequences_are_refused(self) -> None:
         wheel = self.instance()
         self.refused("DoStep: the call is not allowed before initialization", wheel, "step", 0.0, STEP)
         self.refused("GetReal: the call is not allowed before initialization", wheel, "get", "force_x")
@@ -325,7 +325,7 @@ class Refusals(Case):
         wheel.call("fmi2Terminate")
         self.refused("DoStep: the call is not allowed after Terminate", wheel, "step", 0.0, STEP)
 
-    def test_wrong_values(self) -> None:
+    def test_wrong_values_are_refused(self) -> None:
         wheel = self.opened()
         self.refused("SetReal: force_x is an output; allowed: inputs", wheel, "set", {"force_x": 1.0})
         self.refused("communicationStepSize is 0.0015 s; allowed: multiples of .* time step of 0.001 s", wheel, "step", 0.0, 1.5e-3)
@@ -346,7 +346,7 @@ class Refusals(Case):
         wheel.set({"spin_torque": 0.0})
         wheel.step(0.0, STEP)  # refusals have moved nothing
 
-    def test_wrong_script_and_guid(self) -> None:
+    def test_wrong_script_and_guid_are_refused(self) -> None:
         with self.assertRaisesRegex(FmuError, r"the GUID is '\{0\}'; allowed: '\{.*\}'; take modelDescription.xml"):
             Instance(self.fmu, guid="{0}")
         wheel = self.instance()
@@ -381,7 +381,7 @@ class Refusals(Case):
         wheel.call("fmi2Terminate")
         self.assertGreater(wheel.get("hub_z"), 0.3)
 
-    def test_the_python_module_in_the_same_process_is_refused(self) -> None:
+    def test_python_module_in_the_same_process_is_refused(self) -> None:
         self.opened()
         import furrow
 

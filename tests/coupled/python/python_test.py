@@ -52,7 +52,7 @@ class Case(unittest.TestCase):
 
 
 class Stepping(Case):
-    def test_results_are_those_of_the_executable(self) -> None:
+    def test_results_equal_those_of_the_executable(self) -> None:
         executable(SCENE, here=HERE, results="alone")
         with opened(results="driven") as run:
             self.assertEqual((run.step_number, run.time), (0, 0.0))
@@ -73,7 +73,7 @@ class Stepping(Case):
     def heights_of_grains(run: furrow.Simulation) -> np.ndarray:
         return run.grains["position"][np.argsort(run.grains["id"]), 2]
 
-    def test_results_on_grains_are_those_of_the_executable(self) -> None:
+    def test_results_on_grains_equal_those_of_the_executable(self) -> None:
         os.environ["FURROW_CACHE"] = str(self.folder / "cache")
         scene = SCENES / "wheel_on_sand.lig"
         small = {"diameter": 0.035, "duration": 0.15, "vtk": 0}
@@ -101,7 +101,7 @@ class Stepping(Case):
         other.close()
         self.assert_same("alone", "other")
 
-    def test_lines_are_a_script(self) -> None:
+    def test_lines_are_run_as_a_script(self) -> None:
         executable(SCENE, here=HERE, results="alone")
         lines = SCENE.read_text(encoding="utf-8").splitlines()
         with furrow.Simulation(lines, variables={"here": HERE, "results": "driven"}) as run:
@@ -109,7 +109,7 @@ class Stepping(Case):
         self.assert_same("alone", "driven")
         self.assertEqual(list(self.folder.glob("*.lig")), [])
 
-    def test_a_run_that_is_ended_has_results(self) -> None:
+    def test_ended_run_has_results(self) -> None:
         with opened(results="driven") as run:
             run.step(400)
             run.end()
@@ -117,7 +117,7 @@ class Stepping(Case):
             self.assertLessEqual(run.step_number, 401)
             self.assertTrue(run.summary()["complete"])
 
-    def test_an_interrupt_leaves_the_run_as_it_is(self) -> None:
+    def test_interrupt_keeps_the_state_of_the_run(self) -> None:
         executable(SCENE, here=HERE, results="alone")
 
         def interrupt(*_: object) -> None:
@@ -135,7 +135,7 @@ class Stepping(Case):
 
 
 class Targets(Case):
-    def test_slip_set_in_a_run_is_that_of_a_continued_script(self) -> None:
+    def test_slip_set_in_a_run_equals_that_of_a_continued_script(self) -> None:
         executable(SCENE, here=HERE, results="alone", slip=0.1)
         executable(SCENE, here=HERE, results="alone", slip=0.4, begin="read_restart alone/checkpoint.300")
         with opened(results="driven") as run:
@@ -157,7 +157,7 @@ class Targets(Case):
             self.assertAlmostEqual(row["load"], 120.0)
             self.assertAlmostEqual(row["slip"], 0.1)
 
-    def test_refusals_change_nothing(self) -> None:
+    def test_refused_targets_change_nothing(self) -> None:
         with opened(results="driven") as run:
             rig = run.rigs["rig"]
             for wrong, text in (({"slip": 3}, "keyword 'slip' is 3"), ({"torque": 1}, "keyword 'torque' is given in mode slip"),
@@ -175,7 +175,7 @@ class Targets(Case):
             warnings = run.summary()["warnings"]
         self.assertEqual(sum("targets of the rig changed during the cruise" in text for text in warnings), 1, warnings)
 
-    def test_several_passes_keep_their_targets(self) -> None:
+    def test_targets_of_several_passes_cannot_change(self) -> None:
         text = SCENE.read_text(encoding="utf-8").replace(" follow wheel", "")
         text = text.replace("mode slip", "passes 2 pass_length 0.02 return_time 0.06 mode slip")
         with furrow.Simulation(text.splitlines(), variables={"here": HERE, "results": "driven"}) as run:
@@ -211,7 +211,7 @@ class Threads(Case):
             self.in_threads([lambda: [one.step(30) for _ in range(5)], lambda: [other.step(20) for _ in range(5)]])
             self.assertEqual((one.step_number, other.step_number), (150, 100))
 
-    def test_two_threads_of_one_simulation_take_turns(self) -> None:
+    def test_two_threads_of_one_simulation_run_alternately(self) -> None:
         with opened(results="driven") as run:
             places = []
             self.in_threads([lambda: run.step(60), lambda: run.step(40),
@@ -240,8 +240,8 @@ class Threads(Case):
         self.assertEqual(failures, [])
 
 
-class Seams(Case):
-    def test_quit_ends_the_script_and_not_the_process(self) -> None:
+class ScriptBoundary(Case):
+    def test_quit_ends_the_script_alone(self) -> None:
         lines = [*SCENE.read_text(encoding="utf-8").splitlines(), "quit", "print never"]
         with furrow.Simulation(lines, variables={"here": HERE, "results": "quit", "last": 20}) as run:
             self.assertEqual(run.run(), 20)
@@ -258,7 +258,7 @@ class Seams(Case):
             self.assertTrue(Path("pipe").is_fifo())
             run.write_checkpoint("file")
 
-    def test_targets_of_python_get_the_warnings_of_a_script(self) -> None:
+    def test_targets_set_by_python_give_the_warnings_of_a_script(self) -> None:
         with opened(results="driven") as run:
             run.step(5)
             with self.assertWarnsRegex(UserWarning, "speed' is 7 m/s, and 'wheel' usually has at most"):
@@ -335,7 +335,7 @@ class Arrays(Case):
         run.end()
         run.close()
 
-    def test_hub_is_that_of_the_history(self) -> None:
+    def test_hub_equals_that_of_the_history(self) -> None:
         with opened(results="driven") as run:
             run.step(300)
             wheel, row = run.wheels["wheel"], run.rigs["rig"].measure()
@@ -364,7 +364,7 @@ class Arrays(Case):
 
 
 class Checkpoints(Case):
-    def test_a_run_continues_from_a_checkpoint_of_the_script_and_one_between_steps(self) -> None:
+    def test_run_continues_from_checkpoints_of_script_and_python(self) -> None:
         executable(SCENE, here=HERE, results="alone")
         with opened(results="driven") as run:
             run.step(350)
@@ -383,7 +383,7 @@ class Checkpoints(Case):
 
 
 class Errors(Case):
-    def test_error_is_that_of_the_executable_and_python_goes_on(self) -> None:
+    def test_error_equals_that_of_the_executable_and_python_continues(self) -> None:
         for old, new in (("load_force 100", "lode_force 100"), ("fix             touch", "fixx            touch"),
                          ("${last} upto", "20\nunfix absent")):
             script = self.folder / "wrong.lig"
@@ -401,7 +401,7 @@ class Errors(Case):
             run.run()
         self.assert_same("whole", "driven")
 
-    def test_warnings_are_those_of_python(self) -> None:
+    def test_warnings_are_python_warnings(self) -> None:
         """The run ends before the wheel has its speed, and the cells are coarse."""
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -412,7 +412,7 @@ class Errors(Case):
         self.assertEqual({each.category for each in caught}, {UserWarning})
         self.assertEqual(caught[0].filename, __file__)
 
-    def test_wrong_arguments(self) -> None:
+    def test_wrong_arguments_are_refused(self) -> None:
         self.assertRaisesRegex(furrow.Error, "script 'absent.lig' cannot be read", furrow.Simulation, "absent.lig")
         self.assertRaisesRegex(furrow.Error, "has a variable 'slipp' that no line", opened, slipp=0.1)
         with opened(results="driven") as run:
@@ -453,7 +453,7 @@ sys.stdout.write(f"rank {MPI.COMM_WORLD.rank} of {MPI.COMM_WORLD.size}\\n")  # p
 
 
 class Ranks(Case):
-    def test_two_ranks_with_mpi4py(self) -> None:
+    def test_results_on_two_ranks_equal_those_of_one(self) -> None:
         two = (*LAUNCH, "2")
         executable(SCENE, launch=two, here=HERE, results="alone")
         (self.folder / "driver.py").write_text(RANKS, encoding="utf-8")

@@ -16,7 +16,7 @@ COARSE = {"cell": 0.04, "step": 1e-3}
 
 
 class QuarterCar(unittest.TestCase):
-    def test_stability_limit_is_that_of_theory(self) -> None:
+    def test_stability_limit_equals_theory(self) -> None:
         car = quarter_car.QuarterCar()
         stiffness = quarter_car.simulate(car, "axle", 2e-3, end=0.5, cell=0.04).contact_stiffness
         below = 0.5e-3 * np.floor(car.largest_step(stiffness) / 0.5e-3)
@@ -34,7 +34,7 @@ class QuarterCar(unittest.TestCase):
 
 
 class Vehicle(unittest.TestCase):
-    def test_loads_pull_and_energy_balance(self) -> None:
+    def test_loads_pull_and_energy_are_in_balance(self) -> None:
         car = model.Vehicle()
         wheels = model.open_wheels(car, **COARSE)
         self.addCleanup(wheels.close)

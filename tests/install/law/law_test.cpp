@@ -22,7 +22,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, MaterialConformance,
                          furrow::conformance_case_name);
 
 /// A sudden shear that is held: s_xz = 2 e_xz (G_inf + G_1 exp(-t/tau)).
-TEST(StandardLinearSolid, ASuddenStrainRelaxesWithItsTime) {
+TEST(StandardLinearSolid, StressAfterAStrainStepRelaxesExponentially) {
   const auto material = furrow::material_of_text(
       "standard_linear_solid density 1500 bulk 5e6 G_inf 1e6 G_1 2e6 tau 0.02", models());
   furrow::VectorX state = material->initial_state();

@@ -63,7 +63,7 @@ class Oscillator : public Probe {
 /// A contact whose force is found once an interval, on a mass that takes sub-steps: the amplitude
 /// stays. Forces that are held over the sub-steps let it grow as exp(k T (1 - 1/n)/(4 m) t): here
 /// by e^10 and more.
-TEST(CoupledSystem, ForcesOfOthersFeedNoEnergyIntoSubSteps) {
+TEST(CoupledSystem, ExternalForcesAddNoEnergyThroughSubSteps) {
   constexpr double mass = 1.0, own = 0.3, contact = 0.1;
   constexpr int intervals = 500;
   for (const int sub_steps : {1, 2, 7, 40}) {
@@ -100,7 +100,7 @@ TEST(CoupledSystem, SubStepsAreEqualAndFollowTheSmallestStableStep) {
   EXPECT_EQ(soft.steps, 8);
 }
 
-TEST(CoupledSystem, RefusesAndNamesTheBody) {
+TEST(CoupledSystem, ErrorNamesTheBodyThatFails) {
   Probe good, bad;
   CoupledSystem system;
   system.add(good, "soil");
@@ -149,7 +149,7 @@ class Mass : public Probe {
   double impulse = 0.0;
 };
 
-TEST(CoupledSystem, InteractionsAreFoundInEverySubStepAndForcesOfOthersActInTheFirst) {
+TEST(CoupledSystem, ContactsActInEverySubStepAndExternalForcesInTheFirst) {
   Mass wheel, ground;
   wheel.stable = 0.25;
   Spring contact(wheel, ground);
@@ -167,7 +167,7 @@ TEST(CoupledSystem, InteractionsAreFoundInEverySubStepAndForcesOfOthersActInTheF
   EXPECT_DOUBLE_EQ(wheel.surface().f(0, 0), 100.0);
 }
 
-TEST(CoupledSystem, ShowsTheMeanOfTheInteractionsUntilTheNextAdvance) {
+TEST(CoupledSystem, PublishedContactForceIsTheMeanOfTheSubSteps) {
   Mass wheel, ground;
   wheel.stable = 0.5;
   Spring contact(wheel, ground);
@@ -195,7 +195,7 @@ TEST(CoupledSystem, ShowsTheMeanOfTheInteractionsUntilTheNextAdvance) {
   EXPECT_DOUBLE_EQ(wheel.surface().f(0, 0), 0.0);
 }
 
-TEST(CoupledSystem, ShownForcesAreRestored) {
+TEST(CoupledSystem, PublishedContactForcesAreRestored) {
   const auto second_impulse = [](bool restart) {
     Mass wheel, ground;
     Spring contact(wheel, ground);
@@ -221,7 +221,7 @@ TEST(CoupledSystem, ShownForcesAreRestored) {
   EXPECT_NO_THROW(system.restore_published_contact_forces({}));
 }
 
-TEST(CoupledSystem, NamesTheContactThatRefuses) {
+TEST(CoupledSystem, ErrorNamesTheContactThatFails) {
   Mass wheel, ground;
   Spring contact(wheel, ground);
   CoupledSystem system;

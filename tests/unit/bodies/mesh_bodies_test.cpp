@@ -31,8 +31,8 @@ WheelGeometry drum() {
 std::unique_ptr<RigidWheel> wheel_of(const Surface& surface, const std::string& line) {
   const Options options =
       mesh_wheel_schema("fix wheel/mesh").read(test::words("file wheel.stl " + line));
-  std::vector<std::string> doubts;
-  return make_mesh_wheel(options, solid(surface, "wheel.stl"), doubts);
+  std::vector<std::string> warnings;
+  return make_mesh_wheel(options, solid(surface, "wheel.stl"), warnings);
 }
 
 std::string refusal(const Surface& surface, const std::string& line) {
@@ -51,7 +51,7 @@ Surface drawn(Surface surface) {
 const std::string as_drawn = "scale 0.001 origin 100 200 -50 axis 0 0 1 ";
 
 // Closed form: a uniform drum, up to the deviation of its polygon from the circle.
-TEST(MeshWheel, MassAndInertiaOfAUniformDrum) {
+TEST(MeshWheel, UniformDrumHasTheClosedFormMassAndInertia) {
   const auto wheel =
       wheel_of(drawn(make_wheel_mesh(drum())), as_drawn + "density 2700 axle 0 0 0.4");
   const double mass = 2700 * pi * 0.15 * 0.15 * 0.1;
@@ -63,7 +63,7 @@ TEST(MeshWheel, MassAndInertiaOfAUniformDrum) {
   EXPECT_NEAR(wheel->nominal_width(), 0.1, 1e-12);
 }
 
-TEST(MeshWheel, ADrawingInMillimetresHasTheNodesOfTheWheelInMetres) {
+TEST(MeshWheel, MillimetresAreConvertedToMetres) {
   const Surface made = make_wheel_mesh(drum());
   const auto wheel = wheel_of(drawn(made), as_drawn + "mass 5");
   EXPECT_LT((wheel->surface().x - made.x).cwiseAbs().maxCoeff(), 1e-14);
@@ -72,7 +72,7 @@ TEST(MeshWheel, ADrawingInMillimetresHasTheNodesOfTheWheelInMetres) {
   EXPECT_NEAR(wheel->lowest_point(), -wheel->nominal_radius(), 1e-15);
 }
 
-TEST(MeshWheel, NominalRadiusAndInertiaAreThoseOfTheKeys) {
+TEST(MeshWheel, KeywordsSetNominalRadiusAndInertia) {
   WheelGeometry geometry = drum();
   geometry.grousers = {12, 0.02, 0.008, 0.0};
   const auto wheel =
@@ -84,7 +84,7 @@ TEST(MeshWheel, NominalRadiusAndInertiaAreThoseOfTheKeys) {
   EXPECT_EQ(wheel->parameters().hub.inertia.diametral, 0.04);
 }
 
-TEST(MeshWheel, ContinuesFromItsStateAndRefusesAnotherRadius) {
+TEST(MeshWheel, RestartContinuesAndRefusesAnotherRadius) {
   const Surface surface = make_wheel_mesh(drum());
   const auto one = wheel_of(surface, "mass 5"), two = wheel_of(surface, "mass 5"),
              other = wheel_of(surface, "mass 5 radius 0.14");
@@ -158,7 +158,7 @@ std::unique_ptr<RigidPlate> plate_of(const Surface& surface, const std::string& 
 }
 
 // A cone of 30 degrees: its base is the area of the pressure.
-TEST(MeshPlate, MovesAlongItsVelocityWithThePressureOnItsBase) {
+TEST(MeshPlate, PressureIsForceOverTheBaseArea) {
   const int n = 48;
   const auto body = plate_of(cone(radians(30), 0.02, n), "centre 0.1 0.2 0.3");
   const double base = 0.5 * n * 1e-4 * std::sin(2 * pi / n);
@@ -172,7 +172,7 @@ TEST(MeshPlate, MovesAlongItsVelocityWithThePressureOnItsBase) {
   EXPECT_NEAR(body->energy_budget().residual(), 0.0, 1e-18);
 }
 
-TEST(MeshPlate, AreaAndDirectionOfUpAreThoseOfTheKeys) {
+TEST(MeshPlate, KeywordsSetAreaAndUpwardDirection) {
   Surface upside_down = cone(radians(60), 0.02, 12);
   upside_down.x.bottomRows(2) *= -1.0;
   const auto body = plate_of(upside_down, "centre 0 0 0 axis 0 0 -1 area 0.01");

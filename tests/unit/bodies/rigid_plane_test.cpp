@@ -21,7 +21,7 @@ Surface plate_at(double height) {
   return surface;
 }
 
-TEST(RigidPlane, ANodesShareOfTheAreaCarriesItsPressure) {
+TEST(RigidPlane, NodalForceIsPressureTimesNodalArea) {
   Surface surface = plate_at(-1e-4);
   RigidPlane plane({0.0, 1e8, 0.0, 0.0, 1e8}, surface);
   plane.press_on(surface);
@@ -37,7 +37,7 @@ TEST(RigidPlane, ANodesShareOfTheAreaCarriesItsPressure) {
   EXPECT_EQ(surface.f.cwiseAbs().maxCoeff(), 0.0);
 }
 
-TEST(RigidPlane, SticksAndSlides) {
+TEST(RigidPlane, FrictionSticksAndSlides) {
   Surface surface = plate_at(-1e-4);
   RigidPlane plane({0.0, 1e8, 0.0, 0.5, 1e8}, surface);
   plane.press_on(surface);
@@ -71,7 +71,7 @@ TEST(RigidPlane, DampingPushesButNeverPulls) {
 
 // Dragged along, a plate loses mu N for each metre that it slides; what the springs give way is
 // kept.
-TEST(RigidPlane, SlidingLosesFrictionForceTimesItsWay) {
+TEST(RigidPlane, SlidingDissipatesFrictionForceTimesDistance) {
   Surface surface = plate_at(-1e-4);
   RigidPlane plane({0.0, 1e8, 0.0, 0.5, 1e8}, surface);
   plane.press_on(surface);
@@ -87,7 +87,7 @@ TEST(RigidPlane, SlidingLosesFrictionForceTimesItsWay) {
   EXPECT_NEAR(plane.friction_loss(), limit * (1e-3 - give), 1e-9 * limit * 1e-3);
 }
 
-TEST(RigidPlane, ContinuesFromItsState) {
+TEST(RigidPlane, RestartContinuesBitwise) {
   Surface surface = plate_at(-1e-4);
   const RigidPlaneParameters parameters{0.0, 1e8, 0.0, 0.5, 1e8};
   RigidPlane plane(parameters, surface);

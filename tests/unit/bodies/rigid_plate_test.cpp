@@ -73,7 +73,7 @@ TEST(PlateMesh, ConeHasTheExactBaseAreaAndVolume) {
   }
 }
 
-TEST(PlateMesh, RefusesShapesThatCannotBe) {
+TEST(PlateMesh, ImpossibleShapesAreRefused) {
   PlateGeometry geometry = plate(PlateShape::circle);
   geometry.thickness = 1e-5;
   EXPECT_THAT(error_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
@@ -96,7 +96,7 @@ TEST(PlateMesh, RefusesShapesThatCannotBe) {
 }
 
 // A force of 3 N over 100 steps of 1 mm/s: work 3 N x 1e-4 m, given back by the drive.
-TEST(RigidPlate, GoesDownAtItsSpeedAndAccountsForTheWork) {
+TEST(RigidPlate, PlateMovesDownAtItsSpeedAndTheWorkBalances) {
   RigidPlate body(plate(PlateShape::square), {0.1, 0.2, 0.3});
   body.prescribe(-1e-3);
   for (int i = 0; i < 100; ++i) {
@@ -114,7 +114,7 @@ TEST(RigidPlate, GoesDownAtItsSpeedAndAccountsForTheWork) {
 
 // A tangential force of 2 N at the outer edge: work of the torque times the angle, and speed
 // spin x radius.
-TEST(RigidPlate, TurnsAboutItsAxisAndAccountsForTheWork) {
+TEST(RigidPlate, PlateTurnsAboutItsAxisAndTheWorkBalances) {
   RigidPlate body({PlateShape::annulus, 0.2, 0.03, 8, 0.12}, {0.1, 0.2, 0.3});
   body.prescribe(0.0, 0.5);
   const Vector3 start = body.surface().x.col(0);
@@ -134,7 +134,7 @@ TEST(RigidPlate, TurnsAboutItsAxisAndAccountsForTheWork) {
   EXPECT_NEAR(body.energy_budget().residual(), 0.0, 1e-15);
 }
 
-TEST(RigidPlate, ContinuesFromItsStateAndRefusesAnother) {
+TEST(RigidPlate, RestartContinuesAndRefusesAnotherPlate) {
   RigidPlate first(plate(PlateShape::circle), Vector3::Zero());
   first.prescribe(-0.01, 0.3);
   first.surface().f(2, 0) = 1.0;

@@ -94,7 +94,7 @@ TEST(RigidWheel, FreeFallFollowsTheLeapfrogExactly) {
   EXPECT_NEAR(wheel.energy_budget().load_work / wheel.energy_budget().kinetic_energy, 1.0, 1e-13);
 }
 
-TEST(RigidWheel, ATorqueSpinsItUpByTorqueOverInertia) {
+TEST(RigidWheel, SpinAccelerationIsTorqueOverInertia) {
   RigidWheel wheel(small_wheel());
   wheel.release(Coordinate::spin);
   wheel.set_axle_torque(0.3);
@@ -119,7 +119,7 @@ TEST(RigidWheel, PositiveSpinRollsForward) {
   }
 }
 
-TEST(RigidWheel, AHeldWheelReportsTheForcesThatHoldIt) {
+TEST(RigidWheel, HeldWheelReportsItsConstraintForces) {
   RigidWheel wheel(small_wheel());
   wheel.set_load({0, 0, -30.0});
   const Vector3 force(1.0, -2.0, 50.0);
@@ -136,7 +136,7 @@ TEST(RigidWheel, AHeldWheelReportsTheForcesThatHoldIt) {
   EXPECT_EQ(wheel.centre(), small_wheel().hub.centre);
 }
 
-TEST(RigidWheel, APrescribedSpinReportsTheTorqueThatAcceleratesIt) {
+TEST(RigidWheel, PrescribedSpinReportsItsTorque) {
   RigidWheel wheel(small_wheel());
   const double dt = 1e-3, alpha = 7.0;
   for (int i = 1; i <= 100; ++i) {
@@ -158,7 +158,7 @@ TEST(RigidWheel, NodesKeepTheShapeAfterManyTurns) {
 
 // Steady precession: a couple M about the level line across the axle turns the axle at -M/(C
 // d(spin)/dt) about the vertical.
-TEST(RigidWheel, AFastWheelPrecessesUnderACouple) {
+TEST(RigidWheel, FastWheelPrecessesUnderACouple) {
   RigidWheel wheel(small_wheel());
   for (const auto angle : {Coordinate::spin, Coordinate::yaw, Coordinate::camber})
     wheel.release(angle);
@@ -255,7 +255,7 @@ TEST(RigidWheel, BalanceClosesWithSlipPrescribed) { expect_closed_balance({P, H,
 TEST(RigidWheel, BalanceClosesWithFreeSpinInATurn) { expect_closed_balance({P, P, F, F, P, P}); }
 TEST(RigidWheel, BalanceClosesWithOnlyYawFree) { expect_closed_balance({H, H, H, P, F, P}); }
 
-TEST(RigidWheel, VerticalDampingDecaysAndLosesWhatItDissipates) {
+TEST(RigidWheel, VerticalDampingDissipatesTheLostEnergy) {
   RigidWheel wheel(small_wheel());
   wheel.release(Coordinate::z);
   wheel.set_velocity({0, 0, 1.0}, Vector3::Zero());
@@ -298,7 +298,7 @@ TEST(RigidWheel, RefusesTheStateOfAnotherWheel) {
               HasSubstr("and was 4 when the checkpoint was written"));
 }
 
-TEST(RigidWheel, StopsOnStatesThatMustNotGoOn) {
+TEST(RigidWheel, NonFiniteStatesAndStepsStopTheRun) {
   RigidWheel wheel(small_wheel());
   EXPECT_THAT(error_of([&] { wheel.advance(0.0); }), HasSubstr("a step of 0 s"));
   EXPECT_THAT(error_of([&] { wheel.prescribe(Coordinate::x, std::nan("")); }),

@@ -66,7 +66,7 @@ void restore(Part& part, const std::vector<char>& bytes) {
   state.finish();
 }
 
-TEST(Checkpoint, BringsBackEveryBit) {
+TEST(Checkpoint, RestoredValuesHaveEveryBit) {
   Part part;
   restore(part, saved());
   EXPECT_EQ(saved(part), saved());
@@ -75,7 +75,7 @@ TEST(Checkpoint, BringsBackEveryBit) {
   EXPECT_EQ(part.colour, Colour::green);
 }
 
-TEST(Checkpoint, NamesWhatMustNotHaveChanged) {
+TEST(Checkpoint, ChangedParameterIsNamed) {
   Part heavier;
   heavier.mass = 2.0;
   EXPECT_THAT(test::error_of([&] { restore(heavier, saved()); }),
@@ -105,7 +105,7 @@ TEST(Checkpoint, RefusesEveryShorterLength) {
   }
 }
 
-TEST(Checkpoint, RefusesAnotherLayoutByName) {
+TEST(Checkpoint, OtherLayoutIsRefusedByName) {
   Checkpoint other("part");
   double mass = 1.0, width = 2.0;
   other.value("mass", mass);

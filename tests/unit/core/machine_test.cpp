@@ -17,7 +17,7 @@
 namespace furrow::machine_test {
 namespace {
 
-TEST(Machine, AProcessMayUseWhatTheShellLeavesIt) {
+TEST(Machine, UsableMemoryRespectsTheLimitOfTheShell) {
 #if FURROW_ADDRESS_SANITIZER
   GTEST_SKIP() << "the address sanitizer reserves terabytes of addresses, and ends under a limit";
 #endif

@@ -6,7 +6,7 @@
 namespace furrow::nearest_word_test {
 namespace {
 
-TEST(NearestWord, IsNamedUpToTwoLettersAway) {
+TEST(NearestWord, SuggestionDiffersByTwoLettersAtMost) {
   const std::vector<std::string> words = {"density", "beta", "R"};
   EXPECT_EQ(did_you_mean(words, "betta"), "did you mean 'beta'?");
   EXPECT_EQ(did_you_mean(words, "dnesity"), "did you mean 'density'?");

@@ -44,7 +44,7 @@ TEST(Options, ReadsGivenValuesAndDefaults) {
 }
 
 /// Once for a list, never for a default, and only in the unit of the table.
-TEST(Options, WarnsOfValuesOutsideOfTheUsualRange) {
+TEST(Options, ValueOutsideTheUsualRangeIsWarnedOf) {
   Schema schema("law made");
   schema.number("density", "kg/m3", Range::positive(), "density").by_default(1.0);
   schema.numbers("rho", 0, "kg/m3", Range::positive(), "densities").optional();
@@ -92,7 +92,7 @@ TEST(Range, EndsAreOpenOrClosedAndNaNIsNeverInside) {
   EXPECT_EQ((Range{0.0, 0.5, false, true}).text(), "in [0, 0.5)");
 }
 
-TEST(Options, EntriesOfAFileTellTheirLine) {
+TEST(Options, ErrorNamesTheLineOfTheFile) {
   const auto message = [](const std::vector<Entry>& entries) {
     return error_of<InputError>([&] { wheel_schema().read(entries); });
   };
@@ -121,7 +121,7 @@ Schema renamed_schema() {
   return schema;
 }
 
-TEST(Options, AFormerNameIsTakenOverWithAWarningThatGivesTheNewOne) {
+TEST(Options, FormerNameWorksWithAWarning) {
   const Options options =
       renamed_schema().read(test::words("cycle 4 middle 1 2 weightless_start yes"));
   EXPECT_EQ(options.integer("remap_interval"), 4);
@@ -140,11 +140,11 @@ TEST(Options, AFormerNameIsTakenOverWithAWarningThatGivesTheNewOne) {
   EXPECT_EQ(options.effective()[0].key, "remap_interval");
 }
 
-TEST(Options, TheNewNameNeedsNoWarning) {
+TEST(Options, PresentNameGivesNoWarning) {
   EXPECT_TRUE(renamed_schema().read(test::words("remap_interval 4")).warnings().empty());
 }
 
-TEST(Options, AFormerNameIsCheckedLikeTheKeyItself) {
+TEST(Options, FormerNameIsCheckedAsThePresentOne) {
   const auto message_of = [](const std::string& line) {
     return error_of<InputError>([&] { renamed_schema().read(test::words(line)); });
   };
@@ -158,7 +158,7 @@ TEST(Options, AFormerNameIsCheckedLikeTheKeyItself) {
               HasSubstr("keyword 'middle' (now 'centre') has 1 value(s)"));
 }
 
-TEST(Options, AnAliasNeedsAKeyAndAFreeName) {
+TEST(Options, AliasNeedsAnExistingKeyAndAnUnusedName) {
   Schema schema = renamed_schema();
   EXPECT_THROW(schema.alias("old", "no_such_key"), Error);
   EXPECT_THROW(schema.alias("centre", "remap_interval"), Error);

@@ -6,7 +6,7 @@
 namespace furrow::outputs_test {
 namespace {
 
-TEST(Outputs, OneListGivesNamesUnitsMeaningsAndValues) {
+TEST(Outputs, ListHasNamesUnitsMeaningsAndValues) {
   struct Plate {
     double sinkage, force;
   };

@@ -9,7 +9,7 @@ namespace furrow::symmetric_eigenvalues_test {
 namespace {
 
 /// A chain of n masses and n + 1 springs has 2 - 2 cos(k pi/(n + 1)).
-TEST(SymmetricEigenvalues, OfAChainOfSpringsAreItsClosedForm) {
+TEST(SymmetricEigenvalues, ChainOfSpringsHasItsClosedForm) {
   constexpr int n = 30;
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
   for (int i = 0; i < n; ++i) {

@@ -38,7 +38,7 @@ double largest_error(const History& history, double noise) {
   return worst;
 }
 
-TEST(TimeLeft, IsRightWithinATwentiethWhereStepsCostTheSame) {
+TEST(TimeLeft, EqualStepsGiveAnErrorBelow5Percent) {
   TimeLeft left;
   EXPECT_EQ(left.estimate(), 0.0);
   left.note(0.25, 10.0);
@@ -48,7 +48,7 @@ TEST(TimeLeft, IsRightWithinATwentiethWhereStepsCostTheSame) {
   EXPECT_LT(largest_error({"even", [](double) { return 1.0; }, 0.0}, 0.5), 0.05);
 }
 
-TEST(TimeLeft, IsRightWithinAFifthAfterTheFirstTenth) {
+TEST(TimeLeft, ErrorIsBelow20PercentAfterATenthOfTheRun) {
   const History histories[] = {
       {"free fall until 6 %, then contact that costs twice as much",
        [](double p) { return p < 0.06 ? 1.0 : 2.0; }, 0.20},
@@ -62,7 +62,7 @@ TEST(TimeLeft, IsRightWithinAFifthAfterTheFirstTenth) {
     EXPECT_LT(largest_error(history, 0.3), history.error) << history.name;
 }
 
-TEST(TimeLeft, FollowsAJumpWithinHalfOfTheTimeSoFar) {
+TEST(TimeLeft, EstimateFollowsASuddenChangeOfCost) {
   // The mean since the start is wrong by a third at 50 %, and still by a fifth at 75 %.
   TimeLeft left;
   double elapsed = 0.0;

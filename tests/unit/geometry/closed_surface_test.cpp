@@ -51,7 +51,7 @@ TEST(WindingNumber, IsOneInsideAndZeroOutside) {
 }
 
 /// From the right corner of the tetrahedron the opposite face fills an octant.
-TEST(WindingNumber, OfASurfaceWithAHoleIsTheSolidAngleOfTheRest) {
+TEST(WindingNumber, OpenSurfaceGivesItsSolidAngle) {
   Surface surface = tetrahedron();
   surface.triangles = {{1, 2, 3}};
   EXPECT_NEAR(winding_number(surface, Vector3::Zero()), 1.0 / 8.0, 1e-14);
@@ -80,7 +80,7 @@ TEST(ClosedSurface, FinOnASolidIsRefused) {
               ThrowsMessage<StateError>(HasSubstr("belongs to more than two triangles")));
 }
 
-TEST(ClosedSurface, NothingIsNotClosed) {
+TEST(ClosedSurface, EmptySurfaceIsNotClosed) {
   EXPECT_THAT([] { check_closed(Surface(), "soil"); },
               ThrowsMessage<StateError>(HasSubstr("there are no triangles")));
 }

@@ -51,7 +51,7 @@ std::vector<ContactCandidate> candidates_over_edge(double fold, const Vector3& c
           {closest_point_on_triangle(centre, b, d, c), 1, Vector3i(1, 3, 2), 1}};
 }
 
-TEST(ContactSelection, FlatSheetIsOneContactWhereverTheSphereStands) {
+TEST(ContactSelection, FlatMeshIsOneContact) {
   for (double x : {-0.3, -1e-12, 0.0, 1e-12, 0.3}) {
     std::vector<ContactCandidate> contacts = candidates_over_edge(0.0, Vector3(x, 0.1, 0.2));
     ContactSelection().select(contacts, 0.25);

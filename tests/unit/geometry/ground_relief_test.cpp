@@ -23,7 +23,7 @@ GroundRelief relief_of(const std::string& line) {
   return relief_from(schema.read(test::words(line)), {});
 }
 
-TEST(GroundRelief, HeightsAreThoseOfTheShapesAndAddUp) {
+TEST(GroundRelief, HeightsOfSeveralShapesAddUp) {
   EXPECT_TRUE(relief_of("").flat());
   EXPECT_EQ(relief_of("").height(3.0, 4.0), 0.0);
   const GroundRelief sine = relief_of("washboard 0.8 0.03 flat_until 0.5");
@@ -73,7 +73,7 @@ TEST(GroundRelief, PeriodogramOfARandomProfileHasTheSpectrumOfIso8608) {
 }
 
 /// A map in millimetres, with the heights of its site, or with heights in centimetres
-TEST(GroundRelief, MapThatCannotBeOfTheGroundIsRefused) {
+TEST(GroundRelief, ImpossibleHeightmapIsRefused) {
   const auto said = [](double spacing, double level, double amplitude) {
     auto map = std::make_shared<Heightmap>();
     map->name = "map";
@@ -107,7 +107,7 @@ TEST(GroundRelief, RoadClassesHaveTheMeanDensitiesOfIso8608) {
 }
 
 /// The integral of G(n0) (n/n0)^-2 from n1 to n2 is the mean square, G(n0) n0^2 (1/n1 - 1/n2).
-TEST(GroundRelief, RmsOfARoadClassIsThatOfItsSpectrumBetweenItsWavelengths) {
+TEST(GroundRelief, RoadClassHasTheRmsOfItsSpectrum) {
   constexpr double n1 = 0.05, n2 = 2.0, n0 = 0.1, length = 4000.0, step = 0.1;
   for (const auto& [letter, density] : {std::pair("A", 16e-6), std::pair("E", 4096e-6)}) {
     const GroundRelief relief =
@@ -120,7 +120,7 @@ TEST(GroundRelief, RmsOfARoadClassIsThatOfItsSpectrumBetweenItsWavelengths) {
   }
 }
 
-TEST(GroundRelief, SeedAndPlaceAloneGiveTheHeight) {
+TEST(GroundRelief, HeightDependsOnSeedAndPlaceAlone) {
   const std::string line = "roughness 1e-3 roughness_seed 7";
   const GroundRelief one = relief_of(line), same = relief_of(line),
                      other = relief_of("roughness 1e-3 roughness_seed 8");
@@ -131,7 +131,7 @@ TEST(GroundRelief, SeedAndPlaceAloneGiveTheHeight) {
   EXPECT_LT(std::abs(later.height(2.0 + 1e-6, 0.0)), 1e-6);  // continuous
 }
 
-TEST(GroundRelief, ShapesThatCannotBeAreRefusedWithTheirKeyword) {
+TEST(GroundRelief, ImpossibleShapesAreRefusedWithTheirKeyword) {
   const auto refusal = [](const std::string& line) {
     return error_of<InputError>([&] { relief_of(line); });
   };

@@ -25,7 +25,7 @@ using testing::HasSubstr;
 const Surface cube = box(Vector3(0, 0, 0), Vector3(1, 1, 1));
 
 // Closed form: a box about its centre.
-TEST(MassProperties, OfABoxFarFromTheOrigin) {
+TEST(MassProperties, BoxFarFromTheOriginHasItsClosedForm) {
   const Vector3 side(0.3, 0.5, 0.7), centre(101, -202, 303);
   const MassProperties of = mass_properties(box(centre - side / 2, centre + side / 2));
   const double volume = side.prod();
@@ -40,7 +40,7 @@ TEST(MassProperties, OfABoxFarFromTheOrigin) {
 }
 
 // Closed form: a prism on a regular polygon. With more sides it tends to the cylinder of its area.
-TEST(MassProperties, OfAPrismAndItsLimitACylinder) {
+TEST(MassProperties, PrismConvergesToTheCylinder) {
   WheelGeometry wheel;
   wheel.diameter = 0.6;
   wheel.width = 0.25;
@@ -66,7 +66,7 @@ TEST(MassProperties, OfAPrismAndItsLimitACylinder) {
   }
 }
 
-TEST(SolidMesh, SolidsWithCavitiesAndPartsPass) {
+TEST(SolidMesh, SolidsWithCavitiesAndSeveralPartsAreAccepted) {
   const Surface cavity = turned(box(Vector3(0.2, 0.2, 0.2), Vector3(0.8, 0.8, 0.8))),
                 core = box(Vector3(0.4, 0.4, 0.4), Vector3(0.6, 0.6, 0.6)),
                 other = box(Vector3(2, 0, 0), Vector3(3, 1, 1));
@@ -96,7 +96,7 @@ Surface with(const Surface& surface, const std::function<void(Surface&)>& fault)
 
 class BadSolid : public testing::TestWithParam<BadMesh> {};
 
-TEST_P(BadSolid, IsRefusedWithFacetAndRemedy) {
+TEST_P(BadSolid, FaultySolidIsRefusedWithFacetAndRemedy) {
   EXPECT_THAT(error_of<InputError>([] { check_solid(solid(GetParam().surface)); }),
               HasSubstr(GetParam().message));
 }

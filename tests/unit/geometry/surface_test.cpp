@@ -79,7 +79,7 @@ TEST(Surface, BoundsAreTheExtremeCorners) {
   EXPECT_THAT(error_of<StateError>([] { Surface().bounds(); }), HasSubstr("without nodes"));
 }
 
-TEST(Surface, ClosedMeansEveryEdgeTwiceInOppositeDirections) {
+TEST(Surface, ClosedSurfaceHasEveryEdgeTwiceInOppositeDirections) {
   EXPECT_TRUE(tetrahedron().is_closed());
   EXPECT_FALSE(Surface().is_closed());
 

@@ -61,7 +61,7 @@ TEST(ThinParts, WallThatCarriesARibDividesNoGround) {
   EXPECT_NEAR(std::abs(parts[0].place(surface.x, {0.1, 0.0, 0.2}).height), 0.1, 1e-12);
 }
 
-TEST(ThinParts, BlocksAndThickWallsHaveNone) {
+TEST(ThinParts, BlocksAndThickWallsHaveNoThinParts) {
   EXPECT_TRUE(find_thin_parts(test::bar({0.2, 0.2, 0.2}), 0.5, 1.0, 3).empty());
   EXPECT_TRUE(find_thin_parts(test::bar({0.06, 0.5, 0.3}), 0.05, 1.0, 3).empty());
 }
@@ -100,7 +100,7 @@ TEST(ThinParts, EveryGrouserDividesTwoGaps) {
 }
 
 /// A node inside of the tread beside the root is not beyond an end; one under the tip is.
-TEST(ThinParts, GrouserGoesOnIntoItsWheel) {
+TEST(ThinParts, GrouserExtendsIntoItsWheel) {
   const WheelGeometry wheel{0.4, 0.2, 0.0, 120, 0.02, {12, 0.03, 0.005, 0.0}};
   const Surface surface = make_wheel_mesh(wheel);
   int within = 0, under = 0;

@@ -59,7 +59,7 @@ TEST(TriangleSearch, FindsEveryTriangleWithinReach) {
   }
 }
 
-TEST(TriangleSearch, CoversOnlyTheRegionAskedFor) {
+TEST(TriangleSearch, SearchCoversTheGivenRegionAlone) {
   const Surface surface = disc();
   const TriangleSearch search(surface, 0.01, {-1, -1, -1}, {0.0, 1, 1});
   EXPECT_FALSE(search.covers({0.05, 0, 0}));
@@ -70,7 +70,7 @@ TEST(TriangleSearch, CoversOnlyTheRegionAskedFor) {
 }
 
 /// Ground that is one particle thick has no extent in one direction.
-TEST(TriangleSearch, WorksOnAFlatRegion) {
+TEST(TriangleSearch, FlatRegionIsSearched) {
   const Surface surface = disc();
   const TriangleSearch search(surface, 0.05, {-1, 0.01, -1}, {1, 0.01, 1});
   const Vector3 point(0.0, 0.01, 0.06);
@@ -87,7 +87,7 @@ TEST(TriangleSearch, WorksOnAFlatRegion) {
 
 /// The direction at the nearest feature tells inside from outside everywhere, as the crossings of a
 /// ray do.
-TEST(NodeTriangles, OutwardAgreesWithEncloses) {
+TEST(NodeTriangles, OutwardNormalAgreesWithTheEnclosedSide) {
   const Surface surface = disc();
   const NodeTriangles corners(surface);
   int inside = 0, features[4] = {};

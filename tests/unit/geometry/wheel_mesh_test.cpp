@@ -98,7 +98,7 @@ std::string refusal_of(const WheelGeometry& wheel) {
   return error_of<InputError>([&] { make_wheel_mesh(wheel, "fix wheel/rigid"); });
 }
 
-TEST(WheelMesh, TheDefaultWheelHasAboutTwelveHundredGoodTriangles) {
+TEST(WheelMesh, DefaultWheelHasAbout1200WellShapedTriangles) {
   const Surface surface = make_wheel_mesh(tr_wheel());
   expect_sound(surface);
   EXPECT_GE(surface.triangle_count(), 1100u);
@@ -112,7 +112,7 @@ TEST(WheelMesh, NormalsOfAPlainWheelPointAwayFromItsCentre) {
     EXPECT_GT(surface.area_vector(i).dot(surface.x.col(surface.triangles[i][0])), 0.0);
 }
 
-TEST(WheelMesh, AFlatWheelHasTheVolumeOfTheCylinderAtAnyNumberOfSegments) {
+TEST(WheelMesh, FlatWheelHasTheVolumeOfTheCylinder) {
   WheelGeometry wheel = tr_wheel();
   wheel.shoulder = 0.0;
   for (const int segments : {12, 13, 64}) {
@@ -162,7 +162,7 @@ TEST(WheelMesh, TreadNodesLieOutsideTheCircleByTheEqualAreaFactor) {
   EXPECT_NEAR(low.y(), -0.5 * wheel.width, 1e-15);
 }
 
-TEST(WheelMesh, AFullyRoundTreadAndARollerAreSound) {
+TEST(WheelMesh, FullyRoundTreadAndRollerAreClosedSurfaces) {
   WheelGeometry wheel = tr_wheel();
   wheel.shoulder = 0.5 * wheel.width;
   expect_sound(make_wheel_mesh(wheel));
@@ -171,7 +171,7 @@ TEST(WheelMesh, AFullyRoundTreadAndARollerAreSound) {
   expect_sound(make_wheel_mesh(wheel));
 }
 
-TEST(WheelMesh, GrousersAddExactlyTheirPrisms) {
+TEST(WheelMesh, GrousersAddTheVolumeOfTheirPrisms) {
   const WheelGeometry wheel = grouser_wheel();
   const Surface surface = make_wheel_mesh(wheel);
   expect_sound(surface);
@@ -180,7 +180,7 @@ TEST(WheelMesh, GrousersAddExactlyTheirPrisms) {
   EXPECT_NEAR((surface.enclosed_volume() - true_volume(wheel)) / prisms, 1.0, 1e-10);
 }
 
-TEST(WheelMesh, EveryGrouserStandsOutByItsHeightAndIsAsThickAsAsked) {
+TEST(WheelMesh, GrousersHaveTheirHeightAndThickness) {
   const WheelGeometry wheel = grouser_wheel();
   const Surface surface = make_wheel_mesh(wheel);
   double highest = 0.0, widest = 0.0;  // of the bar around the z axis
@@ -221,7 +221,7 @@ TEST(WheelMesh, SkewedGrousersFollowTheirLine) {
 
 // The twisted facets between two rings of a skewed wheel bulge: an error of the order of facet
 // length times ring spacing.
-TEST(WheelMesh, TheVolumeOfSkewedGrousersConvergesWithSecondOrder) {
+TEST(WheelMesh, VolumeOfSkewedGrousersConvergesWithSecondOrder) {
   const double angle = radians(30.0);
   WheelGeometry wheel = grouser_wheel(angle);
   const double prisms = wheel.grousers.number * wheel.grousers.height * wheel.grousers.thickness /
@@ -236,7 +236,7 @@ TEST(WheelMesh, TheVolumeOfSkewedGrousersConvergesWithSecondOrder) {
   EXPECT_NEAR(std::log2(error[2] / error[3]), 2.0, 0.1);
 }
 
-TEST(WheelMesh, GrousersOfManyShapesAreSound) {
+TEST(WheelMesh, GrousersOfManyShapesAreClosedSurfaces) {
   WheelGeometry wheel = tr_wheel();
   for (const Grousers& bars :
        {Grousers{18, 0.02, 0.005, radians(15)}, Grousers{18, 0.05, 0.05, radians(-15)},
@@ -247,7 +247,7 @@ TEST(WheelMesh, GrousersOfManyShapesAreSound) {
   }
 }
 
-TEST(WheelMesh, DepthBelowTheCentreIsThatOfTheTrueShape) {
+TEST(WheelMesh, DepthBelowTheCentreIsExact) {
   const WheelGeometry wheel = tr_wheel();
   EXPECT_DOUBLE_EQ(wheel.depth_below_centre(Vector3::UnitY()), 0.37);
   EXPECT_DOUBLE_EQ(wheel.depth_below_centre(Vector3::UnitZ()), 0.136);

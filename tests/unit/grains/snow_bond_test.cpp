@@ -62,7 +62,7 @@ struct Path {
   double bond_force() const { return SnowBond::bonded_share(state, d) * strength().Fb; }
 };
 
-TEST(SnowBond, CrushingFollowsItsSurface) {
+TEST(SnowBond, CrushingForceFollowsTheYieldSurface) {
   Path path;
   path.contact.normal_velocity = -1.0;
   for (int n = 0; n < 1000; ++n) {
@@ -75,7 +75,7 @@ TEST(SnowBond, CrushingFollowsItsSurface) {
   EXPECT_GT(path.state.plastic, 0.4 * d);  // far into the dense part
 }
 
-TEST(SnowBond, OneLargeStepLandsOnTheSurface) {
+TEST(SnowBond, OneLargeStepEndsOnTheYieldSurface) {
   Path path;
   path.contact.overlap = 0.6 * d;
   path.step();
@@ -98,7 +98,7 @@ TEST(SnowBond, UnloadingAndReloadingAreElastic) {
   EXPECT_EQ(path.sum.crushed, crushed);
 }
 
-TEST(SnowBond, ForceReturnsAlongItself) {
+TEST(SnowBond, ObliqueCrushingKeepsTheDirectionOfTheForce) {
   // Oblique crushing of a bond: the force keeps the direction of the displacement, K0 = 0.
   Path path;
   path.law.chi = 10.0;  // crushing decides, not shear
@@ -109,7 +109,7 @@ TEST(SnowBond, ForceReturnsAlongItself) {
   EXPECT_NEAR(path.last.force[0] / path.last.force[2], -0.5, 1e-9);
 }
 
-TEST(SnowBond, ABondBreaksAtItsTensileStrength) {
+TEST(SnowBond, BondBreaksAtItsTensileStrength) {
   for (const double zeta : {0.3, 1.0}) {
     Path path;
     path.law.zeta = zeta;
@@ -180,7 +180,7 @@ TEST(SnowBond, BendingAndTorsionAreLimitedByThePlasticDisc) {
   }
 }
 
-TEST(SnowBond, PressureSintersANewContact) {
+TEST(SnowBond, PressureSintersUnbondedContact) {
   Path path;
   path.state = {};
   path.contact.overlap = 0.0;
@@ -201,7 +201,7 @@ TEST(SnowBond, PressureSintersANewContact) {
   EXPECT_FALSE(wall.state.bonded);
 }
 
-TEST(SnowBond, SinteringTakesTheStressAway) {
+TEST(SnowBond, SinteringRelaxesTheStress) {
   Path path(0.2);
   path.state = {};
   path.law.Y0 = 1e6;
@@ -307,7 +307,7 @@ TEST(SnowBond, EnergyBalancesToFirstOrder) {
   EXPECT_LT(fine, 0.15 * coarse);
 }
 
-TEST(SnowBond, ARigidRotationOfThePairTurnsForceAndMoment) {
+TEST(SnowBond, RigidRotationOfThePairTurnsForceAndMoment) {
   Path path;
   path.contact.normal_velocity = -0.2;
   path.contact.tangential_velocity = 0.1 * Vector3::UnitX();
@@ -335,7 +335,7 @@ TEST(SnowBond, ARigidRotationOfThePairTurnsForceAndMoment) {
   EXPECT_LE(path.last.force.norm(), force.norm());  // no energy is gained
 }
 
-TEST(SnowBond, SwappingTheClustersTurnsForcesRoundToTheLastBit) {
+TEST(SnowBond, SwappingTheClustersReversesForcesBitwise) {
   RandomMotion random(7);
   Path one(0.2), other(0.2);
   for (int n = 0; n < 3000; ++n) {
@@ -385,7 +385,7 @@ TEST(SnowBond, StressesDoNotDependOnTheSizeOfClusters) {
 }
 
 // The short way of an elastic step against the general one, before and after crushing.
-TEST(SnowBond, AnElasticStepIsThatOfAContactThatMightYield) {
+TEST(SnowBond, ElasticShortCutEqualsTheGeneralStep) {
   for (const double crushing : {0.0, 0.1}) {
     Path path(0.2);
     path.contact.normal_velocity = -1.0;
@@ -414,7 +414,7 @@ TEST(SnowBond, AnElasticStepIsThatOfAContactThatMightYield) {
   }
 }
 
-TEST(SnowBond, HardeningGrowsAsItsExponentials) {
+TEST(SnowBond, IncrementalHardeningIsTheExponential) {
   const SnowHardening start = SnowHardening::at(ag, 0.2);
   for (const double dX : {1e-6, 1e-4, 2e-3, 2.4e-3, 0.02, 0.3}) {  // by series and beyond
     const SnowHardening grown = SnowGrowth(ag, start, 0.5).after(2.0 * dX),
@@ -426,7 +426,7 @@ TEST(SnowBond, HardeningGrowsAsItsExponentials) {
 }
 
 // A contact keeps its hardening from step to step; a new run recognises it, and other parameters.
-TEST(SnowBond, AMillionSmallStepsKeepTheHardening) {
+TEST(SnowBond, MillionSmallStepsKeepTheHardening) {
   constexpr int steps = 1000000;
   constexpr double X = 0.5;
   SnowHardening grown;
@@ -438,7 +438,7 @@ TEST(SnowBond, AMillionSmallStepsKeepTheHardening) {
   EXPECT_FALSE(grown.is_at(harder, X));
 }
 
-TEST(SnowBond, AStateIsStoredAndLoadedWhole) {
+TEST(SnowBond, StoredStateIsLoadedCompletely) {
   Path path;
   path.contact.normal_velocity = -0.2;
   path.contact.tangential_velocity = Vector3(0.1, 0.2, 0.0);
@@ -455,7 +455,7 @@ TEST(SnowBond, AStateIsStoredAndLoadedWhole) {
   EXPECT_EQ(path.last.moment, rest.last.moment);
 }
 
-TEST(SnowBond, PartingLosesWhatTheSpringsHeld) {
+TEST(SnowBond, SeparationReleasesTheElasticEnergy) {
   SnowBondState state = sintered();
   const double plastic = state.plastic;
   EXPECT_NEAR(SnowBond::part(ag, d, state), 0.5 * k * plastic * plastic, 1e-15);

@@ -27,7 +27,7 @@ class BrickTyreFileTest : public ::testing::Test {
   Scratch scratch_;
 };
 
-TEST_F(BrickTyreFileTest, TheTyresOfTheInputsAreRead) {
+TEST_F(BrickTyreFileTest, ShippedTyresAreRead) {
   const BrickTyreParameters smooth = read_brick_tyre_file(inputs + "p235_75r15_smooth.yaml");
   EXPECT_EQ(smooth.title, "P235/75 R15, smooth tread");
   EXPECT_EQ(smooth.carcass.zones.size(), 6u);
@@ -50,7 +50,7 @@ TEST_F(BrickTyreFileTest, EffectiveValuesReadBackAsTheSameTyre) {
   }
 }
 
-TEST_F(BrickTyreFileTest, CordsAreKept) {
+TEST_F(BrickTyreFileTest, CordsAreReadAndWritten) {
   EXPECT_EQ(refusal("  cords: yes\n", ""), "no error");
   EXPECT_FALSE(read_brick_tyre_file(scratch_.path("tyre.yaml")).carcass.cords);
   const BrickTyreParameters tyre = read_brick_tyre_file(inputs + "p235_75r15_smooth.yaml");
@@ -59,7 +59,7 @@ TEST_F(BrickTyreFileTest, CordsAreKept) {
   EXPECT_THAT(refusal("cords: yes", "cords: 3"), HasSubstr("keyword 'cords' is '3'"));
 }
 
-TEST_F(BrickTyreFileTest, TheKindsOfTyreFilesAreToldApart) {
+TEST_F(BrickTyreFileTest, FilesOfTheTwoTyreModelsAreDistinguished) {
   EXPECT_TRUE(is_brick_tyre_file(inputs + "p235_75r15_smooth.yaml"));
   EXPECT_FALSE(is_brick_tyre_file(inputs + "p235_75r15.yaml"));
   EXPECT_THAT(error_of([] { read_brick_tyre_file(inputs + "p235_75r15.yaml"); }),
@@ -128,7 +128,7 @@ TEST_F(BrickTyreFileTest, BadFilesAreRefusedWithTheirPlace) {
 }
 
 /// Few points along [Shoop2001]'s belts make a curve with a valley half way to the shoulder.
-TEST_F(BrickTyreFileTest, AnOutlineThatRisesBetweenItsPointsIsRefused) {
+TEST_F(BrickTyreFileTest, NonConvexOutlineIsRefused) {
   BrickTyreParameters tyre = read_brick_tyre_file(inputs + "p235_75r15_smooth.yaml");
   check(tyre);
   tyre.carcass.axial = {0, 0.040, 0.0785, 0.0955, 0.1070, 0.1115, 0.1090, 0.1005, 0.0890, 0.0825};

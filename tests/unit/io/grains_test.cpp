@@ -33,7 +33,7 @@ TEST(Grains, DisplacementMatchesIdsInAnyOrder) {
   EXPECT_LT((moved.displacement_from(reference) - expected).norm(), 1e-15);
 }
 
-TEST(Grains, DisplacementGoesTheShortWayRoundAPeriodicBox) {
+TEST(Grains, DisplacementUsesTheNearestPeriodicImage) {
   Grains reference = three_grains();
   reference.period = Vector3(0, 0.4, 0);
   reference.x(1, 0) = 0.19;
@@ -42,7 +42,7 @@ TEST(Grains, DisplacementGoesTheShortWayRoundAPeriodicBox) {
   EXPECT_NEAR(moved.displacement_from(reference)(1, 0), 0.03, 1e-15);
 }
 
-TEST(Grains, ABodyThatGoesRoundIsShownAmongThem) {
+TEST(Grains, BodyIsShiftedToThePeriodicImageOfTheGrains) {
   Grains grains = three_grains();
   const Vector3 middle = 0.5 * (grains.x.rowwise().minCoeff() + grains.x.rowwise().maxCoeff()),
                 place = middle + Vector3(0.1, 0.7, 5.0);
@@ -52,7 +52,7 @@ TEST(Grains, ABodyThatGoesRoundIsShownAmongThem) {
   EXPECT_EQ(Grains().shift_to_image(place), Vector3::Zero());
 }
 
-TEST(Grains, AGrainWithoutReferenceHasMovedByNaN) {
+TEST(Grains, GrainWithoutReferenceHasNoDisplacement) {
   const Grains reference = three_grains();
   Grains moved = reference;
   moved.id[1] = 99;
@@ -61,7 +61,7 @@ TEST(Grains, AGrainWithoutReferenceHasMovedByNaN) {
   EXPECT_TRUE(displacement.col(0).isZero());
 }
 
-TEST(Grains, CheckNamesWhatIsWrong) {
+TEST(Grains, FaultyGrainsAreRefusedWithTheFault) {
   Grains twice = three_grains();
   twice.id[2] = 7;
   EXPECT_THAT(error_of([&] { twice.check(); }), HasSubstr("id 7 is there twice"));

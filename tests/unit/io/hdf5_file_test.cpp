@@ -63,7 +63,7 @@ TEST(Hdf5File, KeepsNumbersTextsAndAttributes) {
 }
 
 /// Every number of a file has a checksum: one changed bit is an error, never another number.
-TEST(Hdf5File, AChangedNumberIsRefused) {
+TEST(Hdf5File, ChangedNumberIsRefused) {
   const Scratch scratch;
   const std::string path = scratch.path("numbers.h5");
   const double mark = 1234.5678;
@@ -130,7 +130,7 @@ TEST(Hdf5File, GrowsAndShrinksAcrossChunks) {
 
 /// HDF5 notices changes in its internal records by their checksums, so a changed byte leads to a
 /// refusal or to other numbers, and to nothing else.
-TEST(Hdf5File, AnAlteredByteIsSurvived) {
+TEST(Hdf5File, AlteredByteGivesAnErrorOrAReadableFile) {
   const Scratch scratch;
   const std::string path = scratch.path("whole.h5"), altered = scratch.path("altered.h5");
   {

@@ -46,7 +46,7 @@ TEST_F(HeightmapFile, GridAndPointsInAnyOrderGiveTheSameBilinearSurface) {
   }
 }
 
-TEST_F(HeightmapFile, CornerAndCentreOfACellAreToldApart) {
+TEST_F(HeightmapFile, CornerAndCentreOfACellAreDistinguished) {
   const std::string text =
       with(with(grid, "xllcorner 9.75", "xllcenter 10.0"), "yllcorner 19.75", "yllcenter 20.0");
   EXPECT_EQ(read_heightmap(write(text)).lower, read_heightmap(write(grid)).lower);
@@ -170,7 +170,7 @@ TEST_F(HeightmapFile, PicturesGiveHeightsFromBlackToWhite) {
 }
 
 /// 49 million nodes would take 392 MB.
-TEST_F(HeightmapFile, ALargeHeaderOfAShortFileIsRefusedBeforeMemoryIsTaken) {
+TEST_F(HeightmapFile, ShortFileWithALargeHeaderIsRefusedWithoutAllocation) {
   const std::string header = "xllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n";
   const auto peak = [] {
     rusage usage = {};
@@ -186,7 +186,7 @@ TEST_F(HeightmapFile, ALargeHeaderOfAShortFileIsRefusedBeforeMemoryIsTaken) {
 }
 
 /// A digit and a blank each: the shortest file that has all heights.
-TEST_F(HeightmapFile, TheShortestHeightsAreRead) {
+TEST_F(HeightmapFile, HeightsOfOneDigitAreRead) {
   const Heightmap map = read_heightmap(
       write("nrows 1\nncols 70\nxllcorner 0\nyllcorner 0\ncellsize 1\n" + std::string("1") + [] {
         std::string more;

@@ -55,7 +55,7 @@ class HistoryFiles : public ::testing::Test {
   }
 };
 
-TEST_F(HistoryFiles, RowsChannelsAndRunComeBack) {
+TEST_F(HistoryFiles, RowsChannelsAndRunAreReadBack) {
   const Scratch scratch;
   RunInfo info;
   info.title = "rigid wheel on sand";
@@ -132,7 +132,7 @@ TEST_F(HistoryFiles, ParticlesOfTheTerrainHaveUnitsAndMeanings) {
   EXPECT_EQ(file.read_numbers("/rut/density"), std::vector<double>{400.0});
 }
 
-TEST_F(HistoryFiles, AKilledRunLeavesItsLastFlush) {
+TEST_F(HistoryFiles, KilledRunLeavesItsLastFlush) {
   const pid_t child = fork();
   if (child == 0) {
     HistoryFile file = HistoryFile::create(path, channels, {});
@@ -147,7 +147,7 @@ TEST_F(HistoryFiles, AKilledRunLeavesItsLastFlush) {
   expect_rows(read_history(path), 300);
 }
 
-TEST_F(HistoryFiles, IsCompleteWheneverItIsKilledOrRead) {
+TEST_F(HistoryFiles, FileIsCompleteAtAnyKillOrRead) {
   HistoryFile::create(path, channels, {});
   for (int trial = 0; trial < 5; ++trial) {
     const pid_t child = fork();
@@ -172,7 +172,7 @@ TEST_F(HistoryFiles, IsCompleteWheneverItIsKilledOrRead) {
   }
 }
 
-TEST_F(HistoryFiles, ContinuesAfterARestartAsIfNotStopped) {
+TEST_F(HistoryFiles, RestartContinuesTheRows) {
   Grains grains;
   grains.resize(1);
   {
@@ -195,7 +195,7 @@ TEST_F(HistoryFiles, ContinuesAfterARestartAsIfNotStopped) {
   expect_rows(read_history(path), 3000);
 }
 
-TEST_F(HistoryFiles, TheRowOfTheCheckpointsInstantIsKept) {
+TEST_F(HistoryFiles, RowAtTheTimeOfTheCheckpointIsKept) {
   write_rows(50);
   EXPECT_EQ(HistoryFile::resume(path, channels, row(30)[0] * (1.0 - 1e-15)).size(), 31u);
   EXPECT_EQ(HistoryFile::resume(path, channels, 0.0).size(), 1u);
@@ -255,7 +255,7 @@ TEST_F(HistoryFiles, RefusesRowsThatAreNotFiniteOrNotLater) {
   expect_rows(read_history(file.path()), 3);
 }
 
-TEST_F(HistoryFiles, TimeThatRunsBackwardsIsNamed) {
+TEST_F(HistoryFiles, DecreasingTimeIsRefused) {
   for (const double time : {0.0015, 0.002, std::nan("")}) {
     write_rows(3);
     {
@@ -270,7 +270,7 @@ TEST_F(HistoryFiles, TimeThatRunsBackwardsIsNamed) {
   }
 }
 
-TEST_F(HistoryFiles, GrainsSurfaceAuditAndCostComeBack) {
+TEST_F(HistoryFiles, GrainsSurfaceAuditAndCostAreReadBack) {
   Grains grains;
   grains.resize(2);
   grains.id = {8, 2};
@@ -329,7 +329,7 @@ TEST_F(HistoryFiles, GrainsSurfaceAuditAndCostComeBack) {
   EXPECT_THAT(read.warnings, ElementsAre("first warning.", "second warning."));
 }
 
-TEST_F(HistoryFiles, FinalVirialStaysWhenTheRunIsContinuedByNoStep) {
+TEST_F(HistoryFiles, FinalVirialIsKeptByARunOfZeroSteps) {
   Grains grains;
   grains.resize(2);
   grains.id = {8, 2};

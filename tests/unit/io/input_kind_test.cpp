@@ -18,7 +18,7 @@ using test::error_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-TEST(InputKind, AFileOfAnotherKindIsNamedAsWhatItIs) {
+TEST(InputKind, FileOfAnotherKindIsRefusedWithItsKind) {
   struct Kind {
     std::string file, name;
     std::function<void(const std::string&)> read;

@@ -15,7 +15,7 @@ using test::error_of;
 using ::testing::HasSubstr;
 using namespace std::string_literals;
 
-TEST(InputText, IsReadAsItStandsInTheFile) {
+TEST(InputText, TextIsReadUnchanged) {
   const Scratch scratch;
   for (const std::string& text : {""s, "a: 1\n"s, "ü € 𝄞\r\n\tend"s, "\xEF\xBF\xBD\xC2\x80"s}) {
     write_text_file(scratch.path("a"), text);
@@ -27,7 +27,7 @@ TEST(InputText, IsReadAsItStandsInTheFile) {
   EXPECT_EQ(read_input_text(scratch.path("a"), "a file", 100), "a: 1\n");
 }
 
-TEST(InputText, WhatIsNoTextIsRefusedWithTheLine) {
+TEST(InputText, BinaryContentIsRefusedWithTheLine) {
   const Scratch scratch;
   const std::pair<std::string, std::string> cases[] = {
       {"a: 1\nb: \xE4\n",
@@ -52,7 +52,7 @@ TEST(InputText, WhatIsNoTextIsRefusedWithTheLine) {
   }
 }
 
-TEST(InputText, WhatIsNoFileIsRefusedByName) {
+TEST(InputText, MissingFileOrFolderIsRefusedByName) {
   const Scratch scratch;
   const auto refusal = [](const std::string& path) {
     return error_of([&] { read_input_text(path, "a file", 100); });

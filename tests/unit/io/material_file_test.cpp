@@ -51,7 +51,7 @@ class MaterialFileTest : public ::testing::Test {
   Scratch scratch_;
 };
 
-TEST_F(MaterialFileTest, GivesTheLawOfTheRegistry) {
+TEST_F(MaterialFileTest, FileGivesTheLawOfTheRegistry) {
   const MaterialFile read = read_material_file(file(sand));
   EXPECT_EQ(read.title, "Sand");
   EXPECT_EQ(read.model.name, "drucker_prager_cap");
@@ -72,7 +72,7 @@ const std::string of_rubber =
     "  label: estimated\n"
     "  source: three soils\n";
 
-TEST_F(MaterialFileTest, ContactIsThatOfItsFileOrSection) {
+TEST_F(MaterialFileTest, ContactIsReadFromItsFileOrSection) {
   EXPECT_TRUE(read_material_file(file(sand)).contact.empty());
   file(of_rubber, "rubber.yaml");
   file(sand + "contact: rubber.yaml\n", "base.yaml");
@@ -92,21 +92,21 @@ TEST_F(MaterialFileTest, ContactIsThatOfItsFileOrSection) {
   EXPECT_EQ(clay.at("rubber").shear_limit_range[0], 1e4);
 }
 
-TEST_F(MaterialFileTest, ConeIndexIsThatOfItsOwnFile) {
+TEST_F(MaterialFileTest, ConeIndexIsNotInheritedFromABase) {
   EXPECT_FALSE(read_material_file(file(sand)).cone_index);
   EXPECT_EQ(read_material_file(file(sand + "cone_index: 131e3\n", "base.yaml")).cone_index, 131e3);
   EXPECT_FALSE(read_material_file(file("base: base.yaml\nlaw: {density: 1700}\n")).cone_index);
   EXPECT_EQ(read_material_file(file("base: base.yaml\ncone_index: 2e5\n")).cone_index, 2e5);
 }
 
-TEST_F(MaterialFileTest, ConeIndexInOtherUnitsIsRefusedOrDoubted) {
+TEST_F(MaterialFileTest, ConeIndexInOtherUnitsIsRefusedOrWarnedOf) {
   EXPECT_THAT(refusal(sand + "cone_index: 0\n"),
               AllOf(HasSubstr("line 16"), HasSubstr("cone_index"), HasSubstr("> 0")));
   EXPECT_THAT(refusal(sand + "cone_index: {value: 1e5}\n"), HasSubstr("line 16"));
   const auto warnings = read_material_file(file(sand + "cone_index: 131\n")).warnings;
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_THAT(warnings[0], AllOf(HasSubstr("line 16"), HasSubstr("kPa times 1000")));
-  // The doubts about the law stay
+  // the warnings about the law stay
   const auto both =
       read_material_file(file(with(sand, "E: 689e6", "E: 689") + "cone_index: 131\n"));
   EXPECT_GE(both.warnings.size(), 2u);
@@ -154,7 +154,7 @@ TEST_F(MaterialFileTest, EffectiveValuesReadBackAsTheSameLaw) {
   EXPECT_EQ(material_file_text("it's: # sand", second.model, second.sections), text);
 }
 
-TEST_F(MaterialFileTest, AVariantGivesOnlyWhatDiffers) {
+TEST_F(MaterialFileTest, VariantGivesOnlyTheDifferences) {
   file(sand);
   const MaterialFile variant =
       read_material_file(file("base: sand.yaml\nlaw: {d: 5e3}\n", "variant.yaml"));
@@ -287,7 +287,7 @@ TEST_F(MaterialFileTest, BadFilesAreRefusedWithTheirPlace) {
               HasSubstr("absent.yaml does not exist; allowed: a YAML file"));
 }
 
-TEST_F(MaterialFileTest, BasesThatLeadInACircleAreShown) {
+TEST_F(MaterialFileTest, CircularBasesAreRefusedWithTheirChain) {
   file("base: b.yaml\n", "a.yaml");
   file("base: c.yaml\n", "b.yaml");
   file("base: a.yaml\n", "c.yaml");
@@ -302,7 +302,7 @@ TEST_F(MaterialFileTest, BasesThatLeadInACircleAreShown) {
       HasSubstr("8.yaml, line 1: base is the base of 9 files; allowed: 8 one after the other"));
 }
 
-TEST_F(MaterialFileTest, WhatIsUnusualIsReadWithAWarning) {
+TEST_F(MaterialFileTest, UnusualValuesAreReadWithAWarning) {
   EXPECT_THAT(read_material_file(file(sand)).warnings, ::testing::IsEmpty());
   const std::string text = with(sand, "density: 1800", "density: 1.8");
   EXPECT_THAT(
@@ -322,7 +322,7 @@ TEST_F(MaterialFileTest, WhatIsUnusualIsReadWithAWarning) {
                                        "kPa times 1000, MPa times 1e6")));
 }
 
-TEST_F(MaterialFileTest, CapOfAnotherUnitIsReadWithAWarning) {
+TEST_F(MaterialFileTest, CapInAnotherUnitIsReadWithAWarning) {
   const std::string snow = shipped("fresh_snow");
   EXPECT_THAT(read_material_file(file(snow)).warnings, ::testing::IsEmpty());
   const auto warned = [&](const std::string& text, const std::string& warning) {
@@ -361,7 +361,7 @@ TEST_F(MaterialFileTest, ShippedMaterialsAreReadWithoutAWarning) {
 }
 
 /// Grounds at the ends of what is found in nature.
-TEST_F(MaterialFileTest, UnusualGroundIsReadWithoutAWarning) {
+TEST_F(MaterialFileTest, NaturalExtremesAreReadWithoutAWarning) {
   const std::string laws[] = {
       // light fresh snow
       "law: {type: drucker_prager_cap, density: 60, d: 50, beta: 40, R: 0.02}\n"
@@ -461,7 +461,7 @@ TEST_F(MaterialFileTest, OtherUnitsAreReadWithAWarning) {
                         "sin(phi))"));
 }
 
-TEST_F(MaterialFileTest, TwoSectionsOfOneCompressionLineHaveOneKappa) {
+TEST_F(MaterialFileTest, DifferentKappaInTwoSectionsIsWarnedOf) {
   const std::string foam = shipped("fresh_snow_foam");
   EXPECT_THAT(read_material_file(file(foam)).warnings, ::testing::IsEmpty());
   const std::string changed = with(foam, "kappa: 0.005      #", "kappa: 0.05 #");
@@ -470,7 +470,7 @@ TEST_F(MaterialFileTest, TwoSectionsOfOneCompressionLineHaveOneKappa) {
                                                "hardening")));
 }
 
-TEST_F(MaterialFileTest, SectionsOfAFoamThatHardlyBelongTogetherAreReadWithAWarning) {
+TEST_F(MaterialFileTest, InconsistentSectionsOfAFoamAreReadWithAWarning) {
   const std::string foam = shipped("fresh_snow_foam");
   EXPECT_THAT(read_material_file(file(with(foam, "pc0: 113.76 ", "pc0: 113.76e3"))).warnings,
               ::testing::Contains(HasSubstr("sigma0/pc0 is 0.00242, usual is a number in [0.3, "
@@ -482,7 +482,7 @@ TEST_F(MaterialFileTest, SectionsOfAFoamThatHardlyBelongTogetherAreReadWithAWarn
               ::testing::ElementsAre(HasSubstr("pt is 150 Pa in law, above pc0 = 113.76 Pa")));
 }
 
-TEST(CsvFile, ReadsNumbersAndNamesWhatIsWrong) {
+TEST(CsvFile, NumbersAreReadAndFaultsAreNamed) {
   const Scratch scratch;
   const auto read = [&](const std::string& text) {
     return CsvTable::read(scratch.file("a.csv", text));
@@ -504,7 +504,7 @@ TEST(CsvFile, ReadsNumbersAndNamesWhatIsWrong) {
 }
 
 /// A column of the same test in the dialects of programs and in the units of apparatus.
-TEST(CsvFile, ReadsTheDialectsAndUnitsOfPrograms) {
+TEST(CsvFile, DialectsAndUnitsOfProgramsAreRead) {
   const Scratch scratch;
   const struct {
     const char* text;

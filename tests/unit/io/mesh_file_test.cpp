@@ -82,7 +82,7 @@ TEST(MeshFile, PolygonsOfAnObjFileAreDividedAndKeepTheirNumber) {
 }
 
 // Corners of neighbours that were rounded to seven digits.
-TEST(MeshFile, NodesThatDifferByRoundingAreOne) {
+TEST(MeshFile, NodesThatDifferByRoundingAreMerged) {
   const Scratch scratch;
   Surface rounded = brick;
   test::write_stl(scratch.path("a.stl"), rounded);

@@ -174,7 +174,7 @@ TEST_F(PointFileTest, ParametersThatCannotBeFittedAreRefusedWithTheirLine) {
   EXPECT_EQ(refusal("law.beta"), "no error");
 }
 
-TEST_F(PointFileTest, CurvesOfOnePathAndSampleShareIt) {
+TEST_F(PointFileTest, CurvesOfOnePathAndSampleShareTheirComputation) {
   const std::string drive = "data: data.csv, drive: {stress: sigma_Pa}, path: {type: confined";
   const auto fit = [&](const std::vector<std::string>& curves) {
     std::string text = "material: ground.yaml\nparameters: [{name: elasticity.nu}]\ncurves:\n";
@@ -200,7 +200,7 @@ TEST_F(PointFileTest, CurvesOfOnePathAndSampleShareIt) {
   EXPECT_EQ(curves_of(whole, sections_with(whole, {"0.25"})), apart);
 }
 
-TEST_F(PointFileTest, SampleChangesItsCurveAlone) {
+TEST_F(PointFileTest, SampleParametersChangeOnlyTheirCurve) {
   const auto fit = [&](const std::string& sample) {
     const std::string curve =
         "data: data.csv, path: {type: confined}, drive: {stress: sigma_Pa}, compare: {density: "

@@ -42,7 +42,7 @@ std::vector<double> read(const std::string& stem, int rank, std::uint64_t first,
   return numbers;
 }
 
-TEST(RankFiles, AnyRankReadsAnyPartOfAnyFile) {
+TEST(RankFiles, EveryRankReadsAnyPartOfAnyFile) {
   const Scratch scratch;
   const std::string stem = scratch.path("new/ck.particles/set.soil");
   EXPECT_EQ(write(stem, 0, numbers_from(0.5, 100)), "");

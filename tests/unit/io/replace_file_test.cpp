@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using test::error_of;
 using ::testing::HasSubstr;
 
-TEST(ReplaceFile, NoWriterFollowsALinkInThePlaceOfItsPart) {
+TEST(ReplaceFile, WritersReplaceALinkAtTheTemporaryName) {
   struct Writer {
     std::string file, part;
     std::function<void(const std::string&)> write;

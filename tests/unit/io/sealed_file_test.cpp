@@ -21,7 +21,7 @@ using State = SealCheck::State;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-TEST(SealedFile, IsWholeAndBeginsWithWhatWasWritten) {
+TEST(SealedFile, ClosedFileIsCompleteAndStartsWithItsContent) {
   const Scratch scratch;
   const std::string path = scratch.path("new/folder/a.restart");
   SealedFile file(path);
@@ -34,7 +34,7 @@ TEST(SealedFile, IsWholeAndBeginsWithWhatWasWritten) {
   EXPECT_FALSE(std::filesystem::exists(path + ".part"));
 }
 
-TEST(SealedFile, NotClosedLeavesTheFormerFile) {
+TEST(SealedFile, UnclosedFileLeavesThePreviousFile) {
   const Scratch scratch;
   const std::string path = scratch.path("a.restart");
   write_sealed_text(path, "first");
@@ -47,7 +47,7 @@ TEST(SealedFile, NotClosedLeavesTheFormerFile) {
   EXPECT_FALSE(std::filesystem::exists(path + ".part"));
 }
 
-TEST(SealedFile, EveryCutAndEveryFlippedBitIsNoticed) {
+TEST(SealedFile, TruncationAndBitErrorsAreDetected) {
   const Scratch scratch;
   const std::string path = scratch.path("a.restart");
   write_sealed_text(path, std::string("numbers\0\n\xff of a run", 20));
@@ -69,7 +69,7 @@ TEST(SealedFile, EveryCutAndEveryFlippedBitIsNoticed) {
   }
 }
 
-TEST(SealedFile, SaysWhyAFileCannotBeRead) {
+TEST(SealedFile, UnreadableFileHasAReason) {
   const Scratch scratch;
   EXPECT_THAT(check_seal(scratch.path("missing")).problem, HasSubstr("No such file"));
   EXPECT_EQ(check_seal(scratch.path(".")).problem, "is a folder");
@@ -82,7 +82,7 @@ std::string error_of_writing(const std::string& path) {
   return error_of([&] { write_sealed_text(path, "numbers"); });
 }
 
-TEST(SealedFile, FailuresNameTheFileAndTheReason) {
+TEST(SealedFile, WriteFailuresNameFileAndReason) {
   const Scratch scratch;
   const std::string full = scratch.path("full.restart");
   {
@@ -97,7 +97,7 @@ TEST(SealedFile, FailuresNameTheFileAndTheReason) {
   EXPECT_THAT(error_of_writing(scratch.path("folder")), HasSubstr("Is a directory"));
 }
 
-TEST(SealedFile, PartThatAKillHasLeftIsReplacedAndNoLinkIsFollowed) {
+TEST(SealedFile, LeftoverTemporaryFileIsReplacedAndLinksAreNotFollowed) {
   const Scratch scratch;
   const std::string path = scratch.path("a.restart");
   write_text_file(path + ".part", "cut short");
@@ -110,7 +110,7 @@ TEST(SealedFile, PartThatAKillHasLeftIsReplacedAndNoLinkIsFollowed) {
   EXPECT_EQ(read_text_file(path).substr(0, 6), "second");
 }
 
-TEST(SealedFile, OneWriterAtATimeAndNoneWhileTheLockIsKept) {
+TEST(SealedFile, LockAdmitsOneWriter) {
   const Scratch scratch;
   const std::string path = scratch.path("a.restart");
   SealedFile first(path);

@@ -43,7 +43,7 @@ class SidewallCacheTest : public ::testing::Test {
   std::string before_;
 };
 
-TEST_F(SidewallCacheTest, ATableIsKeptAndFoundAgain) {
+TEST_F(SidewallCacheTest, StoredTableIsReused) {
   const auto made = open_sidewall_table(sidewall_, 103e3);
   ASSERT_EQ(files().size(), 1u);
   EXPECT_THAT(files().front(), HasSubstr("cache/sidewall-"));
@@ -52,7 +52,7 @@ TEST_F(SidewallCacheTest, ATableIsKeptAndFoundAgain) {
   EXPECT_EQ(std::filesystem::last_write_time(files().front()), time);
 }
 
-TEST_F(SidewallCacheTest, WhateverDiffersMakesAnotherTable) {
+TEST_F(SidewallCacheTest, AnyChangedInputGivesAnotherTable) {
   SidewallTableGrid grid;
   SidewallParameters changed = sidewall_;
   open_sidewall_table(sidewall_, 103e3);
@@ -64,7 +64,7 @@ TEST_F(SidewallCacheTest, WhateverDiffersMakesAnotherTable) {
   EXPECT_EQ(files().size(), 4u);
 }
 
-TEST_F(SidewallCacheTest, ADamagedFileIsReplaced) {
+TEST_F(SidewallCacheTest, DamagedFileIsReplaced) {
   const auto made = open_sidewall_table(sidewall_, 103e3);
   const std::string path = files().front();
   const std::string whole = read_text_file(path);
@@ -74,7 +74,7 @@ TEST_F(SidewallCacheTest, ADamagedFileIsReplaced) {
   EXPECT_EQ(files().size(), 1u);
 }
 
-TEST_F(SidewallCacheTest, ALinkInThePlaceOfThePartIsNotFollowed) {
+TEST_F(SidewallCacheTest, LinkAtTheTemporaryNameIsNotFollowed) {
   open_sidewall_table(sidewall_, 103e3);
   const std::string path = files().front();
   std::filesystem::remove(path);
@@ -89,7 +89,7 @@ TEST_F(SidewallCacheTest, ALinkInThePlaceOfThePartIsNotFollowed) {
   EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(path)));
 }
 
-TEST_F(SidewallCacheTest, FilesThatOthersMayHaveChangedAreReplaced) {
+TEST_F(SidewallCacheTest, FilesThatOtherUsersCanChangeAreReplaced) {
   namespace fs = std::filesystem;
   const auto made = open_sidewall_table(sidewall_, 103e3);
   const std::string path = files().front(), elsewhere = scratch_.path("elsewhere.h5");
@@ -106,14 +106,14 @@ TEST_F(SidewallCacheTest, FilesThatOthersMayHaveChangedAreReplaced) {
   EXPECT_EQ(distrust(scratch_.path("absent")), "");
 }
 
-TEST_F(SidewallCacheTest, WithoutAFolderNothingIsKept) {
+TEST_F(SidewallCacheTest, TableIsNotStoredWithoutAFolder) {
   write_text_file(scratch_.path("file"), "no folder");
   setenv("FURROW_CACHE", scratch_.path("file/below").c_str(), 1);
   EXPECT_FALSE(open_sidewall_table(sidewall_, 103e3)->coefficients().empty());
   EXPECT_EQ(read_text_file(scratch_.path("file")), "no folder");
 }
 
-TEST_F(SidewallCacheTest, KindsAreTableAndDirect) {
+TEST_F(SidewallCacheTest, TableAndDirectSolutionAgree) {
   const SidewallEnd end{-0.004, 0.12, 0.1};
   SidewallResponse looked_up, solved;
   open_sidewall("table", sidewall_, 103e3)->evaluate(&end, &looked_up, 1, false);
@@ -124,7 +124,7 @@ TEST_F(SidewallCacheTest, KindsAreTableAndDirect) {
               HasSubstr("sidewall is 'spline'; allowed: one of: table, direct"));
 }
 
-TEST(ContentHash, IsFnv1a) {
+TEST(ContentHash, HashIsFnv1a) {
   // Published test vectors of FNV-1a, 64 bits
   EXPECT_EQ(content_hash(""), "cbf29ce484222325");
   EXPECT_EQ(content_hash("a"), "af63dc4c8601ec8c");

@@ -46,7 +46,7 @@ class SoilCardFile : public ::testing::Test {
   Scratch scratch_;
 };
 
-TEST_F(SoilCardFile, GivesTheParametersOfTheSoil) {
+TEST_F(SoilCardFile, ParametersOfTheSoilAreRead) {
   const std::map<std::string, double> values = read_soil_card(written()).values;
   EXPECT_EQ(values.at("k_c"), -5628.0);
   EXPECT_EQ(values.at("k_phi"), 1950915.0);
@@ -57,7 +57,7 @@ TEST_F(SoilCardFile, GivesTheParametersOfTheSoil) {
   EXPECT_EQ(values.at("stiffness"), 1.8e8);
 }
 
-TEST_F(SoilCardFile, GivesTheRangeOfThePlates) {
+TEST_F(SoilCardFile, RangeOfThePlatesIsRead) {
   const SoilCard found = read_soil_card(written());
   EXPECT_EQ(found.deepest, 0.06);
   EXPECT_EQ(found.largest_pressure, 90408.6);
@@ -65,7 +65,7 @@ TEST_F(SoilCardFile, GivesTheRangeOfThePlates) {
   EXPECT_THAT(refusal("[0.0016, 0.06]", "[0.0016, deep]"), HasSubstr("card.yaml, line 10"));
 }
 
-TEST_F(SoilCardFile, GivesTheGravityOfTheTests) {
+TEST_F(SoilCardFile, GravityOfTheTestsIsRead) {
   EXPECT_EQ(read_soil_card(written("9.80665", "1.62")).gravity, 1.62);
   EXPECT_THAT(refusal("gravity: 9.80665\n", ""),
               HasSubstr("card.yaml has no 'gravity'; allowed: the gravity of the tests, in m/s^2; "
@@ -73,7 +73,7 @@ TEST_F(SoilCardFile, GivesTheGravityOfTheTests) {
   EXPECT_THAT(refusal("gravity: 9.80665", "gravity: -1.62"), HasSubstr("card.yaml, line 5"));
 }
 
-TEST_F(SoilCardFile, GivesTheContactWithBodies) {
+TEST_F(SoilCardFile, ContactWithBodiesIsRead) {
   EXPECT_TRUE(read_soil_card(written()).contact.empty());
   const GroundContact contact =
       read_soil_card(written("notes: []",
@@ -84,7 +84,7 @@ TEST_F(SoilCardFile, GivesTheContactWithBodies) {
   EXPECT_EQ(contact.at("steel").friction, 0.4);
 }
 
-TEST_F(SoilCardFile, RefusesOneNumberForARange) {
+TEST_F(SoilCardFile, SingleNumberForARangeIsRefused) {
   EXPECT_THAT(refusal("sinkage: [0.0016, 0.06]", "sinkage: 0.06"),
               HasSubstr("'sinkage' is not a list of two numbers"));
 }
@@ -100,7 +100,7 @@ TEST_F(SoilCardFile, RefusalsNameFileLineAndKey) {
   EXPECT_THAT(refusal("stiffness: 1.8e8", "stiffness: soft"), HasSubstr("stiffness"));
 }
 
-TEST_F(SoilCardFile, NumbersAloneAndOtherUnitsAreConverted) {
+TEST_F(SoilCardFile, PlainNumbersAndOtherUnitsAreConverted) {
   const auto value = [&](const char* old, const char* now, const char* key) {
     return read_soil_card(written(old, now)).values.at(key);
   };
@@ -117,7 +117,7 @@ TEST_F(SoilCardFile, NumbersAloneAndOtherUnitsAreConverted) {
 }
 
 /// Sample values of Project Chrono in its keys, with a comment as its files have them.
-TEST_F(SoilCardFile, TheTerrainFileOfChronoIsACard) {
+TEST_F(SoilCardFile, TerrainFileOfChronoIsReadAsACard) {
   const char json[] = R"(// terrain
 {"Type": "SCM", "Soil parameters": {"Bekker Kphi": 2e6, "Bekker Kc": 0, "Bekker n exponent": 1.1,
  "Mohr cohesive limit": 0, "Mohr friction limit": 30, "Janosi shear coefficient": 0.01,

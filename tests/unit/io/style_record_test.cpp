@@ -28,7 +28,7 @@ StyleRecord rig_record() {
   return {"rig", "all", "wheel/rig", "rig", typed_values(options)};
 }
 
-TEST(StyleRecord, ValuesAreTypedAsTheirKeysAndAbsentWithoutAValue) {
+TEST(StyleRecord, ValuesHaveTheTypeOfTheirKey) {
   const StyleRecord record = rig_record();
   ASSERT_EQ(record.options.size(), 7u);  // no torque
   EXPECT_EQ(record.options[0].first, "speed");
@@ -60,7 +60,7 @@ TEST(StyleRecord, JsonHasOneObjectForEachStyleWithListsOfValues) {
   EXPECT_TRUE(nlohmann::json::parse(styles_json({})).empty());
 }
 
-TEST(StyleRecord, ATextThatReadsAsANumberIsOne) {
+TEST(StyleRecord, NumericTextBecomesANumber) {
   EXPECT_EQ(typed_value("86028121"), Value(std::int64_t{86028121}));
   EXPECT_EQ(typed_value("-3"), Value(std::int64_t{-3}));
   EXPECT_EQ(typed_value("2e7"), Value(2e7));

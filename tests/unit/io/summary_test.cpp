@@ -49,7 +49,7 @@ TEST(Summary, VerdictIsOneShortLineBeforeTheValues) {
   EXPECT_THAT(text, HasSubstr("Not steady\n  net traction coefficient: it drifts by 0.08"));
 }
 
-TEST(Summary, ErrorOverTimeNamesWhatItLeavesOut) {
+TEST(Summary, NoteOnErrorsListsTheExcludedErrors) {
   const std::string note = error_note("results/a");
   EXPECT_THAT(note, HasSubstr("without cells or grains, ground, packing, material and model"));
   EXPECT_THAT(note, HasSubstr("furrow-post budget results/a\n"));
@@ -114,7 +114,7 @@ TEST(Summary, ImposedValuesAreMarkedAndHaveNoError) {
               StartsWith("not steady, slip 0.09 ± 0.04, hub drop 101.1 ± 0.2 mm"));
 }
 
-TEST(Summary, JsonHasVerdictAndReasonsApart) {
+TEST(Summary, JsonHasSeparateVerdictAndReasons) {
   const std::string json = summary_json(summary());
   EXPECT_THAT(json, HasSubstr(R"("verdict": "not steady, net traction coefficient)"));
   EXPECT_THAT(json, HasSubstr(R"("reasons": [)"));

@@ -25,7 +25,7 @@ class TyreFileTest : public ::testing::Test {
   Scratch scratch_;
 };
 
-TEST_F(TyreFileTest, TheTyresOfTheInputsAreRead) {
+TEST_F(TyreFileTest, ShippedTyresAreRead) {
   const TyreParameters tyre = read_tyre_file(inputs + "p235_75r15.yaml");
   EXPECT_EQ(tyre.title, "P235/75 R15");
   EXPECT_EQ(tyre.sidewall.segments(), 10u);

@@ -53,7 +53,7 @@ Vector3 tuple(vtkDataArray* array, vtkIdType i) {
   return Eigen::Map<const Vector3>(array->GetTuple3(i));
 }
 
-TEST(VtkFile, SurfaceComesBackExactly) {
+TEST(VtkFile, SurfaceIsReadBackExactly) {
   const Scratch scratch;
   const std::string path = scratch.path("surface.vtp");
   const Surface surface = tetrahedron();
@@ -91,7 +91,7 @@ TEST(VtkFile, GrainsCarryIdRadiusVelocityAndDisplacement) {
   EXPECT_EQ(read(path)->GetPointData()->GetArray("displacement"), nullptr);
 }
 
-TEST(VtkFile, NoHalfFilesAndErrorsNameThePath) {
+TEST(VtkFile, FailedWriteLeavesNoFileAndNamesThePath) {
   const Scratch scratch;
   write_vtp(scratch.path("surface.vtp"), tetrahedron());
   EXPECT_FALSE(std::filesystem::exists(scratch.path("surface.part.vtp")));
@@ -122,7 +122,7 @@ TEST(VtkSeries, ListsFramesAndContinuesAfterARestart) {
   EXPECT_EQ(read(scratch.path("vtk/wheel_000003.vtp"))->GetNumberOfPolys(), 4);
 }
 
-TEST(VtkSeries, RefusesToContinueWhatIsNotThere) {
+TEST(VtkSeries, MissingSeriesCannotBeContinued) {
   const Scratch scratch;
   EXPECT_THAT(error_of([&] { VtkSeries::resume(scratch.folder(), "wheel", 0.0); }),
               HasSubstr("wheel.pvd: is missing, the series cannot be continued"));

@@ -41,7 +41,7 @@ std::string repeated(const std::string& text, int times) {
 }
 
 /// Two of them are the fuzz target's: YAML::LoadAll takes memory without end.
-TEST_F(YamlTreeTest, WhatNoDocumentCanBeginWithIsRefused) {
+TEST_F(YamlTreeTest, InvalidFirstCharactersAreRefused) {
   for (const char* text :
        {",\n  G: 1e6\n  bulk: 49e6\n", "title: a\n,\n  G: 1e6\n", "]\na: 1\n", "a: 1\n}\n"})
     EXPECT_THAT(refusal(text), HasSubstr("is not YAML")) << text;
@@ -101,7 +101,7 @@ TEST_F(YamlTreeTest, OtherFilesAreRefusedWithTheirLine) {
   }
 }
 
-TEST_F(YamlTreeTest, AnUnknownKeyIsNamedWhateverItsValueIs) {
+TEST_F(YamlTreeTest, UnknownKeyIsNamedForEveryKindOfValue) {
   Schema schema("run");
   schema.text("material", "a file");
   for (const char* value : {"1", "[1, 2]", "{type: confined}", "[[1], [2]]"})

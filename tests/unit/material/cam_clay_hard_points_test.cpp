@@ -47,7 +47,7 @@ const std::vector<std::string> shapes = {"M 3.3 tension_ratio 0.1", "M 3.3 tensi
                                          "M 1.2 tension_ratio 1", "M 0.05 tension_ratio 0.3",
                                          "M 20 tension_ratio 1e-4"};
 
-TEST(CamClayHardPoints, NearlyZeroStrength) {
+TEST(CamClayHardPoints, NearlyZeroStrengthIsSolved) {
   for (const std::string& shape : shapes) {
     const auto material = material_of(snow(shape));
     VectorX state = material->initial_state();
@@ -55,7 +55,7 @@ TEST(CamClayHardPoints, NearlyZeroStrength) {
   }
 }
 
-TEST(CamClayHardPoints, JumpsOfOneHalf) {
+TEST(CamClayHardPoints, StrainStepsOfOneHalfAreSolved) {
   for (const std::string& shape : shapes) {
     const auto material = material_of(snow(shape));
     for (const std::vector<Vector6>& path : jumps_of_one_half()) {
@@ -67,7 +67,7 @@ TEST(CamClayHardPoints, JumpsOfOneHalf) {
 
 /// Sheared at constant volume from the centre of the ellipse, where the trial pressure is c exactly
 /// and flow neither compacts nor loosens.
-TEST(CamClayHardPoints, ShearedAtTheCriticalState) {
+TEST(CamClayHardPoints, ShearAtTheCriticalStateIsSolved) {
   for (const std::string& shape : shapes) {
     const auto material = material_of(snow(shape + " eps_vol_pl_0 0.6"));
     const auto& clay = static_cast<const CohesiveCamClay&>(*material);
@@ -83,7 +83,7 @@ TEST(CamClayHardPoints, ShearedAtTheCriticalState) {
   }
 }
 
-TEST(CamClayHardPoints, CompactionToATenthOfTheVolume) {
+TEST(CamClayHardPoints, CompactionToATenthOfTheVolumeIsSolved) {
   for (const std::string interpolation : {"linear", "log"}) {
     for (const std::string& shape : shapes) {
       const auto material = material_of(snow(shape, interpolation));
@@ -101,7 +101,7 @@ TEST(CamClayHardPoints, CompactionToATenthOfTheVolume) {
 
 /// Torn to three times its volume snow has no strength left, but some; pressed together again it
 /// bears nothing until it is as dense as it was, and then what it bore there.
-TEST(CamClayHardPoints, TornAndPressedTogetherAgain) {
+TEST(CamClayHardPoints, RecompressionAfterTensileFailureIsSolved) {
   for (const std::string& shape : shapes) {
     const auto material = material_of(snow(shape));
     VectorX straight = material->initial_state(), torn = straight;
@@ -121,7 +121,7 @@ TEST(CamClayHardPoints, TornAndPressedTogetherAgain) {
 }
 
 /// Unloading and reloading is elastic and comes back to where it left.
-TEST(CamClayHardPoints, LoadUnloadReload) {
+TEST(CamClayHardPoints, UnloadingAndReloadingAreElastic) {
   for (const std::string& shape : {shapes[0], shapes[1]}) {
     const auto material = material_of(snow(shape));
     VectorX state = material->initial_state();
@@ -137,7 +137,7 @@ TEST(CamClayHardPoints, LoadUnloadReload) {
   }
 }
 
-TEST(CamClayHardPoints, OutsideTheTableExtrapolatesAndSaysSoOrStops) {
+TEST(CamClayHardPoints, TableExtrapolatesWithANoteOrStops) {
   const std::string shape = shapes[0] + " eps_vol_pl_0 0.1";
   for (const double direction : {-1.0, 1.0}) {
     const Vector6 strain = strain_of(1, 1, 1) * (0.1 * direction);

@@ -44,7 +44,7 @@ struct Step {
 
 /// Steps of one size from states that compaction, shear and stretching have spread over the
 /// ellipse. The rounding of eps_vol_pl is 900 times as large in p: 2e-13.
-TEST(CrushableFoam, RandomStepsEndWhereTheEquationsSay) {
+TEST(CrushableFoam, RandomStepsSolveTheReturnEquations) {
   const auto material = material_of(
       "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity porous elasticity.kappa 0.005 "
       "elasticity.e0 3.5 pt_el 113.76 nu 0.3 hardening exponential pc0 113.76 lambda 0.35 "

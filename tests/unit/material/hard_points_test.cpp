@@ -37,7 +37,7 @@ Branch expect_sound_steps(const Material& material, VectorX& state,
 double eps_of(const VectorX& state) { return state[DruckerPragerCap::eps_vol_pl]; }
 
 /// E/pb = 1e5, cohesion next to nothing or nothing.
-TEST(HardPoints, NearlyZeroStrength) {
+TEST(HardPoints, NearlyZeroStrengthIsSolved) {
   for (const std::string d : {"0", "1e-3", "1"}) {
     const auto material = material_of(snow("R 0.02 d " + d));
     VectorX state = material->initial_state();
@@ -45,7 +45,7 @@ TEST(HardPoints, NearlyZeroStrength) {
   }
 }
 
-TEST(HardPoints, EccentricityOfOneTenThousandth) {
+TEST(HardPoints, SmallCapEccentricityIsSolved) {
   for (const std::string more : {"R 1e-4 d 5e3", "R 1e-4 d 5e3 alpha 0.05", "R 1e-4 d 5e3 K 0.778",
                                  "R 1e-4 d 5e3 K 0.6 section matsuoka_nakai"}) {
     const auto material = material_of(snow(more));
@@ -61,7 +61,7 @@ TEST(HardPoints, EccentricityOfOneTenThousandth) {
 
 /// The corner between cap and shear line (alpha 0) and the transition (alpha 0.05): sheared at
 /// constant volume the state ends at pa.
-TEST(HardPoints, CapCornerAndTransition) {
+TEST(HardPoints, CapCornerAndTransitionAreSolved) {
   for (const std::string alpha : {"0", "0.05"}) {
     const auto material = material_of(snow("R 0.1 d 5e3 eps_vol_pl_0 0.7 alpha " + alpha));
     const auto& cap = static_cast<const DruckerPragerCap&>(*material);
@@ -80,7 +80,7 @@ TEST(HardPoints, CapCornerAndTransition) {
   }
 }
 
-TEST(HardPoints, ApexInTension) {
+TEST(HardPoints, ApexInTensionIsSolved) {
   const double apex = 5e3 / std::tan(radians(22.53));
   const auto material = material_of(snow("R 0.02 d 5e3 eps_vol_pl_0 0.6"));
   VectorX state = material->initial_state();
@@ -92,7 +92,7 @@ TEST(HardPoints, ApexInTension) {
       {strain_of(0.1, 0.05, 0.2, 0.1), strain_of(0, 0, 0, 0.5), strain_of(-0.2, -0.1, -0.3)});
 }
 
-TEST(HardPoints, TensionCutOff) {
+TEST(HardPoints, TensionCutOffIsSolved) {
   const auto material = material_of(snow("R 0.02 d 5e3 eps_vol_pl_0 0.6 tension 1e3"));
   VectorX state = material->initial_state();
   EXPECT_EQ(expect_sound_steps(*material, state, {strain_of(2e-3, 2e-3, 2e-3)}), Branch::tension);
@@ -104,7 +104,7 @@ TEST(HardPoints, TensionCutOff) {
   EXPECT_NEAR(invariants(stress_of(state)).q, 5e3 - 1e3 * std::tan(radians(22.53)), 1e-6);
 }
 
-TEST(HardPoints, CompactionToATenthOfTheVolume) {
+TEST(HardPoints, CompactionToATenthOfTheVolumeIsSolved) {
   for (const std::string interpolation : {"linear", "log"}) {
     const auto material = material_of(
         "drucker_prager_cap density 90 d 5e3 beta 22.53 R 0.02 elasticity linear E 13.79e6 nu 0.3 "
@@ -125,7 +125,7 @@ TEST(HardPoints, CompactionToATenthOfTheVolume) {
 
 /// Unloading and reloading is elastic and comes back to where it left; further loading goes on as
 /// if it had not happened.
-TEST(HardPoints, LoadUnloadReload) {
+TEST(HardPoints, UnloadingAndReloadingAreElastic) {
   const auto material = material_of(snow("R 0.02 d 5e3"));
   VectorX straight = material->initial_state(), cycled = straight;
   const Vector6 load = strain_of(0, 0, -1e-3), unload = strain_of(0, 0, 2e-6);
@@ -142,7 +142,7 @@ TEST(HardPoints, LoadUnloadReload) {
   EXPECT_LT((stress_of(cycled) - stress_of(straight)).norm(), 1e-8 * stress_of(straight).norm());
 }
 
-TEST(HardPoints, JumpsOfOneHalf) {
+TEST(HardPoints, StrainStepsOfOneHalfAreSolved) {
   for (const std::string more :
        {"R 0.02 d 5e3", "R 1e-4 d 0", "R 1 d 1e5 alpha 0.05", "R 0.02 d 5e3 K 0.8 tension 0",
         "R 0.02 d 5e3 K 0.6 section matsuoka_nakai", "R 0.02 d 0 K 0.778"}) {
@@ -200,7 +200,7 @@ TEST(HardPoints, StrengthsByDensityHoldForEveryInitialDensity) {
   }
 }
 
-TEST(HardPoints, BeyondTheTableExtrapolatesAndSaysSoOrStops) {
+TEST(HardPoints, TableExtrapolatesWithANoteOrStops) {
   const auto going = material_of(snow("R 0.02 d 5e3"));
   const auto stopping = material_of(snow("R 0.02 d 5e3", "linear", "stop"));
   VectorX first = going->initial_state(), second = first;
@@ -226,7 +226,7 @@ TEST(HardPoints, BeyondTheTableExtrapolatesAndSaysSoOrStops) {
 
 /// Where (16) loosens faster than friction, plastic work is negative; frozen energy pays for it,
 /// and heat is never negative.
-TEST(HardPoints, SofteningGivesBackFrozenEnergy) {
+TEST(HardPoints, SofteningReleasesFrozenEnergy) {
   const auto material = material_of(snow("R 0.02 d 0 eps_vol_pl_0 0.7"));
   VectorX state = material->initial_state();
   state.segment<3>(field::stress).setConstant(-5e3);  // p far below pa/2

@@ -24,7 +24,7 @@ namespace {
 
 using testing_paths::material_of;
 
-TEST(Kernels, EveryTableIsOfTheInstructionSetAskedFor) {
+TEST(Kernels, KernelTablesHaveTheirInstructionSet) {
   const std::vector<InstructionSet> sets = available_instruction_sets();
   ASSERT_FALSE(sets.empty());
   EXPECT_EQ(sets.front(), InstructionSet::baseline);
@@ -78,7 +78,7 @@ void expect_instruction_sets_to_agree(const std::string& text) {
             << text << ": " << material->state_fields()[f].name;
 }
 
-TEST(Kernels, InstructionSetsAgree) {
+TEST(Kernels, ResultsOfInstructionSetsAgree) {
   const std::string snow =
       " elasticity linear E 13.79e6 nu 0.3 hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 "
       "1.083 1.514 beyond extrapolate interpolation ";

@@ -23,7 +23,7 @@ class PointwiseMaterials : public ::testing::Test {
       material_of_text("elastic density 1600 elasticity linear E 5e6 nu 0.2");
 };
 
-TEST_F(PointwiseMaterials, GiveWhatKernelsOfTheSameEquationsGive) {
+TEST_F(PointwiseMaterials, PointwiseLawsAgreeWithKernelsOfTheSameEquations) {
   std::mt19937 engine(11);
   std::normal_distribution<double> normal;
   VectorX plain = plain_->initial_state();
@@ -41,7 +41,7 @@ TEST_F(PointwiseMaterials, GiveWhatKernelsOfTheSameEquationsGive) {
 
 /// sigma = K tr(e) I + 2 G dev(e) holds for the rotated sums only if the tensor of the law is
 /// rotated as the stress is.
-TEST_F(PointwiseMaterials, TheirTensorsAreRotatedWithTheStress) {
+TEST_F(PointwiseMaterials, TensorVariablesRotateWithTheStress) {
   std::mt19937 engine(12);
   std::normal_distribution<double> normal;
   VectorX state = plain_->initial_state();
@@ -73,7 +73,7 @@ TEST_F(PointwiseMaterials, ReportBranchIterationsAndData) {
   EXPECT_EQ(plain_->update_point(h, state).beyond_data, 1u);
 }
 
-TEST_F(PointwiseMaterials, ARefusalNamesThePointAndTheCause) {
+TEST_F(PointwiseMaterials, ErrorNamesPointAndCause) {
   constexpr std::size_t n = 21;
   constexpr std::size_t bad = 13;
   const std::size_t fields = plain_->state_fields().size();
@@ -100,7 +100,7 @@ TEST_F(PointwiseMaterials, ARefusalNamesThePointAndTheCause) {
   }
 }
 
-TEST(PointwiseMaterial, RefusesMoreVariablesThanItHasRoomFor) {
+TEST(PointwiseMaterial, TooManyVariablesAreRefused) {
   class Greedy : public PointwiseMaterial {
    public:
     Greedy()

@@ -29,7 +29,7 @@ Vector6 volumetric(double strain) {
 
 /// From J_el = 1 + 36 kappa/(1 + e0), where (p + p_t)/(p0 + p_t) = 2^-52, the strain ln J_el leads
 /// back to p0; rounding of the stress at the limit is a few times as large.
-TEST(PorousLimit, StretchedFarBeyondItAnswersCompressionFromThere) {
+TEST(PorousLimit, StretchBeyondTheTensileLimitRecompressesFromThere) {
   const double back = std::log1p(std::log(0x1p52) / stiffness);
   for (const double p0 : {0.0, 100.0}) {
     for (int i = 0; i < 100; ++i) {
@@ -50,7 +50,7 @@ TEST(PorousLimit, StretchedFarBeyondItAnswersCompressionFromThere) {
 }
 
 /// A deviator leaves its own rounding in p, which may be far larger than p + p_t, and negative.
-TEST(PorousLimit, ShearedThereStaysFinite) {
+TEST(PorousLimit, ShearAtTheTensileLimitStaysFinite) {
   for (const std::string shear : {"nu 0.3", "G 1e5"}) {
     for (const double p0 : {0.0, 100.0}) {
       for (int i = p0 > 0 ? -1 : 0; i < 100; ++i) {
@@ -74,7 +74,7 @@ TEST(PorousLimit, ShearedThereStaysFinite) {
 
 /// Foam so dense, pc = 2e14 Pa, that its tensile strength pt = 0.2 Pa is rounding beside pc:
 /// stretched, it is elastic down to the limit of elasticity, which this state stands on.
-TEST(PorousLimit, FoamWhoseTensileStrengthIsLostInRounding) {
+TEST(PorousLimit, TensileStrengthBelowRoundingIsSolved) {
   const auto material = material_of(
       "crushable_foam density 300 pt 0.21402211384803016 sigma0 215.801025589315 "
       "K 0.9531502684753514 elasticity porous elasticity.kappa 0.001260253455597796 "
@@ -99,7 +99,7 @@ TEST(PorousLimit, FoamWhoseTensileStrengthIsLostInRounding) {
 
 /// From a tensile strength just above the limit to the cap in one step: p and the plastic strain of
 /// its end fulfil the elastic law, however close to the limit the step begins.
-TEST(PorousLimit, FromBesideItToTheCapInOneStep) {
+TEST(PorousLimit, OneStepFromTheTensileLimitToTheCapIsSolved) {
   const double apex = 5e3 / std::tan(radians(22.53));
   for (const double gap : {1e-2, 1e-4, 1e-5, 1e-6, 1e-9}) {
     for (const double jump : {0.1, 0.3}) {

@@ -185,7 +185,7 @@ void expect_sound_path(Dice& dice, const std::string& text, Tally& tally) {
   }
 }
 
-TEST(RandomPaths, TenThousandStayOnTheSurfaceAndDissipate) {
+TEST(RandomPaths, StressStaysInTheYieldSurfaceAndDissipates) {
   Dice dice(20261121);
   for (const Family& family :
        {Family{"cap",

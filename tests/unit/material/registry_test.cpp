@@ -38,7 +38,7 @@ struct Refusal {
 
 class BadParameters : public ::testing::TestWithParam<Refusal> {};
 
-TEST_P(BadParameters, AreRefusedWithTheirMessage) {
+TEST_P(BadParameters, FaultyParametersAreRefusedWithTheirMessage) {
   for (const std::string& part : GetParam().message)
     EXPECT_THAT(message_of(GetParam().text), HasSubstr(part));
 }
@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"law elastic, keyword 'density' is 0", "> 0 [kg/m3]"}},
         Refusal{"neo_hookean density 1100 G 1e6", {"keyword 'bulk' is missing"}}));
 
-TEST(Registry, RefusesAnUnknownSection) {
+TEST(Registry, UnknownSectionIsRefused) {
   EXPECT_THAT(
       test::error_of<InputError>([&] {
         make_material("elastic", MaterialSections{{"hardening", {}}});
@@ -176,7 +176,7 @@ TEST(Registry, RefusesAnUnknownSection) {
       AllOf(HasSubstr("law elastic has no section 'hardening'"), HasSubstr("law, elasticity")));
 }
 
-TEST(Registry, FlatListAndSectionsMakeTheSameLaw) {
+TEST(Registry, FlatListAndSectionsGiveTheSameLaw) {
   const auto flat = material_of(yield + elastic + table);
   const auto nested = make_material(
       "drucker_prager_cap",

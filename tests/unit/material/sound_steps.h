@@ -12,7 +12,7 @@ namespace furrow::testing_paths {
 
 /// Takes the step; after it the state is finite, on or inside its surface, and no heat is negative.
 inline Branch expect_sound_step(const Material& material, VectorX& state, const Vector6& strain,
-                                unsigned most_iterations) {
+                                unsigned maximum_iterations) {
   Branch branch{};
   const double heat = state[field::dissipated_energy];
   const UpdateReport report = material.update_point(stretch(strain), state, &branch);
@@ -21,7 +21,7 @@ inline Branch expect_sound_step(const Material& material, VectorX& state, const 
       << "after strain " << strain.transpose();
   EXPECT_GE(state[field::dissipated_energy] - heat, -1e-14 * material.stress_scale(state))
       << "after strain " << strain.transpose();
-  EXPECT_LT(report.max_iterations, most_iterations);
+  EXPECT_LT(report.max_iterations, maximum_iterations);
   return branch;
 }
 

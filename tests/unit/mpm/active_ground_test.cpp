@@ -60,7 +60,7 @@ std::vector<Vector3> by_id(const Scene& scene, std::size_t column) {
 }
 
 /// With a tolerance that nothing meets, the ground goes through the loops of active ground.
-TEST(ActiveGround, ComputesTheSameBitsWhenNothingSleeps) {
+TEST(ActiveGround, AwakeGroundIsBitwiseTheFullGround) {
   Scene all(0.0), active(1e-12);
   for (Scene* scene : {&all, &active}) {
     scene->touch();
@@ -75,7 +75,7 @@ TEST(ActiveGround, ComputesTheSameBitsWhenNothingSleeps) {
 }
 
 /// The plate sinks at constant speed: its force and the energies, against all of the ground.
-TEST(ActiveGround, NeglectsLessThanItReports) {
+TEST(ActiveGround, ErrorOfSleepingIsBelowTheReportedBound) {
   constexpr double tolerance = 0.05;
   Scene all(0.0), active(tolerance);
   double difference = 0.0, mean = 0.0;
@@ -101,7 +101,7 @@ TEST(ActiveGround, NeglectsLessThanItReports) {
 }
 
 /// Sleeping ground keeps place and stress, and its base keeps its weight.
-TEST(ActiveGround, SleepingGroundStaysAndIsHeld) {
+TEST(ActiveGround, SleepingGroundKeepsPlaceStressAndWeight) {
   Scene scene(0.01);
   scene.touch();
   scene.run(0.06, -0.1);
@@ -131,7 +131,7 @@ TEST(ActiveGround, SleepingGroundStaysAndIsHeld) {
 }
 
 /// Held nodes would balance the weight of level ground.
-TEST(ActiveGround, WakesWhenGravityTiltsAndSleepsAgain) {
+TEST(ActiveGround, GroundWakesWhenGravityTilts) {
   Scene scene(0.05);
   scene.touch();
   scene.run(0.06, -0.1);
@@ -207,7 +207,7 @@ TEST(ActiveGround, ReportsTheReflectionOfAWave) {
   EXPECT_FALSE(bar.sleeps());
 }
 
-TEST(ActiveGround, ABodyThatComesNearAwakesIt) {
+TEST(ActiveGround, ApproachingBodyWakesTheGround) {
   Scene scene(0.01);
   scene.touch();
   scene.run(0.06, -0.1);
@@ -239,7 +239,7 @@ std::string refusal(Change change) {
   return test::error_of<InputError>([&] { ContinuumTerrain(parameters, Communicator()); });
 }
 
-TEST(ActiveGround, RefusesWindowSheetAndCreep) {
+TEST(ActiveGround, WindowSurfaceMeshAndCreepAreRefused) {
   EXPECT_THAT(refusal([](TerrainParameters& ground) { ground.window = true; }),
               HasSubstr("'sleep_tolerance' is given with 'follow'"));
   EXPECT_THAT(refusal([](TerrainParameters& ground) { ground.surface_mesh = true; }),

@@ -77,7 +77,7 @@ TEST_P(BothAxes, LinearFieldsAreReproduced) {
   }
 }
 
-TEST_P(BothAxes, EndsBelongToTheOutermostNode) {
+TEST_P(BothAxes, EndOfTheAxisIsTheOutermostNode) {
   const Axis axis(GetParam(), "x axis");
   EXPECT_DOUBLE_EQ(axis.node(0), axis.lower());
   EXPECT_DOUBLE_EQ(axis.node(axis.nodes() - 1), axis.upper());
@@ -103,7 +103,7 @@ TEST_P(BothAxes, ExtentIsTheIntegralOfTheSpline) {
 
 /// The kernels find a cell through bins and at most one step further: right for every x, ends and
 /// knots included.
-TEST_P(BothAxes, BinsFindTheCell) {
+TEST_P(BothAxes, BinsFindTheCellOfAnyPlace) {
   const Axis axis(GetParam(), "x axis");
   const AxisView view = axis.view();
   std::vector<double> places;
@@ -154,7 +154,7 @@ TEST(Axis, CellLengthIsAdjustedToAWholeNumber) {
   EXPECT_EQ(Axis({0.0, 0.1, 5.0, 0.0, 0.1, 1.0}, "x axis").cells(), 1);
 }
 
-TEST(Axis, OutsideIsNoCell) {
+TEST(Axis, PlaceOutsideHasNoCell) {
   const Axis axis(uniform_layout, "x axis");
   EXPECT_EQ(axis.cell_of(-1.0 - 1e-12), -1);
   EXPECT_EQ(axis.cell_of(2.0 + 1e-12), -1);
@@ -184,7 +184,7 @@ TEST(Axis, ShiftMovesEverythingByWholeCells) {
   EXPECT_NEAR(Axis(graded_layout, "x axis").fine_cell(), 0.05, 1e-12);
 }
 
-TEST(Axis, RefusesLayoutsWithoutSense) {
+TEST(Axis, ImpossibleLayoutsAreRefused) {
   const auto refusal = [](const AxisLayout& layout) -> std::string {
     return error_of<InputError>([&] { Axis(layout, "soil, x axis"); });
   };
@@ -201,7 +201,7 @@ TEST(Axis, RefusesLayoutsWithoutSense) {
 
 /// Two edges of a body: a knot at each, three cells of the asked length on both sides as nearly as
 /// the lengths between knots allow, and cells that grow by 1.4 at most up to the usual length.
-TEST(Axis, HasShortCellsAtEdges) {
+TEST(Axis, CellsAreShortAtEdges) {
   AxisLayout layout{-1.0, 2.0, 0.1, -0.5, 1.0, 1.2};
   layout.edges = {0.37, -0.113};
   layout.edge_cell = 0.025;

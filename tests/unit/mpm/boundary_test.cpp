@@ -60,7 +60,7 @@ TEST(Boundary, NamesFollowTheKinds) {
   EXPECT_THROW(boundary_kind("sticky"), Error);
 }
 
-TEST(Boundary, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
+TEST(Boundary, SmoothWallStopsNormalMotionAndRoughWallAllMotion) {
   const Vector3 v(1.0, 2.0, 3.0);
   for (const Face face : all_faces)
     for (const BoundaryKind kind : {BoundaryKind::smooth, BoundaryKind::rough}) {
@@ -88,7 +88,7 @@ TEST(Boundary, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
 
 /// v' = (v - dt c^2/(l L) u)/(1 + dt c/l) with u the displacement before: dashpot and spring of one
 /// node across the face, taken implicitly.
-TEST(Boundary, AbsorbingIsDashpotAndSpring) {
+TEST(Boundary, AbsorbingFaceIsDashpotAndSpring) {
   Grid grid = small_grid();
   Boundary boundary(grid, only(Face::x_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
   EXPECT_FALSE(boundary.has_initial_tractions());
@@ -138,7 +138,7 @@ TEST(Boundary, HalfModelHasTheFarFieldOfTheWhole) {
 }
 
 /// Forces that held the ground at the start hold it on: a node on several faces is held once.
-TEST(Boundary, ForcesOfTheStartAreHeld) {
+TEST(Boundary, InitialForcesAreHeld) {
   for (const int count : {1, 2, 3}) {
     FaceArray<BoundaryKind> kinds;
     kinds.fill(BoundaryKind::free);
@@ -166,7 +166,7 @@ TEST(Boundary, ForcesOfTheStartAreHeld) {
 
 /// A node that a wall holds does not move, so the far field that meets the wall there does no work
 /// on it and holds nothing.
-TEST(Boundary, AbsorbingLeavesToWallsWhatTheyHold) {
+TEST(Boundary, AbsorbingFaceDoesNothingAtNodesOfAWall) {
   Grid grid = small_grid();
   FaceArray<BoundaryKind> kinds = only(Face::x_upper, BoundaryKind::absorbing);
   kinds[Face::z_lower] = BoundaryKind::rough;
@@ -264,7 +264,7 @@ TEST(Boundary, StateIsRestoredAndMovesWithTheGrid) {
 }
 
 /// Ahead, the displacement of the far field falls off over L = 2 m by each cell of 1 m.
-TEST(Boundary, TheFaceAheadComesToUndisturbedGround) {
+TEST(Boundary, FaceAheadMeetsUndisturbedGround) {
   Grid grid = small_grid();
   Boundary boundary(grid, only(Face::x_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
   give_sums(grid, {7, 8, 9});
@@ -284,7 +284,7 @@ TEST(Boundary, TheFaceAheadComesToUndisturbedGround) {
 
 /// Behind, the face holds any force that the ground carries there: nodes at rest stay at rest, also
 /// those that another face held; nodes that move go on.
-TEST(Boundary, TheFaceBehindHoldsWhatTheGroundCarriesThere) {
+TEST(Boundary, FaceBehindHoldsTheForceOfTheGround) {
   Grid grid = small_grid();
   FaceArray<BoundaryKind> kinds = only(Face::x_lower, BoundaryKind::absorbing);
   kinds[Face::y_upper] = BoundaryKind::absorbing;

@@ -48,7 +48,7 @@ struct Points {
 };
 
 /// sum V theta of each cell stays, its particles have one theta, and the deviator stays.
-TEST(CellAverage, KeepsVolumeAndDeviatorOfEachCell) {
+TEST(CellAverage, CellKeepsVolumeAndDeviator) {
   Points points;
   const Points old;
   average_volume_change(points.view(), points.gradient);

@@ -34,7 +34,7 @@ struct Touch {
   }
 };
 
-TEST(ContactLaw, IsFoundByItsName) {
+TEST(ContactLaw, NameSelectsTheContactLaw) {
   EXPECT_THAT(contact_law_names(), ElementsAre("penalty", "impulse"));
   ContactParameters parameters;
   EXPECT_TRUE(std::holds_alternative<PenaltyLaw>(make_contact_law(parameters, "foot")));
@@ -46,7 +46,7 @@ TEST(ContactLaw, IsFoundByItsName) {
 }
 
 /// k gap + c approach along the normal, with c = 2 damping sqrt(k m); it pushes only.
-TEST(PenaltyLaw, IsASpringWithADashpot) {
+TEST(PenaltyLaw, NormalForceIsSpringAndDashpot) {
   ContactParameters parameters;
   parameters.damping = 0.25;
   const PenaltyLaw law(parameters);
@@ -82,7 +82,7 @@ TEST(PenaltyLaw, SlidesAtTheLimitOfFriction) {
 }
 
 /// Springs stretch by the motion since the last step, for any length of the next step.
-TEST(PenaltyLaw, SpringStretchesByTheLastStep) {
+TEST(PenaltyLaw, SpringStretchesByTheMotionOfTheLastStep) {
   ContactParameters parameters;
   parameters.damping = 0.0;
   const PenaltyLaw law(parameters);
@@ -149,7 +149,7 @@ TEST(ImpulseLaw, StopsTheApproachWithinTheStep) {
 }
 
 /// min(mu sigma, shear_limit) (1 - exp(-j/k))
-TEST(Friction, GrowsWithTheSlip) {
+TEST(Friction, FrictionGrowsExponentiallyWithSlip) {
   const Friction friction{0.5, 0.02};
   EXPECT_EQ(friction.limit(100.0, 0.0, 1.0), 0.0);
   EXPECT_NEAR(friction.limit(100.0, 0.02, 1.0), 50.0 * (1.0 - std::exp(-1.0)), 1e-12);
@@ -157,7 +157,7 @@ TEST(Friction, GrowsWithTheSlip) {
   EXPECT_EQ((Friction{0.5, 0.0}.limit(100.0, 0.0, 1.0)), 50.0);
 }
 
-TEST(Friction, EndsAtTheShearLimit) {
+TEST(Friction, ShearLimitCapsTheFriction) {
   const double rough = std::numeric_limits<double>::infinity();
   EXPECT_EQ((Friction{0.5, 0.0, 3e3}.limit(100.0, 0.0, 0.01)), 30.0);
   EXPECT_EQ((Friction{0.5, 0.0, 3e3}.limit(40.0, 0.0, 0.01)), 20.0);
@@ -167,7 +167,7 @@ TEST(Friction, EndsAtTheShearLimit) {
               1e-12);
 }
 
-TEST(ContactHistory, ForgetsSpringAndGapWhenItLiftsAndSlipWhenTheContactEnds) {
+TEST(ContactHistory, LiftingResetsSpringAndGapAndTheEndResetsSlip) {
   ContactHistory history;
   history.spring = {1, 2, 3};
   history.slip = 4;
@@ -208,7 +208,7 @@ double followed(double gap, const std::vector<Vector3>& normals,
   return history.gap;
 }
 
-TEST(NarrowPhase, TheGapFollowsTheMotionAlongTheNormal) {
+TEST(NarrowPhase, GapFollowsTheNormalMotion) {
   const std::vector<Vector3> velocities(3, Vector3(2.0, 5.0, 0.0));
   EXPECT_NEAR(followed(-1e-3, {3, Vector3::UnitX()}, velocities, velocities),
               -1e-3 + 2.0 * 2.0 * dt, 1e-15);
@@ -216,7 +216,7 @@ TEST(NarrowPhase, TheGapFollowsTheMotionAlongTheNormal) {
 
 /// A particle half way between the walls of a groove is thrown back and forth: the wall that it has
 /// just come nearer to is the closest one. Its gap must not grow by every step.
-TEST(NarrowPhase, ToAndFroBetweenTwoWallsTheGapStays) {
+TEST(NarrowPhase, GapStaysUnderAlternatingMotionBetweenWalls) {
   std::vector<Vector3> normals, velocities;
   for (int step = 0; step < 1000; ++step) {
     normals.push_back((step % 2 ? 1.0 : -1.0) * Vector3::UnitX());
@@ -227,7 +227,7 @@ TEST(NarrowPhase, ToAndFroBetweenTwoWallsTheGapStays) {
 
 /// A particle thrown back and forth between walls that move apart lets go of both by their motion:
 /// else a spring would press them apart, and give work, without end.
-TEST(NarrowPhase, WallsThatMoveApartLetGo) {
+TEST(NarrowPhase, SeparatingWallsLoseContact) {
   const double apart = 0.3;  // [m/s] of each wall
   std::vector<Vector3> normals, velocities, there;
   for (int step = 0; step <= 1000; ++step) {

@@ -76,7 +76,7 @@ std::string clay() {
 TEST(TerrainRestart, ContinuesBitForBitOnSensitiveClay) { expect_exact_restart(snow_bed(clay())); }
 
 /// A shear band is as wide as the cell of its particle, the cube root of the volume of a long cell.
-TEST(ContinuumTerrain, ClayKnowsTheCellsOfItsParticles) {
+TEST(ContinuumTerrain, ShearBandOfClayHasTheCellSizeOfItsParticle) {
   TerrainParameters parameters = snow_bed(clay());
   parameters.x = {-0.2, 0.2, cell, -0.1, 0.1, 1.2};
   ContinuumTerrain ground(parameters, Communicator());
@@ -140,7 +140,7 @@ TEST(TerrainRestart, ContinuesBitForBitWithPorousElasticity) {
                "hardening.e0 3.5"));
 }
 
-TEST(TerrainRestart, NamesTheKeyOfTheLawThatDiffers) {
+TEST(TerrainRestart, ErrorNamesTheDifferingKeyOfTheLaw) {
   TerrainParameters parameters = snow_bed();
   parameters.layers[0].description = {{"law", {"drucker_prager_cap"}}, {"law.d", {"5e3"}}};
   ContinuumTerrain ground(parameters, Communicator());
@@ -161,7 +161,7 @@ TEST(TerrainRestart, RefusesTheStateOfOtherGround) {
 
 /// Ground that follows a wheel: fresh ground ahead, what is behind is dropped and leaves its
 /// profile; nothing moves by that.
-TEST(MovingTerrain, DropsBehindAndAddsAhead) {
+TEST(MovingTerrain, WindowDropsGroundBehindAndAddsGroundAhead) {
   TerrainParameters parameters = snow_bed();
   set_boundary(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   parameters.window = true;
@@ -192,7 +192,7 @@ TEST(MovingTerrain, DropsBehindAndAddsAhead) {
 }
 
 /// The side faces are free, and the window drops the layer of a particle that has left through one.
-TEST(MovingTerrain, ParticleOutsideInYStopsTheRun) {
+TEST(MovingTerrain, ParticleOutsideTheSidesStopsTheRun) {
   TerrainParameters parameters = snow_bed();
   set_boundary(parameters, {"smooth", "smooth", "free", "free", "rough", "free"});
   parameters.window = true;
@@ -210,7 +210,7 @@ TEST(MovingTerrain, ParticleOutsideInYStopsTheRun) {
               HasSubstr("outside of the grid"));
 }
 
-TEST(MovingTerrain, RefusesAGradedAxisAlongItsWay) {
+TEST(MovingTerrain, GradedAxisAlongTheTravelIsRefused) {
   TerrainParameters parameters = snow_bed();
   parameters.window = true;
   set_boundary(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
@@ -232,7 +232,7 @@ TEST(Terrain, StableStepIsTheCourantNumberOfTheShortestCell) {
   EXPECT_NEAR(ground.stable_time_step(), 0.3 * 0.025 / (std::sqrt(1.2e6 / 1000) + 30.0), 1e-9);
 }
 
-TEST(Terrain, StopsWhenParticlesLeaveTheGrid) {
+TEST(Terrain, ParticleOutsideTheGridStopsTheRun) {
   TerrainParameters parameters =
       box(material_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
   ContinuumTerrain ground(parameters, Communicator());
@@ -246,7 +246,7 @@ TEST(Terrain, StopsWhenParticlesLeaveTheGrid) {
 
 /// A particle close to a wall that moves towards it is stopped there, for any remap interval; the
 /// place half-way through the interval would be beyond.
-TEST(Terrain, AParticleThatMeetsAWallStaysInside) {
+TEST(Terrain, ParticleAtAWallStaysInside) {
   TerrainParameters parameters =
       box(material_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
   set_boundary(parameters, {"smooth", "free", "smooth", "smooth", "smooth", "free"});
@@ -257,7 +257,7 @@ TEST(Terrain, AParticleThatMeetsAWallStaysInside) {
   EXPECT_GE(ground.groups()[0].particles.data(column::x)[0], 0.0);
 }
 
-TEST(Terrain, RefusesASurfaceInsideACell) {
+TEST(Terrain, SurfaceInsideACellIsRefused) {
   TerrainParameters parameters =
       box(material_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
   parameters.z = even(0, 0.32, 0.05);  // becomes six cells of 5.3 cm
@@ -267,7 +267,7 @@ TEST(Terrain, RefusesASurfaceInsideACell) {
                         "allowed: the height of an end of a cell"));
 }
 
-TEST(Terrain, LayersAreFilledWithTheirLaws) {
+TEST(Terrain, ParticlesOfALayerHaveItsLaw) {
   TerrainParameters parameters = box(material_of(snow()), {0, 0, 0}, {0.1, 0.1, 0.2}, 0.025);
   parameters.layers = {{material_of(snow()), 0.05}, {material_of(elastic(1e7, 0.3, 1800)), 0.0}};
   ContinuumTerrain ground(parameters, Communicator());
@@ -278,7 +278,7 @@ TEST(Terrain, LayersAreFilledWithTheirLaws) {
 }
 
 /// Along x and across: 0.06 m of snow, and 0.04 m with a crust on the other material.
-TEST(Terrain, PatchesAreFilledWithTheirLayers) {
+TEST(Terrain, ParticlesOfAPatchHaveItsLayers) {
   for (const int axis : {0, 1}) {
     TerrainParameters parameters = box(material_of(snow()), {0, 0, 0}, {0.1, 0.1, 0.2}, 0.01);
     parameters.layers = {{material_of(snow()), 0.2},
@@ -298,7 +298,7 @@ TEST(Terrain, PatchesAreFilledWithTheirLayers) {
 }
 
 /// Which particle a law refuses, not which block it was in.
-TEST(Terrain, ALawsRefusalNamesTheParticle) {
+TEST(Terrain, ErrorOfALawNamesTheParticle) {
   TerrainParameters parameters = box(material_of(snow()), {-0.1, -0.1, 0}, {0.1, 0.1, depth}, cell);
   ContinuumTerrain ground(parameters, Communicator());
   Particles& particles = ground.groups()[0].particles;

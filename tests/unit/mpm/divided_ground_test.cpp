@@ -54,7 +54,7 @@ struct Divided {
 };
 
 /// The ground before the wall moves away, as one body; what is behind it feels nothing.
-TEST(DividedGround, MovesApartOnBothSidesOfAWall) {
+TEST(DividedGround, GroundOnBothSidesOfAWallMovesSeparately) {
   const auto pull = [](Divided& scene) {
     scene.run(16);  // until particles have their fields
     for_particles(scene.ground, [&](Particles& particles, std::size_t p) {
@@ -122,7 +122,7 @@ TEST(DividedGround, ContinuesBitForBit) {
 }
 
 /// A block that is as thick as long has no thin part.
-TEST(DividedGround, IsOfOnePieceWithoutThinParts) {
+TEST(DividedGround, GroundWithoutThinPartsIsUndivided) {
   const auto speed = [](bool thin_parts) {
     TerrainParameters p = block();
     p.thin_parts = thin_parts;

@@ -57,7 +57,7 @@ double rounds_of(std::size_t patch, std::size_t dropped) {
   return static_cast<double>((dropped + slabs - 1 - patch) / slabs);
 }
 
-TEST(MovingSheet, UndisturbedPatchesComeBackALengthFurtherOn) {
+TEST(MovingSheet, UndisturbedPatchesReappearOneLengthAhead) {
   ContinuumTerrain ground(moving_ground(), Communicator());
   const Matrix3X start = ground.surface().x;
   const double particles = ground.particle_count();
@@ -75,7 +75,7 @@ TEST(MovingSheet, UndisturbedPatchesComeBackALengthFurtherOn) {
 }
 
 /// Slabs meet in one place where both are there, however the ground is deformed.
-TEST(MovingSheet, PatchesMeetWithoutAGap) {
+TEST(MovingSheet, PatchesHaveNoGap) {
   ContinuumTerrain ground(moving_ground(), Communicator());
   const Matrix3X start = ground.surface().x;
   move_on(ground, 1);
@@ -105,7 +105,7 @@ TEST(MovingSheet, PatchesMeetWithoutAGap) {
 }
 
 /// Forces where two slabs meet are the ground's gain, in momentum and about any point.
-TEST(MovingSheet, ForcesAndMomentsAreKept) {
+TEST(MovingSheet, ForcesAndMomentsAreTransferredToTheGround) {
   TerrainParameters parameters = moving_ground();
   parameters.remap_interval = 1;
   ContinuumTerrain ground(parameters, Communicator());
@@ -131,7 +131,7 @@ TEST(MovingSheet, ForcesAndMomentsAreKept) {
 /// A block that flies at v and spins at w: the work of forces on the nodes of its sheet is their
 /// power times dt, but for the motion of the nodes during the step, dt^2 f.(w x v). In a remap
 /// interval of 16 steps the weights are taken up to 7.5 steps away from the particle.
-TEST(MovingSheet, PowerOfForcesOnNodesIsTheirWorkOnTheGround) {
+TEST(MovingSheet, PowerOfNodalForcesIsTheirWorkOnTheGround) {
   TerrainParameters parameters =
       testing_terrain::box(testing_terrain::material_of(elastic(1e6, 0.25, 1000.0)),
                            {0.0, 0.0, 0.0}, {0.6, 0.6, 0.3}, cell);
@@ -153,7 +153,7 @@ TEST(MovingSheet, PowerOfForcesOnNodesIsTheirWorkOnTheGround) {
 }
 
 /// A wheel that drives pushes ground back, over the edge of the slab that is dropped.
-TEST(MovingSheet, ParticlesOfNodesThatWentBackAreKept) {
+TEST(MovingSheet, ParticlesPushedBackAreKept) {
   ContinuumTerrain ground(moving_ground(), Communicator());
   const double particles = ground.particle_count(), spacing = 0.5 * cell;
   double pushed = 0.0;
@@ -171,7 +171,7 @@ TEST(MovingSheet, ParticlesOfNodesThatWentBackAreKept) {
   EXPECT_LE(x.row(0).maxCoeff(), slab + length + 1e-9);
 }
 
-TEST(MovingSheet, ARunThatIsContinuedIsTheSame) {
+TEST(MovingSheet, RestartContinuesBitwise) {
   const auto run = [](ContinuumTerrain& ground, int from, int to) {
     for (int n = from; n < to; ++n) {
       ground.follow(0.5 * length + 0.04 * slab * n);

@@ -45,7 +45,7 @@ double after_periods(int periods, int steps_of_mass, int steps_of_spring) {
 
 /// A mass under a constant force with steps of two lengths: momentum is F t, and the mass moves by
 /// its velocity for as long as the grains do.
-TEST(Multirate, TerrainKeepsTheTimeOfTheGrainsWhenTheirStepChanges) {
+TEST(Multirate, TerrainTimeFollowsAChangingGrainStep) {
   Surface node;
   node.resize(1);
   node.f(2, 0) = 3.0;
@@ -70,7 +70,7 @@ TEST(Multirate, TerrainKeepsTheTimeOfTheGrainsWhenTheirStepChanges) {
 /// Leapfrog's position after n steps of T is cos(n theta) with sin(theta/2) = w T/2, for any step
 /// of the grains: the forces of an interval lie symmetric about the mass. Rounding grows with the
 /// number of steps.
-TEST(Multirate, SpringIsThatOfLeapfrogToRounding) {
+TEST(Multirate, SpringFollowsLeapfrogToRounding) {
   for (const int steps : {1, 2, 5})
     for (const int periods : {1, 4, 100})
       for (const int per_period : {20, 40}) {
@@ -128,7 +128,7 @@ struct Block {
 
 /// The sheet swings as that of a block that takes every step; energy is kept, the better the
 /// shorter the interval is, and momentum to rounding.
-TEST(Multirate, GroundAnswersAsWithEveryStepAndKeepsMomentumAndEnergy) {
+TEST(Multirate, MultipleTimeStepsKeepResponseMomentumAndEnergy) {
   Block every(1), fourth(4), eighth(8);
   constexpr int samples = 60;
   double largest = 0.0, difference[2] = {}, energy[3] = {};
@@ -152,7 +152,7 @@ TEST(Multirate, GroundAnswersAsWithEveryStepAndKeepsMomentumAndEnergy) {
                 1e-9 * std::abs(block->impulse));
 }
 
-TEST(Multirate, ARunThatIsContinuedWithinAnIntervalIsTheSame) {
+TEST(Multirate, RestartWithinAnIntervalContinuesBitwise) {
   Block whole(8), first(8), continued(8);
   whole.run(42);
   first.run(21);

@@ -47,7 +47,7 @@ TEST(Overburden, ElasticGroundCarriesItsWeight) {
 }
 
 /// A weight on the surface is carried by every level, beside its own.
-TEST(Overburden, ASurchargeIsCarriedByAllLevels) {
+TEST(Overburden, SurchargeIsCarriedByAllLevels) {
   const double rho = 1800.0, surcharge = 5e3;
   auto ground = deep({{material_of(elastic(1e9, 0.3, rho)), 2.0}});
   ground.surcharge = surcharge;
@@ -74,7 +74,7 @@ TEST(Overburden, SnowIsInEquilibriumAtItsCompactedDensity) {
             material->current_density(levels.front().state));
 }
 
-TEST(Overburden, LayersLieOnOneAnother) {
+TEST(Overburden, StressSumsTheWeightOfLayers) {
   const auto light = material_of(elastic(1e8, 0.3, 200)),
              heavy = material_of(elastic(1e9, 0.2, 2000));
   auto levels = levels_down(1.0, 10);
@@ -90,7 +90,7 @@ TEST(Overburden, LayersLieOnOneAnother) {
 }
 
 /// A patch has its own layers and their weight.
-TEST(Overburden, PatchesHaveTheirOwnLayers) {
+TEST(Overburden, PatchHasTheStressOfItsLayers) {
   const auto light = material_of(elastic(1e8, 0.3, 200)),
              heavy = material_of(elastic(1e9, 0.2, 2000));
   auto ground = deep({{light, 1.0}, {heavy, 0.3}, {light, 0.7}});
@@ -108,7 +108,7 @@ TEST(Overburden, PatchesHaveTheirOwnLayers) {
   }
 }
 
-TEST(Overburden, NothingWithoutInitialStress) {
+TEST(Overburden, StressIsZeroWithoutInitialStress) {
   const auto material = material_of(snow());
   auto ground = deep({{material, 1.0}});
   ground.initial_stress = false;
@@ -117,7 +117,7 @@ TEST(Overburden, NothingWithoutInitialStress) {
   for (const ParticleLevel& level : levels) EXPECT_EQ(level.state, material->initial_state());
 }
 
-TEST(Overburden, RefusesALawThatCannotCarryTheWeight) {
+TEST(Overburden, LawThatCannotCarryTheWeightIsRefused) {
   const auto material = material_of(elastic(1e3, 0.3, 5000));  // 1.3 kPa against 50 kPa a metre
   auto levels = levels_down(2.0, 4);
   EXPECT_THAT(test::error_of<InputError>([&] {

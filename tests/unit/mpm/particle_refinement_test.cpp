@@ -37,7 +37,7 @@ std::string clay() {
          "0.45";
 }
 
-TEST(FollowingAxis, IsWholeStridesWithTheFinePartAskedFor) {
+TEST(FollowingAxis, AxisHasWholeStridesAndTheFineStretch) {
   for (const double growth : {1.1, 1.2, 1.4})
     for (const double fine : {0.2, 0.43, 0.8}) {
       const FollowingAxis axis =
@@ -62,7 +62,7 @@ TEST(FollowingAxis, IsWholeStridesWithTheFinePartAskedFor) {
     }
 }
 
-TEST(FollowingAxis, WithoutRoomForLongerCellsIsUniform) {
+TEST(FollowingAxis, AxisIsUniformWithoutRoomForLongerCells) {
   const FollowingAxis axis = following_axis({0.0, 1.0, cell, 0.05, 0.95, 1.2}, "ground");
   EXPECT_EQ(axis.halvings, 0);
   EXPECT_TRUE(Axis(axis.layout, "ground").uniform());
@@ -199,7 +199,7 @@ TEST(ParticleRefinement, UnitedParticlesKeepMassMomentumAndEnergy) {
   EXPECT_EQ(p.data(column::id)[0], 32.0);
 }
 
-TEST(ParticleRefinement, DividedAndUnitedIsTheSame) {
+TEST(ParticleRefinement, DivisionAndUnionAreInverse) {
   OneParticle one(clay());
   one.refine();
   const std::size_t fine = one.particles().size();
@@ -216,7 +216,7 @@ TEST(ParticleRefinement, DividedAndUnitedIsTheSame) {
 }
 
 /// A change of one of two halves, after which they stay two.
-TEST(ParticleRefinement, UnlikeParticlesStayTwo) {
+TEST(ParticleRefinement, DifferentParticlesAreNotUnited) {
   const auto count = [](const std::function<void(Particles&)>& change) {
     OneParticle one(snow());
     one.refine();
@@ -248,7 +248,7 @@ TEST(ParticleRefinement, UnlikeParticlesStayTwo) {
 }
 
 /// A contact keeps values with the particle: neither halves nor pairs while it needs them.
-TEST(ParticleRefinement, BusyParticlesStayAsTheyAre) {
+TEST(ParticleRefinement, ParticlesInContactAreNeitherDividedNorUnited) {
   OneParticle one(snow());
   const ParticleColumn touch =
       one.particles().add_column("touch", 1, [](const double* value) { return *value == 0.0; });
@@ -293,7 +293,7 @@ TEST(GradedWindow, UniformStressStaysAtRest) {
 
 /// 24 strides over undisturbed sand, which stays as below a window with even cells. There too it
 /// settles a little at the start, by the error of its weight in the cells.
-TEST(GradedWindow, UndisturbedGroundStaysAsInEvenCells) {
+TEST(GradedWindow, UndisturbedGroundSettlesAsInEvenCells) {
   const TerrainParameters graded = following_ground(
       "drucker_prager_cap density 1500 d 100 beta 47 R 0.02 eps_vol_pl_0 0 elasticity linear E "
       "4.8e6 nu 0.2 hardening table p 3 1132 5890 29680 178400 eps_vol_pl 0 0.0089 0.0158 0.0259 "
@@ -302,7 +302,7 @@ TEST(GradedWindow, UndisturbedGroundStaysAsInEvenCells) {
   even_cells.x = even(-0.8, 0.8, cell);
   even_cells.halvings = 0;
   struct Result {
-    double stress[2], top, speed, most_particles;
+    double stress[2], top, speed, maximum_particles;
   };
   const auto travel = [&](const TerrainParameters& parameters) {
     ContinuumTerrain ground(parameters, Communicator());
@@ -312,7 +312,7 @@ TEST(GradedWindow, UndisturbedGroundStaysAsInEvenCells) {
       ground.follow(n * stride);
       const double dt = ground.stable_time_step();
       for (int step = 0; step < 48; ++step) ground.advance(dt);
-      result.most_particles = std::max(result.most_particles, ground.particle_count());
+      result.maximum_particles = std::max(result.maximum_particles, ground.particle_count());
     }
     EXPECT_NEAR(ground.travelled(), 24 * stride, 1.01 * stride);
     EXPECT_NEAR(sums_of(ground).mass, mass, 1e-9 * mass);
@@ -338,11 +338,11 @@ TEST(GradedWindow, UndisturbedGroundStaysAsInEvenCells) {
   EXPECT_NEAR(one.top, other.top, 1e-5);
   EXPECT_LT(one.speed, 1.1 * other.speed);
   // as many as at the start, and half of those in even cells
-  EXPECT_EQ(one.most_particles, 8704);
-  EXPECT_EQ(other.most_particles, 16384);
+  EXPECT_EQ(one.maximum_particles, 8704);
+  EXPECT_EQ(other.maximum_particles, 16384);
 }
 
-TEST(GradedWindow, RefusesWhatLongParticlesCannotFill) {
+TEST(GradedWindow, GroundThatLongParticlesCannotFillIsRefused) {
   const auto refusal = [](const std::function<void(TerrainParameters&)>& change) {
     TerrainParameters parameters = following_ground();
     change(parameters);

@@ -32,7 +32,7 @@ void number(Particles& particles) {
   }
 }
 
-TEST(Particles, StartWithZeroAndTakeTheStateOfTheLaw) {
+TEST(Particles, NewParticlesAreZeroWithTheStateOfTheLaw) {
   const auto material = material_of(snow());
   Particles particles(*material);
   EXPECT_EQ(particles.append(3), 0u);
@@ -45,7 +45,7 @@ TEST(Particles, StartWithZeroAndTakeTheStateOfTheLaw) {
   EXPECT_EQ(particles.position(4), Vector3::Zero());
 }
 
-TEST(Particles, AffineIsReadColumnByColumn) {
+TEST(Particles, AffineVelocityIsStoredByColumns) {
   const auto material = material_of(elastic(1e6, 0.3, 1000));
   Particles particles(*material);
   particles.append(2);
@@ -56,7 +56,7 @@ TEST(Particles, AffineIsReadColumnByColumn) {
   EXPECT_EQ(particles.velocity(1), Vector3(102, 103, 104));
 }
 
-TEST(Particles, ReorderMovesAllColumnsAndDropsTheRest) {
+TEST(Particles, ReorderingMovesAllColumnsAndDropsTheRest) {
   const auto material = material_of(elastic(1e6, 0.3, 1000));
   Particles particles(*material);
   particles.append(4);
@@ -76,7 +76,7 @@ TEST(Particles, ReorderMovesAllColumnsAndDropsTheRest) {
 }
 
 /// Columns with one component once took the memory of those with twelve, one by one.
-TEST(Particles, ReorderingTakesNoMoreMemory) {
+TEST(Particles, ReorderingDoesNotGrowMemory) {
   constexpr std::size_t count = 20000;
   const auto material = material_of(elastic(1e6, 0.3, 1000));
   Particles particles(*material);
@@ -94,7 +94,7 @@ TEST(Particles, ReorderingTakesNoMoreMemory) {
   EXPECT_LT(allocated(), before + count * sizeof(double));
 }
 
-TEST(Particles, AColumnAddedLateIsZeroAndTravelsWithTheParticle) {
+TEST(Particles, AddedColumnIsZeroAndFollowsItsParticle) {
   const auto material = material_of(elastic(1e6, 0.3, 1000));
   Particles particles(*material);
   particles.append(3);

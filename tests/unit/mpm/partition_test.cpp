@@ -32,7 +32,7 @@ TEST(Partition, OneRankHasEverything) {
   }
 }
 
-TEST(Partition, BalanceOfNothingIsStillEverything) {
+TEST(Partition, BalanceOfEmptyGroundCoversAllCells) {
   Partition partition(Communicator(), {1, 1}, grid_of(4, 2));
   partition.set_bounds(partition.balanced({std::vector<double>(4, 0.0), {0.0, 0.0}}));
   EXPECT_EQ(partition.owner(3, 1), 0);
@@ -42,7 +42,7 @@ TEST(Partition, BalanceOfNothingIsStillEverything) {
 /// Columns of nodes of the largest block, shared ones included, by hand: 100 x 40 cells on 8 ranks
 /// are 17 x 42 as 8 x 1, 29 x 23 as 4 x 2, 53 x 14 as 2 x 4 blocks and 102 x 9 as 1 x 8. 1000 x 400
 /// cells on 64 ranks are 129 x 54 as 8 x 8 and, where some have a cell more, 67 x 104 as 16 x 4.
-TEST(BlockLayout, HasTheLeastHalo) {
+TEST(BlockLayout, LayoutHasTheSmallestHalo) {
   struct Case {
     int ranks, x_cells, y_cells, x, y;
   };
@@ -56,7 +56,7 @@ TEST(BlockLayout, HasTheLeastHalo) {
   }
 }
 
-TEST(BlockLayout, MustHaveAsManyBlocksAsRanks) {
+TEST(BlockLayout, LayoutNeedsAsManyBlocksAsRanks) {
   EXPECT_NO_THROW(check_layout({4, 2}, 8, "ground"));
   EXPECT_THROW(check_layout({4, 3}, 8, "ground"), InputError);
 }

@@ -66,7 +66,7 @@ TEST(RemapControl, FastOrCompactedGroundTakesShorterIntervals) {
   EXPECT_EQ(f.remap.largest_speed(), 100.0);
 }
 
-TEST(RemapControl, AnIntervalEndsWhenContactMakesTheGroundFast) {
+TEST(RemapControl, FastGroundAtAContactEndsTheInterval) {
   Fixture f;
   f.remap.begin_interval(dt);
   f.remap.raise_largest_speed(0.06 * cell / dt);
@@ -77,7 +77,7 @@ TEST(RemapControl, AnIntervalEndsWhenContactMakesTheGroundFast) {
 }
 
 /// 16 ms are the time in which a wave of 40 m/s crosses 6.4 cells.
-TEST(RemapControl, ResidualMotionFallsWithTimeOrTravelHoweverManyIntervalsTheyHave) {
+TEST(RemapControl, ResidualMotionDecaysIndependentlyOfTheIntervals) {
   Fixture f;
   double kept = 1.0;
   for (const int steps : {1, 3, 12}) {

@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_terrain;
 
-TEST(SlideSurface, HasTwoSidesAndANormalThatPointsOut) {
+TEST(SlideSurface, SurfaceHasTwoSidesAndAnOutwardNormal) {
   const SlideSurface plane{SlidePlane{{1, 0, 0}, Vector3(0.6, 0, 0.8)}},
       cylinder{SlideCylinder{1, 2, 0.5}}, box{SlideBox{1, 2, 0.6, 0.4}};
   EXPECT_EQ(plane.side({0.9, 5, 0}), 0u);
@@ -57,7 +57,7 @@ struct TwoFields {
   double loss;  // of a plane of 5 x 4 nodes [J]
 };
 
-TEST(SlideContact, LetsSidesPart) {
+TEST(SlideContact, SidesSeparateFreely) {
   TwoFields parting({-1, 2, 0}, {1, 0, 0}, 0.5, Vector3::UnitX());
   EXPECT_EQ(parting.velocity(0), Vector3(-1, 2, 0));
   EXPECT_EQ(parting.velocity(1), Vector3(1, 0, 0));
@@ -75,7 +75,7 @@ TEST(SlideContact, StopsTheApproachAndSlowsTheSliding) {
   EXPECT_NEAR(sliding.loss, 20 * TwoFields::reduced * 1.0 * 2.0, 1e-12);
 }
 
-TEST(SlideContact, SticksWhereFrictionSuffices) {
+TEST(SlideContact, SidesStickBelowTheLimitOfFriction) {
   TwoFields sticking({1, 2, 0}, {-1, -1, 0}, 1.6, Vector3::UnitX());
   const Vector3 common(0.5, 1.25, 0);
   EXPECT_LT((sticking.velocity(0) - common).norm(), 1e-15);
@@ -84,7 +84,7 @@ TEST(SlideContact, SticksWhereFrictionSuffices) {
 }
 
 /// At a smooth floor an inclined surface slides along the floor; a rough floor leaves nothing.
-TEST(SlideContact, LeavesToWallsWhatTheyHold) {
+TEST(SlideContact, ContactDoesNothingAtNodesOfAWall) {
   const Vector3 inner(1, 0, 5), outer(-1, 0, -7), normal(0.6, 0, 0.8);
   TwoFields smooth(inner, outer, 0.0, normal, BoundaryKind::smooth);
   EXPECT_LT((smooth.velocity(0, 0) - Vector3(0.5, 0, 5)).norm(), 1e-15);

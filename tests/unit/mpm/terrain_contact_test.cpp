@@ -55,7 +55,7 @@ TEST(TerrainContact, ReadsItsKeys) {
 }
 
 /// Ground level with a plate's lower face is not touched by it, under the plate or beside its edge.
-TEST(TerrainContact, LevelPlateJustTouchesNothing) {
+TEST(TerrainContact, PlateAtTheSurfaceHasNoForce) {
   ContinuumTerrain ground = block();
   RigidPlate plate({PlateShape::circle, 0.11, 0.05, 4}, {0.003, 0.004, 1e-9});
   TerrainContact contact(plate, ground, ContactParameters{}, false, "foot");
@@ -187,7 +187,7 @@ struct SlidingPlate {
 
 /// The plate slides by 10 mm, rises, slides by 3 mm, comes back and slides by 2 mm: a particle that
 /// was no farther than its reach has slipped by 15 mm.
-TEST(TerrainContact, SlipOutlivesABounceAndEndsWithTheContact) {
+TEST(TerrainContact, SlipPersistsOverABounceAndEndsWithTheContact) {
   const auto mobilised_after_rising = [](double reaches) {
     SlidingPlate sliding;
     sliding.touch();
@@ -205,7 +205,7 @@ TEST(TerrainContact, SlipOutlivesABounceAndEndsWithTheContact) {
 
 /// Every second row of particles lies a spacing lower. It touches after 10 mm of slip of the other
 /// rows and begins with it.
-TEST(TerrainContact, AParticleThatTouchesLateBeginsWithTheSlipOfItsCell) {
+TEST(TerrainContact, NewContactStartsWithTheSlipOfItsCell) {
   constexpr double spacing = 2.0 * SlidingPlate::reach;
   SlidingPlate sliding;
   carve(*sliding.ground, [](const Vector3& x) {
@@ -221,7 +221,7 @@ TEST(TerrainContact, AParticleThatTouchesLateBeginsWithTheSlipOfItsCell) {
 }
 
 /// A script may remove a contact and define it once more, with another friction.
-TEST(TerrainContact, CanBeDefinedOnceMore) {
+TEST(TerrainContact, ContactIsRemovedAndDefinedAgain) {
   ContinuumTerrain ground = block();
   RigidPlate plate({PlateShape::square, 0.1, 0.05, 4}, {0, 0, -1e-4});
   double first = 0.0;
@@ -237,7 +237,7 @@ TEST(TerrainContact, CanBeDefinedOnceMore) {
 
 /// gap = height of the plate above the particles' faces: spring force k gap of every particle under
 /// it.
-TEST(TerrainContact, SpringsPushByTheirPenetration) {
+TEST(TerrainContact, ForceIsStiffnessTimesPenetration) {
   ContinuumTerrain ground = block();
   const double depth = 1e-4, stiffness = 1.6 * (1e6 * 0.8 / (1.2 * 0.6)) * 0.0125;  // 1.6 M V^(1/3)
   RigidPlate plate({PlateShape::square, 0.1, 0.05, 4}, {0, 0, -depth});
@@ -251,7 +251,7 @@ TEST(TerrainContact, SpringsPushByTheirPenetration) {
 }
 
 /// A rough plate over all of the ground, 0.2 m x 0.2 m, drags it with the shear limit.
-TEST(TerrainContact, RoughPlateDragsWithTheShearLimit) {
+TEST(TerrainContact, RoughPlateHasTheShearLimit) {
   SlidingPlate sliding;
   sliding.law.friction = std::numeric_limits<double>::infinity();
   sliding.law.slip_length = 0.0;
@@ -265,7 +265,7 @@ TEST(TerrainContact, RoughPlateDragsWithTheShearLimit) {
 
 /// Every second row of particles is lower, and bounces after all have slid. The others drag with
 /// the shear limit of the whole surface, 0.2 m x 0.2 m.
-TEST(TerrainContact, BouncingParticlesLeaveTheirShareOfTheShearLimitToTheOthers) {
+TEST(TerrainContact, BouncingParticlesPassTheirShearLimitToTheOthers) {
   SlidingPlate sliding;
   sliding.law.friction = std::numeric_limits<double>::infinity();
   sliding.law.slip_length = 0.0;
@@ -310,7 +310,7 @@ class TwoRibs : public Body {
 
 /// A particle that touches one rib beside a groove leaves it for another that is closer by more
 /// than a tenth of half its spacing, not for a lesser gain.
-TEST(TerrainContact, LeapsOverAGrooveForAGain) {
+TEST(TerrainContact, ParticleSwitchesFacetForAMinimumGain) {
   ContinuumTerrain ground = block();
   const double half = 0.00625, width = 6e-3;
   carve(ground, [&](const Vector3& x) { return (x - Vector3(half, half, -half)).norm() < 1e-6; });
@@ -329,7 +329,7 @@ TEST(TerrainContact, LeapsOverAGrooveForAGain) {
 }
 
 /// Half a model gives the whole plate's force, without sideways force or moment about x.
-TEST(TerrainContact, HalfAModelIsMirrored) {
+TEST(TerrainContact, HalfModelIsMirrored) {
   ContinuumTerrain whole = block(), half = block(0.0);
   RigidPlate one({PlateShape::square, 0.1, 0.05, 4}, {0.01, 0, -1e-4}),
       other({PlateShape::square, 0.1, 0.05, 4}, {0.01, 0, -1e-4});
@@ -347,7 +347,7 @@ TEST(TerrainContact, HalfAModelIsMirrored) {
       1e-9 * full.force().norm());
 }
 
-TEST(TerrainContact, RefusesWhatCannotBe) {
+TEST(TerrainContact, ImpossibleContactIsRefused) {
   ContinuumTerrain ground = block(0.0);
   RigidPlate aside({PlateShape::square, 0.05, 0.05, 4}, {0, 0.01, 0.01});
   EXPECT_THAT(error_of([&] { TerrainContact(aside, ground, ContactParameters{}, true, "foot"); }),

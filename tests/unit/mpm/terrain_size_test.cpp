@@ -22,7 +22,7 @@ TerrainParameters some_terrain() {
   return terrain;
 }
 
-TEST(TerrainSize, CellsAreCountedWithoutMakingThem) {
+TEST(TerrainSize, CellsAreCountedWithoutAGrid) {
   const AxisLayout layouts[] = {
       {0.0, 1.0, 0.1, 0.0, 1.0, 1.0},      // even
       {-2.0, 3.0, 0.05, -0.3, 0.4, 1.0},   // even outside too
@@ -33,7 +33,7 @@ TEST(TerrainSize, CellsAreCountedWithoutMakingThem) {
     EXPECT_NEAR(Axis::cell_count(layout), Axis(layout, "axis").cells(), 1.0);
 }
 
-TEST(TerrainSize, TheEstimateIsWhatTheTerrainHas) {
+TEST(TerrainSize, EstimateIsTheSizeOfTheTerrain) {
   const TerrainParameters parameters = some_terrain();
   const ContinuumTerrain terrain(parameters, Communicator());
   const TerrainSize size = size_of(parameters);
@@ -44,7 +44,7 @@ TEST(TerrainSize, TheEstimateIsWhatTheTerrainHas) {
       1.0, 1e-9);
 }
 
-TEST(TerrainSize, MoreThanTheMachineHasIsRefusedWithTheEstimate) {
+TEST(TerrainSize, TerrainLargerThanMemoryIsRefusedWithTheEstimate) {
   TerrainParameters parameters = some_terrain();
   parameters.z.upper = 1e12;
   parameters.z.fine_upper = 1e12;

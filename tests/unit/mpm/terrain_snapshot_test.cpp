@@ -15,7 +15,7 @@ using namespace testing_terrain;
 
 /// In the plane xz the principal stresses are (a + b)/2 +- sqrt((a - b)^2/4 + s^2), the first at
 /// the angle atan2(2 s, a - b)/2 from x.
-TEST(TerrainSnapshot, HasPrincipalStressesAndTheirAxes) {
+TEST(TerrainSnapshot, SnapshotHasPrincipalStressesAndAxes) {
   ContinuumTerrain ground(
       box(material_of(elastic(1e6, 0.2, 1000)), {0, 0, 0}, {0.2, 0.1, 0.1}, 0.05), Communicator());
   const double a = -3e3, b = -1e3, s = 2e3, across = -2e3;
@@ -39,7 +39,7 @@ TEST(TerrainSnapshot, HasPrincipalStressesAndTheirAxes) {
   }
 }
 
-TEST(TerrainSnapshot, HasThePlasticStrainOfLawsThatKeepIt) {
+TEST(TerrainSnapshot, SnapshotHasThePlasticStrain) {
   for (const std::string& law : {snow(), elastic(1e6, 0.2, 1000)}) {
     const auto material = material_of(law);
     const std::optional<std::size_t> kept = material->find_field("eps_dev_pl");

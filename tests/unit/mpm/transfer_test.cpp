@@ -214,7 +214,7 @@ TEST(Transfer, StoredColumnsHaveTheBitsOfTheWholeGrid) {
 
 /// On an axis of equal cells, N and G in closed form: those of unit cells inside, with G = N D^-1
 /// d; in the cells at both ends the spline of the end alone differs, and G = grad N (transfer.h).
-TEST(Transfer, WeightsOfEqualCellsAndOfThoseAtTheEnds) {
+TEST(Transfer, WeightsInEqualCellsAndAtTheEnds) {
   const double h = 0.125;
   Grid grid(Axis(even(-0.5, 0.5, h), "x"), Axis(even(0.0, 0.5, h), "y"),
             Axis(even(0.0, 1.0, h), "z"));
@@ -251,7 +251,7 @@ TEST(Transfer, WeightsOfEqualCellsAndOfThoseAtTheEnds) {
 
 /// 1 to 20 neighbouring particles in each of some cells: taken together, in the lanes of registers,
 /// they give and take what they do one by one.
-TEST(Transfer, ManyParticlesOfACellAreLikeOneByOne) {
+TEST(Transfer, BatchesOfACellEqualSingleParticles) {
   Cloud cloud(210);
   const double h = 0.1;  // cells of x in the fine part; those of y and z are no narrower than 0.08
   std::size_t p = 0;
@@ -304,7 +304,7 @@ TEST(Transfer, ManyParticlesOfACellAreLikeOneByOne) {
 
 /// Mass, linear and angular momentum of the nodes are those of the particles: sum over nodes of x_i
 /// x p_i equals the sum over particles of m (x x v + axial vector of C D), D = sum N_i d_i d_i^T.
-TEST(Transfer, ToTheGridKeepsMassAndMomenta) {
+TEST(Transfer, P2GKeepsMassAndMomenta) {
   Cloud cloud(2000);
   ASSERT_EQ(cloud.give_momentum(), 0u);
   double mass = 0.0, nodes_mass = 0.0;
@@ -384,7 +384,7 @@ TEST(Transfer, ResidualMotionHasNoMomentumAndNoAngularMomentum) {
 }
 
 /// The forces of any stress are in balance, and so are their moments.
-TEST(Transfer, ForcesOfStressHaveNoSum) {
+TEST(Transfer, StressForcesSumToZero) {
   Cloud cloud(2000);
   cloud.give_force();
   Vector3 force = Vector3::Zero(), moment = force;
@@ -402,7 +402,7 @@ TEST(Transfer, ForcesOfStressHaveNoSum) {
 
 /// The nodes' velocity field, linear in x, comes back as v and C on any knots, next to the walls
 /// too.
-TEST(Transfer, FromTheGridReadsLinearFieldsExactly) {
+TEST(Transfer, G2PReadsLinearFieldsExactly) {
   Cloud cloud(2000);
   Matrix3 L;
   L << 1.0, -2.0, 0.5, 0.3, -0.7, 2.0, -1.5, 0.2, 0.9;
@@ -509,7 +509,7 @@ TEST(Transfer, PointForceKeepsForceAndMoment) {
   EXPECT_LT((moment - point.cross(force)).norm(), 1e-14);
 }
 
-TEST(Transfer, CountsWhatIsOutsideAndLeavesItsBatchAlone) {
+TEST(Transfer, ParticleOutsideIsCountedAndItsBatchIsUnchanged) {
   for (const double bad : {1.5, -0.1, std::nan(""), 1e300}) {
     Cloud cloud(200);
     cloud.position[0][70] = bad;
@@ -525,7 +525,7 @@ TEST(Transfer, CountsWhatIsOutsideAndLeavesItsBatchAlone) {
 
 /// Without forces, particles to grid and back leave the nodes their mass and never make kinetic
 /// energy. Heavy particles: mass must not mix with velocity on the way.
-TEST(Transfer, KeepsNodalMassAndNeverMakesKineticEnergy) {
+TEST(Transfer, TransferKeepsNodalMassAndAddsNoKineticEnergy) {
   Cloud cloud(3000);
   for (double& volume : cloud.volume) volume *= 1e4;
   std::fill(cloud.affine.begin(), cloud.affine.end(), 0.0);

@@ -62,7 +62,7 @@ TEST(Trough, GroundHasTheMassOfItsVolumeAndTheCountOfTheEstimate) {
 
 /// -sigma_zz is the weight of all that lies above, of ground or of grains; compressed particles
 /// still fill the volume.
-TEST(Trough, EveryLevelCarriesWhatLiesAboveIt) {
+TEST(Trough, EveryLevelCarriesTheWeightAbove) {
   ContinuumTerrain ground(heavy_ground(), Communicator());
   double volume = 0.0;
   for (const ParticleGroup& group : ground.groups())
@@ -77,7 +77,7 @@ TEST(Trough, EveryLevelCarriesWhatLiesAboveIt) {
   EXPECT_NEAR(volume / (length * (width * depth - trough.width * trough.depth)), 1.0, 1e-12);
 }
 
-TEST(Trough, TheSheetLiesOnAllFaces) {
+TEST(Trough, SurfaceMeshCoversAllFaces) {
   for (const std::size_t every : {1, 2, 3, 5}) {
     TerrainParameters parameters = ground_with_trough();
     parameters.surface_mesh_every = every;
@@ -143,7 +143,7 @@ TEST(Trough, GroundUnderGrainsStaysAtRestAndCarriesThem) {
   EXPECT_NEAR(fine.base, 1.0, 1e-3);
 }
 
-TEST(Trough, ARunThatIsContinuedIsTheSame) {
+TEST(Trough, RestartContinuesBitwise) {
   const auto run = [](ContinuumTerrain& ground, int steps) {
     for (int n = 0; n < steps; ++n) {
       ground.surface().clear_forces();
@@ -161,7 +161,7 @@ TEST(Trough, ARunThatIsContinuedIsTheSame) {
   EXPECT_EQ(continued.surface().x, whole.surface().x);
 }
 
-TEST(Trough, RefusesWhatTheParticlesCannotHave) {
+TEST(Trough, ImpossibleTroughIsRefused) {
   struct Case {
     Trough shape;
     const char* said;

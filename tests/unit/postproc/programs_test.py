@@ -21,12 +21,12 @@ class FindProgramTest(unittest.TestCase):
             mock.patch.object(sys, "argv", [str(self.folder / "beside" / "bin" / "furrow-post")])
         )
 
-    def test_program_beside_the_command_comes_before_the_build_folder_of_the_tree(self) -> None:
+    def test_program_next_to_the_command_has_priority(self) -> None:
         with mock.patch.dict(os.environ):
             os.environ.pop("FURROW_BUILD", None)
             self.assertEqual(find_program("furrow-point"), self.folder / "beside/bin/furrow-point")
 
-    def test_named_build_folder_comes_first(self) -> None:
+    def test_named_build_folder_has_priority(self) -> None:
         with mock.patch.dict(os.environ, FURROW_BUILD=str(self.folder / "named")):
             self.assertEqual(find_program("furrow-point"), self.folder / "named/bin/furrow-point")
 

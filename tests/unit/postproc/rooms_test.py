@@ -52,12 +52,12 @@ class RoomsTest(unittest.TestCase):
                     found |= imported(module, node)
             self.imports[module] = found
 
-    def test_there_is_no_circle(self) -> None:
+    def test_rooms_have_no_cycle(self) -> None:
         order = list(TopologicalSorter(self.imports).static_order())
         self.assertEqual(len(order), len(self.imports))
         self.assertGreater(len(order), 40)
 
-    def test_rooms_import_one_way(self) -> None:
+    def test_rooms_import_lower_rooms_alone(self) -> None:
         for module, others in self.imports.items():
             for other in others:
                 mine, theirs = room(module), room(other)
@@ -76,11 +76,11 @@ class RoomsTest(unittest.TestCase):
             ]
             self.assertEqual(inner, [], module)
 
-    def test_a_file_name_occurs_once(self) -> None:
+    def test_file_names_are_unique(self) -> None:
         names = [path.name for path in modules().values()]
         self.assertEqual([name for name in names if names.count(name) > 1], [])
 
-    def test_programs_are_started_by_the_room_of_runs(self) -> None:
+    def test_room_of_runs_starts_all_programs(self) -> None:
         """And ffmpeg by the film."""
         starting = {
             module

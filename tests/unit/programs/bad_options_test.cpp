@@ -44,7 +44,7 @@ void expect_refusals(const std::string& program, const Cases& cases) {
 
 const std::string inputs = FURROW_SOURCE_DIR "/inputs/";
 
-TEST(BadOptions, OfFurrowTyre) {
+TEST(BadOptions, FurrowTyreRefusesFaultyOptions) {
   const Scratch scratch;
   write_text_file(scratch.path("taken"), "");
   const std::string tyre = inputs + "tyres/p235_75r15.yaml --mesh 4 36 ";
@@ -100,7 +100,7 @@ TEST(BadOptions, OfFurrowTyre) {
   expect_refusals(FURROW_TYRE, cases);
 }
 
-TEST(BadOptions, OfFurrowSidewall) {
+TEST(BadOptions, FurrowSidewallRefusesFaultyOptions) {
   const Scratch scratch;
   write_text_file(scratch.path("taken"), "");
   const std::string run = "run --no-plot " + inputs + "tyres/p235_75r15.yaml ";
@@ -116,7 +116,7 @@ TEST(BadOptions, OfFurrowSidewall) {
   expect_refusals("FURROW_CACHE=" + scratch.path("cache") + " " FURROW_SIDEWALL, cases);
 }
 
-TEST(BadOptions, OfFurrowPoint) {
+TEST(BadOptions, FurrowPointRefusesFaultyOptions) {
   const Scratch scratch;
   const std::string run = inputs + "points/mccormick_confined.yaml";
   const Case cases[] = {
@@ -139,7 +139,7 @@ TEST(BadOptions, OfFurrowPoint) {
   EXPECT_THAT(strained.text, HasSubstr("p.yaml: segment 1 comes to a logarithmic strain zz of 19"));
 }
 
-TEST(BadOptions, OfFurrowResistance) {
+TEST(BadOptions, FurrowResistanceRefusesFaultyOptions) {
   const Scratch scratch;
   {
     HistoryFile file = HistoryFile::create(scratch.path("history.h5"),

@@ -111,7 +111,7 @@ TEST_F(MeshCommand, PartsThatOverlapAreUnited) {
   EXPECT_NEAR(volume(), 1.0 + 0.5 * 0.25, 1e-6);
 }
 
-TEST_F(MeshCommand, ASolidInsideAnotherIsNoCavity) {
+TEST_F(MeshCommand, SolidInsideAnotherIsDropped) {
   const Surface outer = box(Vector3(0, 0, 0), Vector3(1, 1, 1)),
                 inner = box(Vector3(0.2, 0.2, 0.2), Vector3(0.8, 0.8, 0.8));
   EXPECT_THAT(repair(joined(outer, inner)), HasSubstr("dropped      1 solids inside others"));
@@ -121,7 +121,7 @@ TEST_F(MeshCommand, ASolidInsideAnotherIsNoCavity) {
 }
 
 /// Sheets through a solid cannot be united with it.
-TEST_F(MeshCommand, WhatNoRepairCuresIsWrapped) {
+TEST_F(MeshCommand, UnrepairableMeshIsWrapped) {
   std::vector<Facet> facets = disc();
   for (std::size_t n = 0; n < 8; ++n)  // sheets through the solid
     facets.push_back({Vector3(-0.1, 0, -0.1 + 0.02 * static_cast<double>(n)), Vector3(0.1, 0, 0),
@@ -167,7 +167,7 @@ TEST_F(MeshCommand, PlyAndDaeAreRead) {
   EXPECT_NEAR(volume(), 0.5e-9, 1e-14);
 }
 
-TEST_F(MeshCommand, ThePrintedLineHasUnitOriginAndAxis) {
+TEST_F(MeshCommand, PrintedLineHasUnitOriginAndAxis) {
   Surface drawn = surface_of(disc());
   drawn.x *= 1000.0;
   drawn.x.row(0).array() += 30.0;

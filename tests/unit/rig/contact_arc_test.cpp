@@ -26,7 +26,7 @@ struct Directions {
 
 // A pressure p0 cos(theta) over 40 degrees ahead and a third of it as shear, on a wheel that stands
 // askew, from points all over its width.
-TEST(ContactArc, FindsStressesAndSlipOfAnySetOfForces) {
+TEST(ContactArc, StressesAndSlipOfAnyForces) {
   for (const double yaw : {0.0, 0.3}) {
     RigidWheel wheel = make_wheel();
     wheel.place({1.0, -2.0, 0.2}, yaw, 0.1);
@@ -57,7 +57,7 @@ TEST(ContactArc, FindsStressesAndSlipOfAnySetOfForces) {
   }
 }
 
-TEST(ContactArc, LeavesOutWhatIsAboveTheAxle) {
+TEST(ContactArc, ForcesAboveTheAxleAreExcluded) {
   RigidWheel wheel = make_wheel();
   ContactArc arc(wheel, sectors);
   const Directions at(wheel);

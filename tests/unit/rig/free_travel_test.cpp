@@ -77,7 +77,7 @@ struct Hill {
 };
 
 // Rolling without slip: a = -g sin/(1 + I/(m r^2)); sliding: a = -(g sin -+ mu g cos).
-TEST(FreeTravel, OnAnInclinedPlaneAccelerationsAreThoseOfTheClosedForms) {
+TEST(FreeTravel, InclinedPlaneGivesTheClosedFormAccelerations) {
   const auto sine = [](double slope) { return std::sin(radians(slope)); };
   const auto cosine = [](double slope) { return std::cos(radians(slope)); };
   const double m = 6.0, rolling = 1.0 + inertia / (m * radius * radius);
@@ -110,7 +110,7 @@ TEST(FreeTravel, OnAnInclinedPlaneAccelerationsAreThoseOfTheClosedForms) {
 
 // Friction that is viscous below 1 mm/s: F = mu N v_slip/creep, so a drawbar load D is in
 // equilibrium at v = u - creep D/(mu N); the rig at that slip measures the pull D.
-TEST(FreeTravel, UnderADrawbarLoadTheWheelTravelsAtTheSlipThatPullsIt) {
+TEST(FreeTravel, DrawbarLoadSetsTheSlipOfItsPull) {
   const Floor floor = floor_of(0.5, 0.2);
   const History free =
       history_of("load_force 60 mode spin spin_rate 5 drawbar_load 12", floor, 3.0);
@@ -129,7 +129,7 @@ TEST(FreeTravel, UnderADrawbarLoadTheWheelTravelsAtTheSlipThatPullsIt) {
 }
 
 // A slope is a drawbar load: W sin(slope) under W cos(slope).
-TEST(FreeTravel, ASlopeAndADrawbarLoadAreTheSameForTheWheel) {
+TEST(FreeTravel, SlopeAndDrawbarLoadAreEquivalent) {
   const Floor floor = floor_of(0.5, 0.2);
   const double slope = radians(8.0), weight = 60.0;
   const History hill = history_of("load_force 60 mode spin spin_rate 5 slope 8", floor, 2.0);
@@ -142,7 +142,7 @@ TEST(FreeTravel, ASlopeAndADrawbarLoadAreTheSameForTheWheel) {
         << name;
 }
 
-TEST(FreeTravel, WhatGetsNowhereIsSaidAndNotAveraged) {
+TEST(FreeTravel, StalledWheelIsFlaggedAndExcludedFromMean) {
   struct Case {
     std::string line;
     double friction;
@@ -210,12 +210,12 @@ TEST(FreeTravel, VerdictsFollowSpeedsAndSinkage) {
             Travel::travels);
 }
 
-TEST(FreeTravel, ARigMadeAgainContinuesBitwise) {
+TEST(FreeTravel, RestartContinuesBitwise) {
   expect_continues_bitwise("load_mass 6 slope 5 mode torque torque 3" + free_rig, Floor(), 5000,
                            8000);
 }
 
-TEST(FreeTravel, RefusesWhatContradictsIt) {
+TEST(FreeTravel, ContradictingKeywordsAreRefused) {
   const std::string stages = " settle_time 0.2 accelerate_time 0.2 ground_level 0";
   const std::vector<std::pair<std::string, std::string>> table = {
       {"load_force 60 mode towed", "keyword 'speed' is missing with travel prescribed"},

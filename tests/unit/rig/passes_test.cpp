@@ -39,7 +39,7 @@ History history_of(RigidWheel& wheel, double end) {
   return history;
 }
 
-TEST(Passes, EachBeginsWhereTheFirstBeganAndIsAsLong) {
+TEST(Passes, EveryPassHasTheStartAndLengthOfTheFirst) {
   RigidWheel wheel = make_wheel(height);
   const History history = history_of(wheel, 2.85);
   const std::vector<double> time = history.column("time"), pass = history.column("pass"),
@@ -71,7 +71,7 @@ TEST(Passes, EachBeginsWhereTheFirstBeganAndIsAsLong) {
 }
 
 // On a rigid floor every pass has the sinkage and the resistance of the first.
-TEST(Passes, OnARigidFloorAreAlike) {
+TEST(Passes, PassesOnARigidFloorAreEqual) {
   RigidWheel wheel = make_wheel(height);
   const History history = history_of(wheel, 2.85);
   EXPECT_EQ(count_passes(history), 3);
@@ -84,12 +84,12 @@ TEST(Passes, OnARigidFloorAreAlike) {
   }
 }
 
-TEST(Passes, ARigMadeAgainOnTheWayBackContinuesBitwise) {
+TEST(Passes, RestartOnTheWayBackContinuesBitwise) {
   for (const long from : {8000L, 9000L, 10000L})  // lifted, brought back, lowered
     expect_continues_bitwise(three, soft_floor(), from, from + 3000);
 }
 
-TEST(Passes, RefusesWhatMakesNoSense) {
+TEST(Passes, ContradictingKeywordsAreRefused) {
   const auto refusal_of = [](const std::string& key, const std::string& value) {
     std::vector<std::string> words = test::words(three);
     const auto found = std::find(words.begin(), words.end(), key);

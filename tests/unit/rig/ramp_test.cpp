@@ -56,7 +56,7 @@ TEST(Ramp, MeansAgreeWithTheClosedFormAlsoAcrossTheEnds) {
   EXPECT_NEAR(ramp.mean(2.5, 2.5 + 1e-9), 0.5, 1e-9);
 }
 
-TEST(Ramp, ADurationOfZeroIsAStep) {
+TEST(Ramp, ZeroDurationIsAStep) {
   const Ramp step{1.0, 0.0};
   EXPECT_EQ(step.value(0.999), 0.0);
   EXPECT_EQ(step.value(1.0), 1.0);

@@ -16,7 +16,7 @@
 namespace furrow::resistance_parts_test {
 namespace {
 
-TEST(ResistanceParts, OfASlidingWheelOnARigidPlaneAreItsFriction) {
+TEST(ResistanceParts, SlidingWheelOnARigidPlaneLosesItsEnergyToFriction) {
   const double dt = 1e-4, mu = 0.5, load = 60.0, v = 1.0;
   for (const double slip : {0.3, -0.5, -1.0}) {
     SCOPED_TRACE(slip);

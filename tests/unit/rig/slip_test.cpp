@@ -17,7 +17,7 @@ constexpr auto larger = SlipDefinition::larger_speed, by_rim = SlipDefinition::r
                by_vehicle = SlipDefinition::vehicle_speed;
 
 // The rim speeds of the CMU tests at 10 mm/s and the slips printed with them.
-TEST(Slip, ByTheLargerSpeedGivesTheSlipsOfTheSandTests) {
+TEST(Slip, DefinitionByTheLargerSpeedGivesTheSandTests) {
   const std::vector<std::pair<double, double>> rim_and_slip{
       {0, -1.0}, {3, -0.7}, {5, -0.5}, {8, -0.2}, {10, 0.0}, {20, 0.5}, {40, 0.75}, {100, 0.9}};
   for (const auto& [rim, expected] : rim_and_slip) {
@@ -26,7 +26,7 @@ TEST(Slip, ByTheLargerSpeedGivesTheSlipsOfTheSandTests) {
   }
 }
 
-TEST(Slip, ByRimAndByVehicleSpeedAreTheTwoBranches) {
+TEST(Slip, RimAndVehicleSpeedAreTheTwoBranches) {
   EXPECT_DOUBLE_EQ(slip(by_vehicle, 3.0, 2.0), 0.5);  // [Shoop2001], eq. 28
   EXPECT_DOUBLE_EQ(slip(by_rim, 3.0, 2.0), 1.0 / 3.0);
   EXPECT_DOUBLE_EQ(slip(larger, 3.0, 2.0), 1.0 / 3.0);
@@ -40,14 +40,14 @@ double converted(double value, SlipDefinition from, SlipDefinition to) {
   return slip(to, rim_speed(from, value, 1.0), 1.0);
 }
 
-TEST(Slip, ConversionsGoRoundWithoutLoss) {
+TEST(Slip, ConversionsAreInverse) {
   EXPECT_DOUBLE_EQ(converted(0.2, by_rim, by_vehicle), 0.25);  // i = s/(1 - s)
   for (const double s : {-0.9, -0.3, 0.0, 0.3, 0.9})
     for (const auto other : {by_rim, by_vehicle})
       EXPECT_NEAR(converted(converted(s, larger, other), other, larger), s, 1e-14);
 }
 
-TEST(Slip, SingularCasesAreRefused) {
+TEST(Slip, UndefinedSlipIsRefused) {
   EXPECT_THAT(error_of([] { slip(larger, 0.0, 0.0); }),
               HasSubstr("not defined at a rim speed of 0 m/s and a vehicle speed of 0 m/s"));
   EXPECT_THAT(error_of([] { slip(by_rim, 0.0, 1.0); }),
@@ -67,7 +67,7 @@ TEST(Slip, SingularCasesAreRefused) {
               HasSubstr("is not defined at a rim speed of 0"));
 }
 
-TEST(Slip, WordsNameTheDefinitions) {
+TEST(Slip, NamesSelectTheDefinitions) {
   for (const auto definition : {larger, by_rim, by_vehicle})
     EXPECT_EQ(slip_definition(slip_definition_words()[static_cast<std::size_t>(definition)]),
               definition);

@@ -58,7 +58,7 @@ std::pair<double, double> lowered(double gap, const std::string& more = "") {
   return {largest, wheel.centre().z()};
 }
 
-TEST(WheelRig, HeightOfTheStartDoesNotChangeTheRest) {
+TEST(WheelRig, InitialHeightDoesNotChangeTheSettledHeight) {
   const double rest = lowered(0.0).second;
   for (const double gap : {1e-5, 1e-3, 0.02, 0.1, 0.5}) {
     const auto [largest, height] = lowered(gap);
@@ -87,7 +87,7 @@ TEST(WheelRig, WheelIsLoweredToGroundOfAnotherLevel) {
   }
 }
 
-TEST(WheelRig, ChannelsAndRowsAgree) {
+TEST(WheelRig, RowHasOneValuePerChannel) {
   RigidWheel wheel = make_wheel();
   const WheelRig rig = make_rig(wheel, "load_force 60 speed 1 mode towed");
   EXPECT_EQ(rig.measure(0.0).size(), WheelRig::channels().size());
@@ -137,7 +137,7 @@ TEST(WheelRig, PhasesFollowTheClock) {
   EXPECT_DOUBLE_EQ(rig.cruise_start(), 1.4);
 }
 
-TEST(WheelRig, TheLoadIsAMassOrAForceWheelIncluded) {
+TEST(WheelRig, LoadIsAMassOrAForceWithTheWheel) {
   RigidWheel wheel = make_wheel();
   EXPECT_DOUBLE_EQ(make_rig(wheel, "load_mass 5 speed 1 mode towed").load(), 5.0 * 9.80665);
   EXPECT_DOUBLE_EQ(make_rig(wheel, "load_mass 5 gravity 1.62 speed 1 mode towed").load(),
@@ -147,7 +147,7 @@ TEST(WheelRig, TheLoadIsAMassOrAForceWheelIncluded) {
 
 // Without ground: the impulse of the ramped load is momentum, z'(t) = -(W/m) times the integral of
 // the ramp.
-TEST(WheelRig, WithoutGroundTheLoadFallsFreely) {
+TEST(WheelRig, LoadFallsFreelyWithoutGround) {
   RigidWheel wheel = make_wheel();
   WheelRig rig = make_rig(
       wheel, "load_force 60 speed 0 mode towed load_ramp_time 0.1 start 0.05 release in_air");
@@ -158,14 +158,14 @@ TEST(WheelRig, WithoutGroundTheLoadFallsFreely) {
   EXPECT_LT(wheel.velocity().z(), -1.0);
 }
 
-TEST(WheelRig, UntilItsStartTheWheelIsHeld) {
+TEST(WheelRig, WheelIsHeldUntilTheStart) {
   RigidWheel wheel = make_wheel();
   WheelRig rig = make_rig(wheel, "load_force 60 speed 1 mode towed start 0.5");
   run(rig, wheel, 0.5, 1e-3, nullptr,
       [](const std::vector<double>& row) { ASSERT_EQ(row[channel("z")], 0.2); });
 }
 
-TEST(WheelRig, ThePrescribedSinkageIsReachedAndKept) {
+TEST(WheelRig, PrescribedSinkageIsReachedAndKept) {
   RigidWheel wheel = make_wheel(0.25);
   WheelRig rig = make_rig(wheel, "sinkage 0.03 speed 1 mode towed ground_level 0.02");
   double last = -1.0;
@@ -211,7 +211,7 @@ TEST(WheelRig, SlipDefinitionsSetTheSameMotionByDifferentNumbers) {
 }
 
 // No ground: alpha = T/I, so omega = T/I times the integral of the ramp.
-TEST(WheelRig, ATorqueSpinsTheWheelUpByItsInertia) {
+TEST(WheelRig, SpinAccelerationIsTorqueOverInertia) {
   RigidWheel wheel = make_wheel();
   WheelRig rig = make_rig(wheel, "sinkage 0 speed 0 mode torque torque 0.3");
   const Ramp ramp{0.2, 0.2};
@@ -221,7 +221,7 @@ TEST(WheelRig, ATorqueSpinsTheWheelUpByItsInertia) {
   EXPECT_NEAR(wheel.rate(Coordinate::spin), 1.5, 5e-4);
 }
 
-TEST(WheelRig, OnAFloorTheWheelCarriesItsLoad) {
+TEST(WheelRig, WheelOnAFloorCarriesItsLoad) {
   RigidWheel wheel = make_wheel(0.2005);
   const Floor floor;
   WheelRig rig = make_rig(wheel, "load_force 60 speed 0 mode towed damping 600");
@@ -238,7 +238,7 @@ TEST(WheelRig, OnAFloorTheWheelCarriesItsLoad) {
 
 // No axle torque: in steady rolling the moment about the axle, and so the friction, vanishes; the
 // wheel rolls at its own speed.
-TEST(WheelRig, ATowedWheelRollsFreelyOnAFrictionalFloor) {
+TEST(WheelRig, TowedWheelRollsFreelyOnAFrictionalFloor) {
   RigidWheel wheel = make_wheel(0.2003, 160);
   const Floor floor;
   WheelRig rig = make_rig(wheel, "load_force 60 speed 1 mode towed damping 600");
@@ -255,7 +255,7 @@ TEST(WheelRig, ATowedWheelRollsFreelyOnAFrictionalFloor) {
 
 // Coulomb: a wheel that slides over all of its contact pulls mu N, against the sliding; its drive
 // supplies mu N r.
-TEST(WheelRig, ASlidingWheelPullsItsFrictionForce) {
+TEST(WheelRig, SlidingWheelHasThePullOfFriction) {
   for (const double slip : {-1.0, 0.5}) {
     RigidWheel wheel = make_wheel(0.2003);
     const Floor floor;
@@ -271,7 +271,7 @@ TEST(WheelRig, ASlidingWheelPullsItsFrictionForce) {
 }
 
 // In steady driving the pull times the radius is the torque.
-TEST(WheelRig, ADrivenWheelTurnsItsTorqueIntoPull) {
+TEST(WheelRig, PullOfADrivenWheelIsTorqueOverRadius) {
   RigidWheel wheel = make_wheel(0.2003, 160);
   const Floor floor;
   WheelRig rig = make_rig(wheel, "load_force 60 speed 1 mode torque torque 2 damping 600");
@@ -283,7 +283,7 @@ TEST(WheelRig, ADrivenWheelTurnsItsTorqueIntoPull) {
   EXPECT_GT(mean.of("slip"), 0.0);
 }
 
-TEST(WheelRig, TheEnergyBalanceClosesOverAWholeRun) {
+TEST(WheelRig, EnergyBalanceClosesOverAWholeRun) {
   RigidWheel wheel = make_wheel(0.2003, 160);
   const Floor floor;
   WheelRig rig =
@@ -300,12 +300,12 @@ TEST(WheelRig, TheEnergyBalanceClosesOverAWholeRun) {
               rim * std::sin(heading) / (rim * std::cos(heading) - 1.0), 0.02);
 }
 
-TEST(WheelRig, ARigMadeAgainContinuesBitwise) {
+TEST(WheelRig, RestartContinuesBitwise) {
   expect_continues_bitwise("load_mass 6 speed 1 mode towed damping 100 slip_angle 10" + stages,
                            Floor(), 3000, 5000);
 }
 
-TEST(Course, IsLinearBetweenItsPointsAndConstantOutside) {
+TEST(Course, CourseIsLinearBetweenItsPointsAndConstantOutside) {
   const Course course({{1.0, 10.0}, {3.0, 20.0}, {4.0, 0.0}});
   EXPECT_EQ(course.value(0.0), 10.0);
   EXPECT_EQ(course.value(1.0), 10.0);
@@ -336,7 +336,7 @@ TEST(WheelRig, TargetsFollowTheirRampsFromTheStartOfTheCruise) {
   EXPECT_NEAR(rig.target_rim_speed(), 0.8 * std::cos(radians(25.0)) / 0.4, 1e-12);
 }
 
-TEST(WheelRig, TheSpinRateFollowsItsRampWithTheAxleFree) {
+TEST(WheelRig, SpinRateFollowsItsRampWithTheAxleFree) {
   RigidWheel wheel = make_wheel();
   WheelRig rig = make_rig(wheel, "load_force 60 travel free mode spin spin_rate_ramp 0 2 0.2 6");
   run(rig, wheel, 0.5, 1e-4, nullptr, [](const std::vector<double>&) {});
@@ -361,7 +361,7 @@ TEST(WheelRig, RadiusAndSpeedOfSlipSetTheSpinAndTheRecordedSlip) {
   EXPECT_NEAR(spin_of("slip_radius effective effective_radius 0.19"), forward / 0.5 / 0.19, 1e-12);
 }
 
-TEST(WheelRig, TheTipRadiusIncludesGrousersAndTheMeaningOfSlipStatesIt) {
+TEST(WheelRig, TipRadiusIncludesGrousers) {
   RigidWheelParameters parameters = make_wheel().parameters();
   parameters.geometry.grousers = {12, 0.02, 0.01, 0.0};
   RigidWheel wheel(parameters);
@@ -376,7 +376,7 @@ TEST(WheelRig, TheTipRadiusIncludesGrousersAndTheMeaningOfSlipStatesIt) {
 }
 
 // Coulomb friction opposes the travel, for any heading of a locked wheel.
-TEST(WheelRig, TractiveAndLateralForceAreThoseOfTheTravelInTheWheelFrame) {
+TEST(WheelRig, TractiveAndLateralForceFollowTheWheelFrame) {
   RigidWheel wheel = make_wheel(0.2003);
   const Floor floor;
   WheelRig rig =
@@ -392,7 +392,7 @@ TEST(WheelRig, TractiveAndLateralForceAreThoseOfTheTravelInTheWheelFrame) {
 }
 
 // A side slope without friction: the axle and what it drags slide down to the right, y'' = -g sin.
-TEST(WheelRig, OnASideSlopeAFreeWheelSlidesDownhill) {
+TEST(WheelRig, FreeWheelOnASideSlopeSlidesDownhill) {
   RigidWheel wheel = make_wheel(0.2003);
   Floor floor;
   floor.friction = 0.0;
@@ -408,7 +408,7 @@ TEST(WheelRig, OnASideSlopeAFreeWheelSlidesDownhill) {
 }
 
 // With friction the side force of the ground carries m g sin, and the load is m g cos.
-TEST(WheelRig, OnASideSlopeTheSideForceIsThatOfTheWeight) {
+TEST(WheelRig, SideForceOnASideSlopeIsThatOfTheWeight) {
   for (const double slope : {10.0, -10.0}) {
     RigidWheel wheel = make_wheel(0.2003);
     const Floor floor;
@@ -425,7 +425,7 @@ TEST(WheelRig, OnASideSlopeTheSideForceIsThatOfTheWeight) {
   }
 }
 
-TEST(WheelRig, ARigWithRampsContinuesBitwise) {
+TEST(WheelRig, RestartWithRampsContinuesBitwise) {
   const std::string line =
       "load_force_ramp 0 60 0.3 90 speed 1 mode slip slip_ramp 0 0 0.3 0.4 slip_angle_ramp 0 0 0.3 "
       "10 damping 100 side_slope 5 lateral free";
@@ -433,7 +433,7 @@ TEST(WheelRig, ARigWithRampsContinuesBitwise) {
 }
 
 // The settled wheel carries the whole load, and the spring the sprung mass of 4 kg.
-TEST(WheelRig, ASuspensionCarriesTheSprungMass) {
+TEST(WheelRig, SuspensionCarriesTheSprungMass) {
   RigidWheel wheel = make_wheel(0.2003);
   const Floor floor;
   WheelRig rig = make_rig(wheel,
@@ -448,13 +448,13 @@ TEST(WheelRig, ASuspensionCarriesTheSprungMass) {
               1e-8);
 }
 
-TEST(WheelRig, ASuspendedRigContinuesBitwise) {
+TEST(WheelRig, RestartWithSuspensionContinuesBitwise) {
   const std::string line =
       "load_mass 7 speed 1 mode towed suspension_stiffness 2000 suspension_damping 20";
   expect_continues_bitwise(line + stages, Floor(), 2000, 3000);
 }
 
-TEST(WheelRig, ASuspensionNeedsASprungMassAndAShortStep) {
+TEST(WheelRig, SuspensionNeedsASprungMassAndAShortStep) {
   EXPECT_THAT(refusal_of("load_mass 3 speed 1 mode towed suspension_stiffness 1e3"),
               HasSubstr("keyword 'suspension_stiffness' is given, and the load "
                         "is 3 kg; allowed: a load above 3 kg"));

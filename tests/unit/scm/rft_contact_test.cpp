@@ -71,7 +71,7 @@ RigidPlate blade(const Vector3& size, double z) {
   return {{PlateShape::square, size.y(), size.z(), 2}, box, Vector3(0.0, 0.0, z)};
 }
 
-TEST(RftContact, LevelPlateCarriesInProportionToItsDepth) {
+TEST(RftContact, ForceOfALevelPlateIsProportionalToDepth) {
   Pushing pushing(square(0.2, 0.0), 0.4);
   for (int step = 1; step <= 8; ++step) {
     const Vector3 force = pushing.move(Vector3(0.0, 0.0, -0.02));
@@ -101,7 +101,7 @@ TEST(RftContact, UprightBladeHasTheForceAndTheMomentOfItsTriangleOfPressure) {
   EXPECT_NEAR(surface.total_moment(Vector3::Zero()).z(), 0.0, 1e-9 * upright);
 }
 
-TEST(RftContact, NodalForcesAddUpToThatOfTheContact) {
+TEST(RftContact, NodalForcesSumToTheContactForce) {
   Pushing pushing(blade(Vector3(0.05, 0.3, 0.2), -0.1), 0.5);
   pushing.plate.prescribe(Vector3(0.01, 0.02, -0.01), 0.3);
   pushing.plate.advance(0.1);
@@ -111,7 +111,7 @@ TEST(RftContact, NodalForcesAddUpToThatOfTheContact) {
   EXPECT_NEAR((pushing.plate.surface().total_force() - force).norm(), 0.0, 1e-12 * force.norm());
 }
 
-TEST(RftContact, ForceTurnsWithTheMotion) {
+TEST(RftContact, ForceRotatesWithTheMotion) {
   Pushing along_x(blade(Vector3(0.1, 0.1, 0.2), -0.1), 0.3),
       along_y(blade(Vector3(0.1, 0.1, 0.2), -0.1), 0.3);
   along_x.move(Vector3::Zero());
@@ -186,7 +186,7 @@ TEST(RftContact, ReversalReleasesOverTheSlipLengthAndDissipates) {
 }
 
 /// Sand gives back F K (1 - ln 2) at most (theory: rft, eq. 4), and cycles take work.
-TEST(RftContact, SandGivesBackALimitedWorkAndCyclesDissipate) {
+TEST(RftContact, ReversedSandReturnsLimitedWorkAndCyclesDissipate) {
   Pushing pushing(square(0.2, 0.0), 0.0);
   Vector3 force = Vector3::Zero();
   for (int step = 0; step < 50; ++step) force = pushing.move(Vector3(0.0, 0.0, -4e-4));
@@ -267,14 +267,14 @@ TEST(RftContact, WheelWithGrousersConvergesAsItsFacesBecomeSmaller) {
   EXPECT_NEAR(loads[1].torque, loads[2].torque, 0.01 * std::abs(loads[2].torque));
 }
 
-TEST(RftContact, DrivenWheelPullsMoreAtMoreSlipAndABrakedOneLess) {
+TEST(RftContact, PullGrowsWithSlip) {
   const double braked = rolling(60, -0.5, 0.4).force.x(), towed = rolling(60, 0.0, 0.4).force.x(),
                driven = rolling(60, 0.3, 0.4).force.x();
   EXPECT_LT(braked, towed);
   EXPECT_LT(towed, driven);
 }
 
-TEST(RftContact, DepthIsThatBelowAnUnevenField) {
+TEST(RftContact, DepthIsMeasuredFromTheUnevenField) {
   HeightField field({1.0, 0.6, Vector2(0.1, 0.0), 0.0, 0.05});
   const auto plane = [](const Vector2& place) { return 0.1 * place.x() - 0.2 * place.y() - 0.3; };
   for (std::size_t cell = 0; cell < field.cells(); ++cell)

@@ -65,7 +65,7 @@ TEST(RftLaw, LevelPlateAndUprightPlateHaveTheValuesOfThePaper) {
   EXPECT_NEAR(total(rft_stress(ahead, ahead, rough)).x(), -0.192, 5e-4);
 }
 
-TEST(RftLaw, VectorsGiveWhatTheAnglesOfThePaperGive) {
+TEST(RftLaw, VectorFormEqualsTheAnglesOfThePaper) {
   int compared = 0;
   for (double beta = -1.5; beta < 1.55; beta += 0.25)
     for (double psi = -1.5; psi < 1.55; psi += 0.5)
@@ -84,7 +84,7 @@ TEST(RftLaw, VectorsGiveWhatTheAnglesOfThePaperGive) {
   EXPECT_GT(compared, 500);
 }
 
-TEST(RftLaw, TurnsWithTheFaceAboutTheVerticalAndIsItsMirrorImage) {
+TEST(RftLaw, StressRotatesAboutTheVerticalAndMirrors) {
   Faces faces;
   for (int sample = 0; sample < 1000; ++sample) {
     const auto [n, v] = faces.next();
@@ -97,7 +97,7 @@ TEST(RftLaw, TurnsWithTheFaceAboutTheVerticalAndIsItsMirrorImage) {
   }
 }
 
-TEST(RftLaw, NeverDrivesNeverPullsAndObeysFriction) {
+TEST(RftLaw, StressDissipatesPushesAndObeysFriction) {
   Faces faces;
   for (int sample = 0; sample < 10000; ++sample) {
     const auto [n, v] = faces.next();
@@ -114,7 +114,7 @@ TEST(RftLaw, NeverDrivesNeverPullsAndObeysFriction) {
   }
 }
 
-TEST(RftLaw, UprightFacesDoNotDependOnRoundOff) {
+TEST(RftLaw, StressOnUprightFacesIsInsensitiveToRounding) {
   const Vector3 ahead = Vector3::UnitX();
   const Vector3 expected = total(rft_stress(ahead, ahead, 0.5));
   for (const double error : {-1e-16, 1e-16})
@@ -142,7 +142,7 @@ Vector3 summed_moments(const Vector3& depth, int parts) {
   return sum / (parts * parts);
 }
 
-TEST(RftLaw, MomentsOfTheDepthAreThoseOfTheSubmergedPart) {
+TEST(RftLaw, DepthIntegralsCoverTheSubmergedPartAlone) {
   for (const Vector3& depth :
        {Vector3(0.3, 0.1, 0.2), Vector3(0.3, -0.1, -0.2), Vector3(-0.3, 0.1, 0.2),
         Vector3(0.1, 0.2, -0.05), Vector3(-0.2, 0.3, -0.4), Vector3(0.0, 0.1, 0.2),

@@ -57,7 +57,7 @@ struct Pressing {
 
 /// Each half of a plate over two soils carries what it would carry on its soil alone, with the
 /// width of the whole plate.
-TEST(ScmPlate, TwoSoilsSideBySideCarryTheirParts) {
+TEST(ScmPlate, TwoAdjacentSoilsCarryTheirShares) {
   Soil firm = loam(), soft = loam();
   soft.k_phi = 2e5;
   soft.n = 1.0;
@@ -103,7 +103,7 @@ TEST(ScmPlate, PressureIsBekkersAndUnloadingIsElastic) {
   EXPECT_NEAR(pressing.move(-0.001), pressing.bekker(0.041), 1e-8 * loaded);
 }
 
-TEST(ScmPlate, WidthOfACircleIsItsRadius) {
+TEST(ScmPlate, WidthOfACircularPlateIsItsRadius) {
   Pressing pressing(loam(), PlateShape::circle);
   pressing.move(-0.01);
   // a regular polygon of 60 sides with the area of the circle
@@ -111,7 +111,7 @@ TEST(ScmPlate, WidthOfACircleIsItsRadius) {
   EXPECT_NEAR(pressing.contact.step().area, 0.25 * pi * side * side, 1e-12);
 }
 
-TEST(ScmPlate, HullOfAStripHasItsPerimeter) {
+TEST(ScmPlate, ConvexHullOfAStripHasItsPerimeter) {
   std::vector<Vector2> hull, points = {{0.0, 0.0}, {1.0, 0.0}, {0.4, 0.05}, {1.0, 0.1}, {0.0, 0.1}};
   const double perimeter = hull_perimeter(points, hull);
   EXPECT_NEAR(perimeter, 2.2, 1e-14);
@@ -188,7 +188,7 @@ TEST(ScmPlate, PartOfTheVolumeStaysCompacted) {
   EXPECT_NEAR(pressing.field.volume_above(), 0.3 * pressing.field.volume_below(), 1e-13);
 }
 
-TEST(ScmPlate, ContinuesFromACheckpointToTheLastBit) {
+TEST(ScmPlate, RestartContinuesBitwise) {
   Soil soil = loam();
   soil.flow = 0.5;
   Pressing pressing(soil), continued(soil);
@@ -216,7 +216,7 @@ TEST(ScmPlate, BodyBeyondTheFieldIsRefused) {
   EXPECT_THROW(contact.apply(1.0), StateError);
 }
 
-TEST(ScmPlate, LineOfASoilHasPriorityOverItsCard) {
+TEST(ScmPlate, ScriptHasPriorityOverTheSoilCard) {
   Schema schema("soil");
   declare_soil(schema);
   const std::vector<std::string> words = {"k_phi", "1e6", "phi", "30", "K", "0.01"};
@@ -228,20 +228,20 @@ TEST(ScmPlate, LineOfASoilHasPriorityOverItsCard) {
   EXPECT_THROW(soil_from(schema.read(words), {{"n", 1.1}}), InputError);
 }
 
-TEST(ScmPlate, ValuesInOtherUnitsAreRefusedOrDoubted) {
+TEST(ScmPlate, ValuesInOtherUnitsAreRefusedOrWarnedOf) {
   Schema schema("soil");
   declare_soil(schema);
   const std::vector<std::string> none;
   const std::map<std::string, double> sand = {{"k_c", 15600.0}, {"k_phi", 2407400.0},
                                               {"n", 1.1},       {"c", 250.0},
                                               {"phi", 31.9},    {"K", 0.0114}};
-  EXPECT_TRUE(doubts(soil_from(schema.read(none), sand)).empty());
-  const auto doubts_with = [&](const std::vector<std::string>& words) {
-    return doubts(soil_from(schema.read(words), sand)).size();
+  EXPECT_TRUE(plausibility_warnings(soil_from(schema.read(none), sand)).empty());
+  const auto warnings_with = [&](const std::vector<std::string>& words) {
+    return plausibility_warnings(soil_from(schema.read(words), sand)).size();
   };
-  EXPECT_EQ(doubts_with({"c", "0.25"}), 1u);
-  EXPECT_EQ(doubts_with({"c", "2e-16"}), 0u);  // result of a fit for 0
-  EXPECT_EQ(doubts_with({"K", "4.3e-5"}), 1u);
+  EXPECT_EQ(warnings_with({"c", "0.25"}), 1u);
+  EXPECT_EQ(warnings_with({"c", "2e-16"}), 0u);  // result of a fit for 0
+  EXPECT_EQ(warnings_with({"K", "4.3e-5"}), 1u);
   for (const auto& [key, value] : std::map<std::string, double>{
            {"k_phi", 2407.4}, {"phi", 0.557}, {"K", 11.4}, {"c", 2.5e6}, {"stiffness", 1e5}}) {
     auto other = sand;
@@ -263,7 +263,7 @@ TEST(ScmPlate, ValuesInOtherUnitsAreRefusedOrDoubted) {
                                 {"K", 0.01}});
 }
 
-TEST(ScmPlate, FieldsThatCannotBeAreRefused) {
+TEST(ScmPlate, ImpossibleFieldsAreRefused) {
   EXPECT_THROW(HeightField({0.6, 0.1, Vector2::Zero(), 0.0, 0.2}), InputError);
   EXPECT_THROW(HeightField({0.6, -0.6, Vector2::Zero(), 0.0, 0.02}), InputError);
   EXPECT_THROW(HeightField({6e3, 6e3, Vector2::Zero(), 0.0, 0.02}), InputError);

@@ -204,7 +204,7 @@ TEST(ScmWheel, SecondPassIsShallower) {
 }
 
 /// Upright sides have no pressure. With any camber the lower side does: its force is reported.
-TEST(ScmWheel, ForceOfSteepFacesIsThatAlongTheAxle) {
+TEST(ScmWheel, SteepFacesGiveTheForceAlongTheAxle) {
   const auto after = [](double camber) {
     Rolling rolling(without_shear(), 0.01, 0.0, 180);
     rolling.wheel.place(rolling.wheel.centre(), 0.0, camber);

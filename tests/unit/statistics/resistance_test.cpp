@@ -67,7 +67,7 @@ struct SyntheticRun {
   }
 };
 
-TEST(Resistance, FindsItsChannelsInTheRecordOfTheRig) {
+TEST(Resistance, ChannelsOfTheRigAreFound) {
   const History record(WheelRig::channels()), synthetic = SyntheticRun().history();
   for (const Channel& channel : synthetic.channels()) {
     // throws for a name that the rig does not know
@@ -76,7 +76,7 @@ TEST(Resistance, FindsItsChannelsInTheRecordOfTheRig) {
   }
 }
 
-TEST(Resistance, IsTheRatioOfTheMeansWithItsError) {
+TEST(Resistance, CoefficientIsTheRatioOfMeansWithItsError) {
   const Resistance result = measure_resistance(SyntheticRun().history());
   EXPECT_TRUE(result.steady);
   EXPECT_THAT(result.reasons, IsEmpty());
@@ -93,7 +93,7 @@ TEST(Resistance, IsTheRatioOfTheMeansWithItsError) {
 
 // From the rig to the figure: a locked wheel dragged over a floor of friction mu has the resistance
 // coefficient mu.
-TEST(Resistance, OfALockedWheelIsTheFriction) {
+TEST(Resistance, CoefficientOfALockedWheelIsTheFriction) {
   RigidWheel wheel = make_wheel(0.2003);
   const Floor floor;
   WheelRig rig(WheelRig::schema().read(std::vector<std::string>{
@@ -115,7 +115,7 @@ TEST(Resistance, OfALockedWheelIsTheFriction) {
 // The noise that both forces share does not enter their ratio: its error is that of the own noise
 // alone, over the mean load. own: deviation 0.3/sqrt(1 - 0.81), inefficiency (1 + 0.9)/(1 - 0.9)
 // = 19.
-TEST(Resistance, ErrorOfTheRatioIsThatOfItsScatterOverManyRuns) {
+TEST(Resistance, ErrorOfTheRatioIsItsScatterOverManyRuns) {
   double squares = 0.0, errors = 0.0, expected = 0.0;
   const int runs = 200;
   for (int run = 0; run < runs; ++run) {
@@ -133,7 +133,7 @@ TEST(Resistance, ErrorOfTheRatioIsThatOfItsScatterOverManyRuns) {
 }
 
 // A tyre has three depths, a rigid wheel one; a wheel with an axle torque is driven.
-TEST(Resistance, ReportsTheDepthsOfATyreAndWhetherTheWheelIsDriven) {
+TEST(Resistance, DepthsOfATyreAndTheDriveAreReported) {
   const History rigid = SyntheticRun().history();
   std::vector<Channel> channels = rigid.channels();
   channels.push_back({"tyre_deflection", "m", ""});
@@ -155,7 +155,7 @@ TEST(Resistance, ReportsTheDepthsOfATyreAndWhetherTheWheelIsDriven) {
   EXPECT_NEAR(of_tyre.value("rut_depth").mean, of_tyre.value("hub_drop").mean - 0.012, 1e-12);
 }
 
-TEST(Resistance, ADriftingHubDropMakesTheRunNotSteady) {
+TEST(Resistance, DriftingHubDropMakesTheRunUnsteady) {
   SyntheticRun run;
   run.hub_drop_drift = 0.01;
   const Resistance result = measure_resistance(run.history());
@@ -168,7 +168,7 @@ TEST(Resistance, ADriftingHubDropMakesTheRunNotSteady) {
 // Ten seconds hold five independent values of a signal that is correlated over one: too few
 // stretches for a verdict, unless the mean is known to 0.02 in slip and 0.5 % of the load in a
 // pull, or a drift over the cruise is larger.
-TEST(Resistance, SlipIsJudgedByTheSpeedAndThePullByTheLoad) {
+TEST(Resistance, SlipIsScaledBySpeedAndPullByLoad) {
   struct Case {
     double deviation, drift;
     bool slip, pull;  // steady in most runs
@@ -198,7 +198,7 @@ TEST(Resistance, SlipIsJudgedByTheSpeedAndThePullByTheLoad) {
 }
 
 // A nearly free axle and a wheel that runs straight: means of torque and lateral force are zero
-TEST(Resistance, TorqueAboutZeroIsJudgedByLoadTimesRadius) {
+TEST(Resistance, TorqueNearZeroIsScaledByLoadTimesRadius) {
   for (const double amplitude : {0.01, 5.0}) {  // [N m], of 100 N at 0.2 m
     History history(WheelRig::channels());
     for (int i = 0; i <= 1000; ++i) {
@@ -221,7 +221,7 @@ TEST(Resistance, TorqueAboutZeroIsJudgedByLoadTimesRadius) {
   }
 }
 
-TEST(Resistance, ValuesThatAreNotSteadyForTheSameReasonShareIt) {
+TEST(Resistance, UnsteadyValuesWithOneReasonAreListedTogether) {
   ResistanceOptions options;
   options.criteria.min_blocks = 1000;
   options.criteria.known_mean = 0.0;
@@ -238,7 +238,7 @@ TEST(Resistance, ValuesThatAreNotSteadyForTheSameReasonShareIt) {
 }
 
 // The summary of a towed wheel does not list its net traction.
-TEST(Resistance, ReasonsNameOnlyValuesOfTheSummary) {
+TEST(Resistance, ReasonsListOnlyValuesOfTheSummary) {
   ResistanceOptions options;
   options.criteria.min_blocks = 1000;
   options.criteria.known_mean = 0.0;
@@ -291,7 +291,7 @@ TEST(Resistance, PullOfAFreeAxleIsImposedUnlessOthersShareIt) {
 }
 
 // Noise of the axle force that the ground does not have: both coefficients carry the larger error.
-TEST(Resistance, AQuantityAndItsNegativeShareOneError) {
+TEST(Resistance, QuantityAndItsNegativeShareOneError) {
   SyntheticRun run;
   run.slow_deviation = 0.01;
   run.correlation_time = 0.05;
@@ -339,7 +339,7 @@ std::map<std::string, double> by_name(const std::vector<ResistancePart>& parts) 
   return found;
 }
 
-TEST(Resistance, ItsPartsAreEnergiesOverTravelAndSumToTheWhole) {
+TEST(Resistance, PartsAreEnergiesOverTravelAndSumToTheWhole) {
   const ResistanceParts parts = parts_of(rates_of_all_parts());
   EXPECT_NEAR(parts.whole, 99.0, 1e-9);
   EXPECT_NEAR(parts.unexplained, 0.5, 1e-9);
@@ -355,7 +355,7 @@ TEST(Resistance, ItsPartsAreEnergiesOverTravelAndSumToTheWhole) {
   EXPECT_FALSE(measure_resistance(SyntheticRun().history()).parts.known());
 }
 
-TEST(Resistance, GrainsPartsAreToldByPlaceWhereTheirWorkIsCounted) {
+TEST(Resistance, WorkOfGrainsIsDividedByPlace) {
   Rates rates = rates_of_all_parts();
   rates.insert({{"grains_below_work", 3.0},
                 {"grains_ahead_work", 2.5},
@@ -377,7 +377,7 @@ TEST(Resistance, GrainsPartsAreToldByPlaceWhereTheirWorkIsCounted) {
   EXPECT_NEAR(given["grains, pushed along"], -2.0, 1e-9);
 }
 
-TEST(Resistance, PlacesOfGrainsThatMissWorkAreNotShown) {
+TEST(Resistance, IncompletePlacesOfGrainsAreNotShown) {
   Rates rates = rates_of_all_parts();
   rates.insert({{"grains_below_work", 3.0}, {"grains_ahead_work", 3.9}});  // of 7.0
   const ResistanceParts parts = parts_of(rates);
@@ -389,7 +389,7 @@ TEST(Resistance, PlacesOfGrainsThatMissWorkAreNotShown) {
 
 // A slip that grows from 0 to 0.6, a pull of 100 N x slip with noise of 2 N: the stretches give the
 // line, and errors of the noise alone.
-TEST(Resistance, ACurveHasTheErrorsOfItsScatterWithoutItsTrend) {
+TEST(Resistance, ErrorOfACurveExcludesItsTrend) {
   History history({{"time", "s", ""},
                    {"x", "m", ""},
                    {"hub_drop", "m", ""},
@@ -416,7 +416,7 @@ TEST(Resistance, ACurveHasTheErrorsOfItsScatterWithoutItsTrend) {
   }
 }
 
-TEST(Resistance, AShortTravelIsSaid) {
+TEST(Resistance, ShortTravelIsReported) {
   ResistanceOptions options;
   options.shortest_distance = 20.0;
   const Resistance result = measure_resistance(SyntheticRun().history(), options);
@@ -425,7 +425,7 @@ TEST(Resistance, AShortTravelIsSaid) {
   EXPECT_THAT(result.reasons, Contains(HasSubstr("20 m are needed")));
 }
 
-TEST(Resistance, AWindowByTimeIsTaken) {
+TEST(Resistance, WindowByTimeIsUsed) {
   ResistanceOptions options;
   options.window.from_time = 4.0;
   options.window.to_time = 9.0;
@@ -453,14 +453,14 @@ TEST(Resistance, RefusesHistoriesWithGapsOrWithoutCruise) {
               HasSubstr("no steady value 'mass'"));
 }
 
-TEST(Resistance, AWheelThatBearsNoLoadIsNamed) {
+TEST(Resistance, WheelWithoutLoadIsRefused) {
   SyntheticRun lifted;
   lifted.load = 0.0;
   EXPECT_THAT(error_of([&] { measure_resistance(lifted.history()); }),
               HasSubstr("the wheel carries no load in the window (cruise from 2 s"));
 }
 
-TEST(Resistance, ARatioNeedsADenominator) {
+TEST(Resistance, RatioNeedsADenominator) {
   EXPECT_THAT(error_of([] {
                 linearised_ratio({1.0, 2.0}, {1.0});
               }),

@@ -56,7 +56,7 @@ TEST(SteadyState, ErrorBarsOfCorrelatedSignalsCoverTheTruth) {
   }
 }
 
-TEST(SteadyState, SteadySignalsAreCalledSteady) {
+TEST(SteadyState, SteadySignalsAreReportedSteady) {
   int steady = 0;
   const int seeds = 500;
   for (int seed = 0; seed < seeds; ++seed)
@@ -66,7 +66,7 @@ TEST(SteadyState, SteadySignalsAreCalledSteady) {
   EXPECT_GE(steady, 0.97 * seeds);  // two tests at 99 %
 }
 
-TEST(SteadyState, DriftsAreFoundAndSaidInWords) {
+TEST(SteadyState, DriftsAreDetectedAndReported) {
   int found = 0;
   const int seeds = 200;
   for (int seed = 0; seed < seeds; ++seed) {
@@ -87,7 +87,7 @@ TEST(SteadyState, DriftsAreFoundAndSaidInWords) {
 
 // The slope of a line has the error sqrt(12) of the mean's, the difference of the halves twice of
 // it: checked by its scatter.
-TEST(SteadyState, ErrorsOfDriftAndHalvesAreThoseOfTheirScatter) {
+TEST(SteadyState, ErrorsOfDriftAndHalvesAreTheirScatter) {
   const int seeds = 1000;
   double drift = 0.0, drift_error = 0.0, halves = 0.0, halves_error = 0.0;
   for (int seed = 0; seed < seeds; ++seed) {
@@ -105,7 +105,7 @@ TEST(SteadyState, ErrorsOfDriftAndHalvesAreThoseOfTheirScatter) {
 // A towed wheel's slip: swings on top of slow wandering. At a block length of one swing the block
 // means hardly scatter; that dip is no certainty about the slow part. The share of means within two
 // errors of the truth, zero (two thirds if the dip counted).
-TEST(SteadyState, SwingsDoNotHideSlowWandering) {
+TEST(SteadyState, ErrorBarsCoverASlowDriftUnderOscillations) {
   const int seeds = 500;
   int covered = 0;
   for (int seed = 0; seed < seeds; ++seed) {
@@ -120,7 +120,7 @@ TEST(SteadyState, SwingsDoNotHideSlowWandering) {
 
 // The ripple of grousers: its incomplete period is an error of the mean that the bars must hold, in
 // any phase.
-TEST(SteadyState, PeriodicRipplesAreSteadyAndTheirErrorIsNotUnderstated) {
+TEST(SteadyState, PeriodicRipplesAreSteadyWithACoveringError) {
   int covered = 0, steady = 0;
   const int phases = 100;
   for (int phase = 0; phase < phases; ++phase) {
@@ -135,7 +135,7 @@ TEST(SteadyState, PeriodicRipplesAreSteadyAndTheirErrorIsNotUnderstated) {
   EXPECT_GE(steady, 0.95 * phases);
 }
 
-TEST(SteadyState, ACertainButNegligibleDriftIsSteady) {
+TEST(SteadyState, SignificantButNegligibleDriftIsSteady) {
   std::vector<double> values = autoregressive(0.0, 4000, 3);
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = 100.0 + 0.01 * values[i] + 0.5 * static_cast<double>(i) / 4000.0;
@@ -147,7 +147,7 @@ TEST(SteadyState, ACertainButNegligibleDriftIsSteady) {
   EXPECT_FALSE(analyse_steady("x", "", values, 1.0, 0.0, strict).steady);
 }
 
-TEST(SteadyState, AConstantIsSteadyWithoutError) {
+TEST(SteadyState, ConstantIsSteadyWithZeroError) {
   const SteadyValue value = analyse_steady("slip", "", std::vector<double>(1000, 0.2), 0.01);
   EXPECT_NEAR(value.mean, 0.2, 1e-13);
   EXPECT_NEAR(value.standard_error, 0.0, 1e-13);
@@ -159,7 +159,7 @@ TEST(SteadyState, AConstantIsSteadyWithoutError) {
   EXPECT_TRUE(analyse_steady("torque", "N m", std::vector<double>(1000, 0.0), 0.01).steady);
 }
 
-TEST(SteadyState, AWindowOfAFewCorrelationTimesIsTooShort) {
+TEST(SteadyState, WindowOfAFewCorrelationTimesIsTooShort) {
   int refused = 0;
   const int seeds = 100;
   for (int seed = 0; seed < seeds; ++seed)
@@ -174,7 +174,7 @@ TEST(SteadyState, AWindowOfAFewCorrelationTimesIsTooShort) {
                         "independent stretches, 6 are needed"));
 }
 
-TEST(SteadyState, FewStretchesDoWhenTheyAreNearlyTheSame) {
+TEST(SteadyState, FewBlocksSufficeWhenTheyHardlyDiffer) {
   // one and a half slow swings about 1, which hold fewer than six stretches
   const auto swings = [](double amplitude) {
     std::vector<double> values(1000);
@@ -202,7 +202,7 @@ TEST(SteadyState, ReportsSpreadAndExtremes) {
   EXPECT_EQ(value.unit, "m");
 }
 
-TEST(SteadyState, RefusesWhatHasNoMeaning) {
+TEST(SteadyState, ShortOrNonFiniteSeriesAreRefused) {
   EXPECT_THAT(error_of([] { analyse_steady("sinkage", "m", {1.0}, 1.0); }),
               HasSubstr("sinkage: 1 value(s) have no standard error"));
   EXPECT_THAT(error_of([] {
@@ -211,7 +211,7 @@ TEST(SteadyState, RefusesWhatHasNoMeaning) {
               HasSubstr("sinkage: a value of the window is not finite"));
 }
 
-TEST(SteadyState, MserLeavesOutADecayingTransientAndNoMore) {
+TEST(SteadyState, MserTruncatesADecayingTransientAlone) {
   double truncation = 0.0, without = 0.0;
   const int seeds = 200;
   for (int seed = 0; seed < seeds; ++seed) {
@@ -232,7 +232,7 @@ TEST(SteadyState, MserLeavesOutADecayingTransientAndNoMore) {
 
 // A signal without a transient that is correlated over a twentieth of it loses more than a fifth in
 // 0.8 % of the runs; by the least of the statistic alone, in 6 %.
-TEST(SteadyState, MserDoesNotTakeACalmEndForTheSteadyPart) {
+TEST(SteadyState, MserIgnoresACalmEnd) {
   int much = 0;
   const int seeds = 500;
   for (int seed = 0; seed < seeds; ++seed)
@@ -240,7 +240,7 @@ TEST(SteadyState, MserDoesNotTakeACalmEndForTheSteadyPart) {
   EXPECT_LE(much, seeds / 50);
 }
 
-TEST(SteadyState, MserStopsAtHalfOfASignalThatNeverSettles) {
+TEST(SteadyState, MserTruncatesAtMostHalf) {
   std::vector<double> values(1000);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i);
   EXPECT_EQ(mser_truncation(values), 500u);
@@ -259,7 +259,7 @@ History rolling(double transient_time, double end = 10.0) {
   return history;
 }
 
-TEST(Window, BeginsWithTheCruiseLessTheTransient) {
+TEST(Window, WindowBeginsAfterTheTransientOfTheCruise) {
   const Window window = select_window(rolling(0.2), {}, {"force"});
   EXPECT_TRUE(window.automatic);
   EXPECT_GT(window.begin, 2.4);
@@ -272,7 +272,7 @@ TEST(Window, BeginsWithTheCruiseLessTheTransient) {
   EXPECT_EQ(window.warning, "");
 }
 
-TEST(Window, RoundingIsNoTransient) {
+TEST(Window, RoundingErrorsAreNoTransient) {
   History history({{"time", "s", ""}, {"x", "m", ""}, {"slip", "", ""}});
   // a slip of 0, rounded
   for (int i = 0; i < 1000; ++i) history.append({0.01 * i, 0.02 * i, 1e-16 * i});
@@ -281,7 +281,7 @@ TEST(Window, RoundingIsNoTransient) {
   EXPECT_EQ(window.warning, "");
 }
 
-TEST(Window, OneThatIsGivenAndBeginsBeforeTheCruiseIsDoubted) {
+TEST(Window, GivenWindowBeforeTheCruiseIsWarnedOf) {
   WindowRequest request;
   request.to_time = 9.0;
   request.from_time = 0.5;
@@ -291,12 +291,12 @@ TEST(Window, OneThatIsGivenAndBeginsBeforeTheCruiseIsDoubted) {
   EXPECT_EQ(select_window(rolling(0.2), request, {"force"}).warning, "");
 }
 
-TEST(Window, ATransientThatFillsTheCruiseIsSaid) {
+TEST(Window, TransientOfHalfTheCruiseIsWarnedOf) {
   EXPECT_THAT(select_window(rolling(20.0), {}, {"force"}).warning,
               HasSubstr("the transient of force fills nearly half of the cruise: run longer"));
 }
 
-TEST(Window, ATransientWhoseRestIsNegligibleIsNone) {
+TEST(Window, NegligibleCreepIsNoTransient) {
   History history({{"time", "s", ""}, {"x", "m", ""}, {"sinkage", "m", ""}});
   // creeps on for ever, by a hundredth in the second half
   for (int i = 0; i < 1000; ++i)
@@ -308,7 +308,7 @@ TEST(Window, ATransientWhoseRestIsNegligibleIsNone) {
 
 // A ripple of the grousers about a mean of 1 at 0.37 pitches per second over 10.3 s of cruise. The
 // mean over whole pitches is exact, that over all rows is not.
-TEST(Window, CoversWholePitchesOfGrousers) {
+TEST(Window, WindowCoversWholePitchesOfGrousers) {
   History history(
       {{"time", "s", ""}, {"x", "m", ""}, {grouser_channel, "", ""}, {"depth", "m", ""}});
   double all = 0.0;
@@ -333,7 +333,7 @@ TEST(Window, CoversWholePitchesOfGrousers) {
   EXPECT_NEAR(select_window(history, given, {}).begin, 1.0, 1e-12);
 }
 
-TEST(Window, ShorterThanAPitchOfGrousersIsDoubted) {
+TEST(Window, WindowShorterThanAPitchOfGrousersIsWarnedOf) {
   History history({{"time", "s", ""}, {"x", "m", ""}, {grouser_channel, "", ""}});
   for (int i = 0; i < 100; ++i) history.append({0.01 * i, 0.01 * i, 0.005 * i});
   const Window window = select_window(history, {}, {});
@@ -341,7 +341,7 @@ TEST(Window, ShorterThanAPitchOfGrousersIsDoubted) {
   EXPECT_EQ(window.rows(), 100u);
 }
 
-TEST(Window, IsTheUsersByTimeOrByDistance) {
+TEST(Window, UserSetsTheWindowByTimeOrDistance) {
   WindowRequest by_time;
   by_time.from_time = 4.0;
   by_time.to_time = 6.0;
@@ -360,7 +360,7 @@ TEST(Window, IsTheUsersByTimeOrByDistance) {
   EXPECT_NEAR(travelled.distance, 12.0, 1e-12);
 }
 
-TEST(Window, RefusesWhatTheHistoryDoesNotHold) {
+TEST(Window, WindowBeyondTheHistoryIsRefused) {
   WindowRequest request;
   request.from_time = 11.0;
   EXPECT_THAT(error_of([&] { select_window(rolling(0.2), request, {}); }),

@@ -66,7 +66,7 @@ void expect_forces(const ResistanceParts& parts, std::map<std::string, double> e
   EXPECT_EQ(found.size(), expected.size());
 }
 
-TEST(Vehicle, OneWheelKnowsItsWorkOnASharedContinuumNotItsParts) {
+TEST(Vehicle, SingleWheelReportsTheSharedContinuumAsOnePart) {
   expect_forces(measure_resistance(history_of(rear)).parts, {{"whole", 10.0},
                                                              {"continuum, shared with others", 8.0},
                                                              {"friction of wheel and ground", 1.0},
@@ -75,7 +75,7 @@ TEST(Vehicle, OneWheelKnowsItsWorkOnASharedContinuumNotItsParts) {
                                                              {"unexplained", 0.0}});
 }
 
-TEST(Vehicle, ItsWheelsTogetherKnowTheParts) {
+TEST(Vehicle, AllWheelsTogetherGiveThePartsOfTheContinuum) {
   const VehicleResistance vehicle = measure_vehicle({history_of(front), history_of(rear)});
   expect_forces(vehicle.parts, {{"whole", 40.0},
                                 {"compaction", compaction},
@@ -94,19 +94,19 @@ TEST(Vehicle, ItsWheelsTogetherKnowTheParts) {
 }
 
 /// A remainder that nothing accounts for is shown, not hidden in a part.
-TEST(Vehicle, WhatIsMissingIsNotAccountedFor) {
+TEST(Vehicle, MissingEnergyIsReportedAsUnexplained) {
   Wheel other = rear;
   other.put_in += 2.0;
   EXPECT_NEAR(measure_vehicle({history_of(front), history_of(other)}).parts.unexplained, 2.0, 1e-9);
 }
 
-TEST(Vehicle, WithoutTheGroundsPartsTheContinuumIsOnePart) {
+TEST(Vehicle, ContinuumIsOnePartWithoutRecordedParts) {
   const VehicleResistance vehicle =
       measure_vehicle({history_of(front, 0.0, false), history_of(rear, 0.0, false)});
   EXPECT_NEAR(forces(vehicle.parts)["continuum, shared with others"], 33.0, 1e-9);
 }
 
-TEST(Vehicle, RefusesWheelsThatWereNotRecordedTogether) {
+TEST(Vehicle, WheelsOfDifferentRunsAreRefused) {
   EXPECT_THAT(error_of<Error>([] {
                 measure_vehicle({history_of(front), history_of(rear, 9.0)});
               }),

@@ -43,7 +43,7 @@ const HubParameters rim{{20.0, 0.6, 0.4}, {0.0, 0.0, 0.4}};
 
 /// The outside has no gaps but the two beads, and its normals point outwards: seen from above, the
 /// areas of the tread's outside sum up to nothing.
-TEST(BrickTyreMesh, TheOutsideIsOneSkinFromBeadToBead) {
+TEST(BrickTyreMesh, OuterSurfaceIsOpenAtTheBeadsAlone) {
   for (const char* name : {"smooth", "ribbed", "lugged"}) {
     const int sections = 60;
     const BrickTyreMesh mesh = make_brick_tyre_mesh(tyre_file(name), sections, false);
@@ -72,7 +72,7 @@ TEST(BrickTyreMesh, TheOutsideIsOneSkinFromBeadToBead) {
   }
 }
 
-TEST(BrickTyreMesh, ItsRubberHasTheVolumeOfItsSection) {
+TEST(BrickTyreMesh, RubberHasTheVolumeOfTheSection) {
   const BrickTyreParameters smooth = tyre_file("smooth");
   const auto mass = [&](int sections, bool half) {
     const BrickTyreMesh mesh = make_brick_tyre_mesh(smooth, sections, half);
@@ -93,12 +93,12 @@ TEST(BrickTyreMesh, ItsRubberHasTheVolumeOfItsSection) {
   EXPECT_NEAR(mass(120, true) / (814.575 * volume), 1.0, 0.02);  // elements are chords
 }
 
-TEST(BrickTyreMesh, RefusesPitchesThatDoNotFit) {
+TEST(BrickTyreMesh, SectionsMustBeAMultipleOfThePitches) {
   EXPECT_THAT(error_of([] { make_brick_tyre_mesh(tyre_file("lugged"), 100, true); }),
               HasSubstr("has 100 sections for 30 pitches"));
 }
 
-TEST(BrickTyreParameters, NarrowestVoidAndRib) {
+TEST(BrickTyreParameters, NarrowestVoidAndRibAreFound) {
   const double none = std::numeric_limits<double>::infinity();
   for (const auto& [name, groove, rib] :
        {std::tuple("smooth", none, none), std::tuple("ribbed", 0.0162, 0.0154),
@@ -112,7 +112,7 @@ TEST(BrickTyreParameters, NarrowestVoidAndRib) {
 }
 
 /// The section is an arc of 8 cm, whose tension at 200 kPa is 16 kN/m where it is widest.
-TEST(BrickTyreParameters, ATensionOfFourTimesTheShearStiffnessWrinklesWithoutCords) {
+TEST(BrickTyreParameters, TensionOf4TimesTheShearStiffnessWrinklesWithoutCords) {
   BrickTyreParameters tyre = tyre_file("smooth", 2e5);
   tyre.carcass.cords = false;
   tyre.carcass.axial.clear();
@@ -148,7 +148,7 @@ std::pair<Vector3, double> momenta(const BrickTyre& tyre) {
 }
 
 /// Inflated, thrown and spinning at ten turns a second, without damping.
-TEST(BrickTyre, FliesAndSpinsWithoutLosingAnything) {
+TEST(BrickTyre, FreeFlightKeepsMomentumAndEnergy) {
   BrickTyreSettings settings = coarse();
   settings.damping_rate = 0.0;
   BrickTyre tyre(tyre_file("smooth"), settings, rim);
@@ -171,7 +171,7 @@ TEST(BrickTyre, FliesAndSpinsWithoutLosingAnything) {
   EXPECT_LT(worst, 1e-3 * tyre.energy_budget().kinetic_energy);
 }
 
-TEST(BrickTyre, CarriesItsLoadOnAPlaneHalfAndWhole) {
+TEST(BrickTyre, HalfAndWholeModelCarryTheLoadOnAPlane) {
   std::vector<double> deflections;
   for (const bool half : {true, false}) {
     BrickTyre tyre(tyre_file("smooth"), coarse(half, 24), rim);
@@ -188,7 +188,7 @@ TEST(BrickTyre, CarriesItsLoadOnAPlaneHalfAndWhole) {
     const ContactPatch patch = contact_patch(tyre, plane);
     EXPECT_NEAR(patch.force, 5000.0, 10.0);
     EXPECT_GT(patch.perimeter_area, 0.01);
-    EXPECT_GT(tyre.least_volume_ratio(), 0.5);
+    EXPECT_GT(tyre.minimum_volume_ratio(), 0.5);
     EXPECT_GT(tyre.section_width(), 0.22);
   }
   EXPECT_NEAR(deflections[0] / deflections[1], 1.0, 5e-3);
@@ -215,7 +215,7 @@ double area_cut_off(const BrickTyreParameters& tyre, double depth) {
   return area;
 }
 
-TEST(BrickTyre, TheAreaOfItsTouchingNodesLeavesOutVoidsAndWalls) {
+TEST(BrickTyre, NodalContactAreaExcludesVoidsAndWalls) {
   std::vector<double> areas;
   for (const char* name : {"smooth", "ribbed"}) {
     const BrickTyreParameters parameters = tyre_file(name);
@@ -235,7 +235,7 @@ TEST(BrickTyre, TheAreaOfItsTouchingNodesLeavesOutVoidsAndWalls) {
 }
 
 /// A rigid print: nodes pressed through the plane, the tyre as made. It ends on the crown.
-TEST(BrickTyre, TheOutlineOfAPrintConvergesAtSecondOrder) {
+TEST(BrickTyre, OutlineOfAPrintConvergesAtSecondOrder) {
   const BrickTyreParameters parameters = tyre_file("smooth");
   const auto error = [&](double depth, int sections) {
     BrickTyre tyre(parameters, coarse(true, sections), rim);
@@ -253,7 +253,7 @@ TEST(BrickTyre, TheOutlineOfAPrintConvergesAtSecondOrder) {
   EXPECT_LT(error(6e-3, 400), 0.01);  // ends with the tread
 }
 
-TEST(BrickTyre, ContinuesFromACheckpointBitForBit) {
+TEST(BrickTyre, RestartContinuesBitwise) {
   const auto make = [] { return BrickTyre(tyre_file("ribbed"), coarse(true), rim); };
   const auto roll = [](BrickTyre& tyre, int steps) {
     for (int i = 0; i < steps; ++i) tyre.advance(1e-6);
@@ -272,7 +272,7 @@ TEST(BrickTyre, ContinuesFromACheckpointBitForBit) {
   EXPECT_GT(tyre.position(Coordinate::spin), 0.0);
 }
 
-TEST(BrickTyre, RefusesWhatCannotBe) {
+TEST(BrickTyre, ImpossibleTyresAreRefused) {
   BrickTyreSettings settings = coarse(true);
   settings.sections = 6;
   EXPECT_THAT(error_of([&] { BrickTyre(tyre_file("smooth"), settings, rim); }),

@@ -66,7 +66,7 @@ Wrench wrench_on_rim(DarnellTyre& tyre) {
 }
 
 /// Inflated, thrown and spinning at ten turns a second, without damping: ten turns.
-TEST(DarnellTyre, FliesAndSpinsWithoutLosingAnything) {
+TEST(DarnellTyre, FreeFlightKeepsMomentumAndEnergy) {
   DarnellTyreSettings settings = coarse(false);
   settings.damping_rate = 0.0;
   DarnellTyre tyre(p235(1.5e5), settings, rim);
@@ -92,7 +92,7 @@ TEST(DarnellTyre, FliesAndSpinsWithoutLosingAnything) {
   EXPECT_NEAR(L1.y() / L0.y(), 1.0, 1e-6);
 }
 
-TEST(DarnellTyre, CarriesItsLoadOnAPlane) {
+TEST(DarnellTyre, TyreOnAPlaneCarriesItsLoad) {
   DarnellTyre tyre(p235(1.79e5), coarse(false), rim);
   tyre.settle(nullptr);
   RigidPlane plane = plane_under(tyre);
@@ -120,7 +120,7 @@ TEST(DarnellTyre, CarriesItsLoadOnAPlane) {
 }
 
 /// Deflection by the axle's way and by the load that it takes are the same state.
-TEST(DarnellTyre, PressedByDeflectionOrByLoad) {
+TEST(DarnellTyre, DeflectionAndItsLoadGiveTheSameState) {
   DarnellTyre by_way(p235(1.79e5), coarse(true), rim);
   by_way.settle(nullptr);
   RigidPlane plane = plane_under(by_way);
@@ -140,7 +140,7 @@ TEST(DarnellTyre, PressedByDeflectionOrByLoad) {
 /// Without a disturbance the whole tyre stays symmetric, and the half is its half: inflated
 /// dynamically, then dropped on a plane. At rest under load they differ by up to 3 %, because the
 /// whole tyre's shoulders may buckle unevenly.
-TEST(DarnellTyre, HalfAndWholeAgree) {
+TEST(DarnellTyre, HalfAndWholeModelAgree) {
   double height[2], width[2], energy[2], force[2];
   for (const bool half : {false, true}) {
     DarnellTyreSettings settings = coarse(half);
@@ -169,7 +169,7 @@ TEST(DarnellTyre, HalfAndWholeAgree) {
   EXPECT_NEAR(force[1] / force[0], 1.0, 1e-6);
 }
 
-TEST(DarnellTyre, TableAndChainAgree) {
+TEST(DarnellTyre, SidewallTableAndChainAgree) {
   double deflection[2];
   for (const bool direct : {false, true}) {
     DarnellTyreSettings settings = coarse(true);
@@ -221,7 +221,7 @@ TEST(DarnellTyre, SidewallContactKeepsForceMomentAndPower) {
   EXPECT_NEAR((tyre.energy_budget().contact_work - before) / (dt * power), 1.0, 1e-3);
 }
 
-TEST(DarnellTyre, APressureChangeIsWork) {
+TEST(DarnellTyre, PressureChangeIsWork) {
   DarnellTyre tyre(p235(1.0e5), coarse(true), rim);
   tyre.settle(nullptr);
   const double start = tyre.energy_budget().residual();
@@ -231,7 +231,7 @@ TEST(DarnellTyre, APressureChangeIsWork) {
   EXPECT_NE(tyre.energy_budget().load_work, 0.0);
 }
 
-TEST(DarnellTyre, ContinuesExactlyFromItsState) {
+TEST(DarnellTyre, RestartContinuesBitwise) {
   DarnellTyre one(p235(1.5e5), coarse(true), rim);
   one.settle(nullptr);
   one.release(Coordinate::z);
@@ -252,7 +252,7 @@ TEST(DarnellTyre, ContinuesExactlyFromItsState) {
               HasSubstr("across is 6, and was 4 when the checkpoint was written"));
 }
 
-TEST(DarnellTyre, PlacementCarriesTheInflatedShapeAlong) {
+TEST(DarnellTyre, PlacementMovesTheInflatedShape) {
   DarnellTyre tyre(p235(1.5e5), coarse(false), rim);
   tyre.settle(nullptr, {1e-5});
   const Vector3 force_before = wrench_on_rim(tyre).force;
@@ -268,7 +268,7 @@ TEST(DarnellTyre, PlacementCarriesTheInflatedShapeAlong) {
   EXPECT_LT((wrench_on_rim(tyre).force - tyre.attitude() * force_before).norm(), 1e-6);
 }
 
-TEST(DarnellTyre, RefusesWhatCannotBe) {
+TEST(DarnellTyre, ImpossibleTyresAreRefused) {
   const auto refusal =
       [](const std::function<void(TyreParameters&, DarnellTyreSettings&, HubParameters&)>& change) {
         TyreParameters tyre = p235(1.5e5);
@@ -297,7 +297,7 @@ TEST(DarnellTyre, RefusesWhatCannotBe) {
 
 /// The rim is pulled away from the tread until a sidewall is straight: the error names fault and
 /// place.
-TEST(DarnellTyre, AStretchedSidewallStopsTheRun) {
+TEST(DarnellTyre, StraightSidewallStopsTheRun) {
   DarnellTyreSettings settings = coarse(false);
   settings.direct = true;
   settings.damping_rate = 0.0;  // or it drags the tread along

@@ -79,7 +79,7 @@ TEST(QuinticSpline, ErrorsFallWithTheirOrder) {
 
 /// Value, gradient and Hessian are the same from both sides of a node, and so are third differences
 /// of the Hessian's neighbours.
-TEST(QuinticSpline, IsSmoothAcrossNodes) {
+TEST(QuinticSpline, DerivativesAreContinuousAcrossNodes) {
   std::mt19937 engine(3);
   std::normal_distribution<double> normal;
   const QuinticSpline3 spline =
@@ -103,7 +103,7 @@ TEST(QuinticSpline, IsSmoothAcrossNodes) {
   }
 }
 
-TEST(QuinticSpline, WhatCannotBeIsRefused) {
+TEST(QuinticSpline, ImpossibleSplinesAreRefused) {
   const std::array<GridAxis, 3> axes = {GridAxis{0, 1, 6}, GridAxis{0, 1, 6}, GridAxis{0, 1, 6}};
   std::vector<double> values(216, 1.0);
   EXPECT_THROW(

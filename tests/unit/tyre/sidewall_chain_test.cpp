@@ -35,7 +35,7 @@ TEST(SidewallChain, StiffnessIsTheDerivativeOfTheForces) {
         }
 }
 
-TEST(SidewallChain, ForcesAreTheGradientOfThePotentialAndTheSharedPressureOnTheChord) {
+TEST(SidewallChain, ForcesAreTheGradientOfPotentialAndChordPressure) {
   for (const auto& make : {tr_sidewall, tr_sector})
     for (const double k : {0.0, 10.0})
       for (const double pressure : {0.0, 241e3})
@@ -91,7 +91,7 @@ TEST(SidewallChain, ForcesOfBothEndsBalanceThePressure) {
 
 /// The tyre's gas does work p dV on a strip between two meridians, V = 2 pi integral of A R dR +
 /// ...: the potential holds that volume.
-TEST(SidewallChain, ASectorsAreaIsItsVolumePerCircumferenceOfTheTread) {
+TEST(SidewallChain, SectorAreaIsVolumeOverTreadCircumference) {
   const double R_bead = 0.208, R_tread = 0.3475;
   SidewallChain chain(tr_sector(1.0, 1.0));
   for (const SidewallEnd& end : ends) {
@@ -149,7 +149,7 @@ TEST(SidewallChain, EveryHingeIsInEquilibrium) {
     }
 }
 
-TEST(SidewallChain, TurningEverythingTurnsTheForces) {
+TEST(SidewallChain, RotatedChainHasRotatedForces) {
   SidewallParameters sidewall = tr_sidewall(8.0, 8.0);
   SidewallChain chain(sidewall);
   const double turn = 0.4;
@@ -167,7 +167,7 @@ TEST(SidewallChain, TurningEverythingTurnsTheForces) {
 
 /// From a chain that is bent the wrong way, in an S, or at random, the search ends where the arc
 /// leads.
-TEST(SidewallChain, ABadStartDoesNotLeadToAnotherBranch) {
+TEST(SidewallChain, PoorInitialGuessReachesTheSameBranch) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (const double pressure : {2e4, 103e3, 241e3})
@@ -212,7 +212,7 @@ TEST(SidewallChain, WarmStartsFollowTheSameBranch) {
 
 /// Stiff springs, hardly any pressure, and a chain so nearly straight that forces are a thousand
 /// times those of the pressure.
-TEST(SidewallChain, NearlyStretchedItIsFoundToo) {
+TEST(SidewallChain, NearlyStraightChainIsSolved) {
   for (const auto& make : {tr_sidewall, tr_sector})
     for (const double k : {0.0, 50.0, 1000.0})
       for (const double pressure : {0.0, 5e3, 241e3})
@@ -238,7 +238,7 @@ TEST(SidewallChain, NearlyStretchedItIsFoundToo) {
           }
 }
 
-TEST(SidewallChain, WhatCannotBeIsRefused) {
+TEST(SidewallChain, ImpossibleStatesAreRefused) {
   SidewallChain chain(tr_sidewall(1.0, 1.0));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refusal = [&](const SidewallEnd& end, double pressure) {

@@ -97,7 +97,7 @@ TEST(SidewallRing, ForcesAreTheGradientOfThePotential) {
   }
 }
 
-TEST(SidewallRing, ForcesDoNotDependOnWhereTheWheelStands) {
+TEST(SidewallRing, ForcesAreIndependentOfThePlaceOfTheWheel) {
   Ring model(1);
   SidewallRing ring = model.make(1);
   model.compute(ring);
@@ -116,7 +116,7 @@ TEST(SidewallRing, ForcesDoNotDependOnWhereTheWheelStands) {
             1e-8 * force.cwiseAbs().maxCoeff());
 }
 
-TEST(SidewallRing, ArcsEndAtBeadAndTreadAndHaveTheSidewallsLength) {
+TEST(SidewallRing, ArcsFromBeadToTreadHaveTheLengthOfTheSidewall) {
   Ring model(1);
   SidewallRing ring = model.make(1);
   const int points = 200;

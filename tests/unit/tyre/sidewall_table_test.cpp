@@ -42,7 +42,7 @@ TEST(SidewallTable, ForcesAndStiffnessAreExactDerivativesOfItsPotential) {
   }
 }
 
-TEST(SidewallTable, AnswersAsTheChain) {
+TEST(SidewallTable, TableAgreesWithTheChain) {
   for (const auto& make : {tr_sidewall, tr_sector}) {
     SidewallTable table(make(5.0, 10.0), 103e3);
     SidewallDirect direct(make(5.0, 10.0), 103e3);
@@ -58,7 +58,7 @@ TEST(SidewallTable, AnswersAsTheChain) {
   }
 }
 
-TEST(SidewallTable, IsMadeAnewForAnotherPressure) {
+TEST(SidewallTable, OtherPressureGivesAnotherTable) {
   SidewallTable table(tr_sidewall(1.0, 1.0), 103e3), other(tr_sidewall(1.0, 1.0), 179e3);
   EXPECT_NE(table.coefficients(), other.coefficients());
   table.set_pressure(179e3);
@@ -67,14 +67,14 @@ TEST(SidewallTable, IsMadeAnewForAnotherPressure) {
   EXPECT_EQ(at(table, ends[0]).on_tread, at(other, ends[0]).on_tread);
 }
 
-TEST(SidewallTable, CoefficientsMakeTheSameTable) {
+TEST(SidewallTable, CoefficientsRestoreTheTable) {
   SidewallTable table(tr_sidewall(1.0, 1.0), 103e3);
   SidewallTable copy(tr_sidewall(1.0, 1.0), 103e3, table.grid(), table.coefficients());
   EXPECT_EQ(at(copy, ends[2]).on_tread, at(table, ends[2]).on_tread);
   EXPECT_EQ(at(copy, ends[2]).stiffness, at(table, ends[2]).stiffness);
 }
 
-TEST(SidewallTable, WhatCannotBeIsRefused) {
+TEST(SidewallTable, StatesBeyondTheTableAreRefused) {
   SidewallTable table(tr_sidewall(1.0, 1.0), 103e3);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refusal = [&](const SidewallEnd& end) { return error_of([&] { at(table, end); }); };

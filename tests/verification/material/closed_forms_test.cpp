@@ -33,7 +33,7 @@ std::string snow(double R, const std::string& more = "") {
 }
 
 /// eps_v = p/K + H^-1(p) - eps_0 for any number of steps.
-TEST(CapClosedForm, HydrostaticCompression) {
+TEST(CapClosedForm, HydrostaticCompressionFollowsTheHardening) {
   const double K = 689e6 / 1.5;
   const std::vector<double> pb{0.138e6, 0.172e6, 0.434e6, 0.896e6, 1.655e6,
                                2.758e6, 4.137e6, 6.895e6, 13.447e6};
@@ -70,7 +70,7 @@ TEST(CapClosedForm, FirstYieldOfMcCormickSandIsAt0144Megapascal) {
 /// The state on the cap in confined compression (facts 3): pa = (pb - R d)/(1 + R tan(beta)), Q = d
 /// + pa tan(beta), y = 1/sqrt(1 + 2.25 R^2), q = y Q, p = pa + 1.5 R^2 y Q. It neglects elastic
 /// strain, so it holds for R small and p << E.
-TEST(CapClosedForm, ConfinedCompressionOnTheCap) {
+TEST(CapClosedForm, ConfinedCompressionFollowsTheCap) {
   const double tan_beta = std::tan(radians(22.53)), d = 5e3;
   for (const double R : {1.1e-4, 1e-3, 5e-3}) {
     const auto material = material_of(snow(R));
@@ -114,7 +114,7 @@ TEST(CapClosedForm, TriaxialCompressionEndsInTheCriticalState) {
 
 /// With K < 1 the strength in triaxial extension is K times that in compression at the same p (t =
 /// q/K there).
-TEST(CapClosedForm, FlowStressRatioInExtension) {
+TEST(CapClosedForm, ExtensionHasTheFlowStressRatio) {
   const auto material = material_of(mccormick_sand("K 0.8"));
   const double tan_beta = std::tan(radians(14.56)), pressure = 1e6;
   VectorX state = material->initial_state();
@@ -131,7 +131,7 @@ TEST(CapClosedForm, FlowStressRatioInExtension) {
 
 /// Differences of results with n, 2n, 4n steps fall by 2 each time: backward Euler is of first
 /// order.
-TEST(StepSize, ConvergesAtFirstOrder) {
+TEST(StepSize, StressConvergesAtFirstOrder) {
   for (const std::string& text :
        {mccormick_sand(), mccormick_sand("alpha 0.05"), mccormick_sand("K 0.8"),
         mccormick_sand("K 0.7 section matsuoka_nakai"), snow(0.02)}) {
@@ -159,7 +159,7 @@ TEST(StepSize, ConvergesAtFirstOrder) {
 
 /// Radial paths: the result does not depend on how the path is split, to the accuracy of the return
 /// mapping.
-TEST(StepSize, SplittingDoesNotMatterOnRadialPaths) {
+TEST(StepSize, RadialPathIsIndependentOfTheStep) {
   struct Case {
     std::string material;
     Vector6 strain;
@@ -207,7 +207,7 @@ const std::string stiff_foam =
     "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity linear E 1e7 nu 0.3 "
     "hardening exponential pc0 113.76 lambda 0.35 kappa 0.005 e0 3.5 ";
 
-TEST(FoamClosedForm, AspectOfTheEllipseFromTheUniaxialStrength) {
+TEST(FoamClosedForm, UniaxialStrengthSetsTheAspectOfTheEllipse) {
   const auto material = material_of(stiff_foam);
   EXPECT_NEAR(static_cast<const CrushableFoam&>(*material).parameters().M, 5.807, 5e-4);  // facts 9
   VectorX state = material->initial_state();
@@ -261,7 +261,7 @@ TEST(FoamClosedForm, ConfinedCompressionHasNoLateralStress) {
 }
 
 /// Hydrostatic compression follows p = pc, tension p = -pt at any volume.
-TEST(FoamClosedForm, HydrostaticStrengths) {
+TEST(FoamClosedForm, HydrostaticStrengthsAreTheParameters) {
   const auto material = material_of(stiff_foam);
   for (const double strain : {-0.3, 0.05}) {
     VectorX state = material->initial_state();
@@ -297,7 +297,7 @@ TEST(PorousClosedForm, PressureFollowsTheLogarithm) {
 
 /// sigma = (mu/J) J^(-2/3) dev b + (K/2)(J - 1/J) I for a simple shear and a uniaxial stretch, and
 /// energy = work.
-TEST(RubberClosedForm, SimpleShearStretchAndEnergy) {
+TEST(RubberClosedForm, SimpleShearAndStretchHaveStressAndEnergy) {
   const double mu = 1e6, K = 5e6;
   const auto material = material_of("neo_hookean density 1100 G 1e6 bulk 5e6");
   VectorX state = material->initial_state();

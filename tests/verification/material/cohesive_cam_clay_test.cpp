@@ -42,7 +42,7 @@ const Shape shapes[] = {{0.6, 0},   {1.2, 0.1}, {3.3, 0}, {3.3, 0.1},
 
 /// Compression ends at p = p0, tension at p = -beta p0, with p0 of the strain that elasticity
 /// leaves, in any number of steps.
-TEST(CamClayClosedForm, IsotropicStrengths) {
+TEST(CamClayClosedForm, IsotropicStrengthsAreTheClosedForm) {
   const double E = 1e6, K = E / 1.8;
   for (const Shape& shape : shapes) {
     const auto material = material_of(clay(shape.M, shape.beta, E));
@@ -61,7 +61,7 @@ TEST(CamClayClosedForm, IsotropicStrengths) {
 
 /// Confined compression of stiff snow: the point of the ellipse where d(eps_q)/d(eps_v) = 2/3,
 /// K0 of M and beta, and the M of that K0. Elastic strain is 5e-8 of the plastic.
-TEST(CamClayClosedForm, ConfinedCompression) {
+TEST(CamClayClosedForm, ConfinedCompressionIsTheClosedForm) {
   for (const Shape& shape : shapes) {
     const auto material = material_of(clay(shape.M, shape.beta, 1e13));
     VectorX state = material->initial_state();
@@ -105,7 +105,7 @@ TEST(CamClayClosedForm, TriaxialCompressionEndsInTheCriticalState) {
 
 /// Compression with free sides: q = 3 p on the ellipse, and the lateral strain per axial strain
 /// that flow gives there, (r - 2/3)/(2 r + 2/3) with r = d(eps_q)/d(eps_v) = 3 p/(B^2 (p - c)).
-TEST(CamClayClosedForm, CompressionWithFreeSides) {
+TEST(CamClayClosedForm, UnconfinedCompressionIsTheClosedForm) {
   for (const Shape& shape : {Shape{3.3, 0.02}, Shape{3.3, 0.1}, Shape{3.3, 0.3}, Shape{5, 0}}) {
     const double B = shape.aspect(), c = (1 - shape.beta) / 2, a = (1 + shape.beta) / 2;  // over p0
     const auto material = material_of(clay(shape.M, shape.beta, 1e10));
@@ -122,7 +122,7 @@ TEST(CamClayClosedForm, CompressionWithFreeSides) {
 }
 
 /// First yield in uniaxial tension T: p = -T/3, q = T on y = 0.
-TEST(CamClayClosedForm, UniaxialTension) {
+TEST(CamClayClosedForm, UniaxialTensionIsTheClosedForm) {
   for (const Shape& shape : {Shape{1.2, 0.1}, Shape{3.3, 0.1}, Shape{3.3, 0.5}, Shape{3.1, 1}}) {
     const double E = 1e8, M2 = shape.M * shape.M, beta = shape.beta;
     const double k2 = 1 + 2 * beta + M2 / 9, k1 = M2 * (1 - beta) / 3, k0 = -M2 * beta;
@@ -171,7 +171,7 @@ struct Rates {
 /// From a point of the ellipse at p/p0 = share: sheared and pressed, or sheared and loosened, at a
 /// turning rate. The update is of first order in the step: its error halves with the step, and two
 /// step sizes extrapolated to zero agree with the reference to 1e-6.
-TEST(CamClayRates, AgreeWithAnExplicitIntegration) {
+TEST(CamClayRates, UpdateAgreesWithAnExplicitIntegration) {
   const double E = 1e6, nu = 0.2;
   for (const Shape& shape : {Shape{1.2, 0.1}, Shape{3.3, 0.1}, Shape{3.3, 0}}) {
     for (const double share : {0.9, 0.2}) {

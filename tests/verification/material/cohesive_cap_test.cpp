@@ -46,7 +46,7 @@ struct Snow {
 double eps_of(const VectorX& state) { return state[CohesiveCap::eps_vol_pl]; }
 
 /// Compression ends at p = pc, tension at p = -tension_ratio d, in any number of steps.
-TEST(CohesiveCapClosedForm, IsotropicStrengths) {
+TEST(CohesiveCapClosedForm, IsotropicStrengthsAreTheClosedForm) {
   for (const Snow& snow : {Snow{}, Snow{0.3, 5e2, 1, 45, 0.9}, Snow{0, 1e4, 6, 10, 0.5}}) {
     const auto material = [&] {
       Snow soft = snow;
@@ -68,7 +68,7 @@ TEST(CohesiveCapClosedForm, IsotropicStrengths) {
 }
 
 /// Below the shear line K0 = nu_p/(1 - nu_p), for all other keys.
-TEST(CohesiveCapClosedForm, LateralStressIsThatOfThePlasticPoissonRatio) {
+TEST(CohesiveCapClosedForm, PlasticPoissonRatioSetsTheLateralStress) {
   for (const double nu_p : {0.0, 0.1, 0.2, 0.4})
     for (const double aspect : {0.0, 1.0, 3.0})
       for (const double beta : {0.0, 40.0}) {
@@ -124,7 +124,7 @@ TEST(CohesiveCapClosedForm, ShearStrengthGrowsWithDensity) {
 }
 
 /// Compression under sigma_c: q = (d + sigma_c tan(beta))/(1 - tan(beta)/3).
-TEST(CohesiveCapClosedForm, TriaxialCompression) {
+TEST(CohesiveCapClosedForm, TriaxialCompressionIsTheClosedForm) {
   Snow snow;
   snow.E = 1e8;
   const double eps = 0.6, pressure = 5e3, t = snow.tan_beta();
@@ -140,7 +140,7 @@ TEST(CohesiveCapClosedForm, TriaxialCompression) {
 }
 
 /// On the cap sigma = 3 pc/sqrt(1 + 9/A^2). The lateral strain per axial strain is nu_p.
-TEST(CohesiveCapClosedForm, UnconfinedCompressionOnTheCap) {
+TEST(CohesiveCapClosedForm, UnconfinedCompressionIsTheClosedForm) {
   for (const double nu_p : {0.02, 0.1, 0.3})
     for (const double aspect : {0.0, 2.5}) {
       const Snow snow{nu_p, 1e5, 9, 30, 0.2, 1e10, aspect};
@@ -158,7 +158,7 @@ TEST(CohesiveCapClosedForm, UnconfinedCompressionOnTheCap) {
 }
 
 /// Uniaxial tension yields at the smaller of 3 tension_ratio d and d/(1 + tan(beta)/3).
-TEST(CohesiveCapClosedForm, UniaxialTension) {
+TEST(CohesiveCapClosedForm, UniaxialTensionIsTheClosedForm) {
   for (const double tension : {0.1, 0.6}) {
     Snow snow;
     snow.tension = tension;
@@ -218,7 +218,7 @@ TEST(CohesiveCapClosedForm, OverstressInConfinedCompressionIsProportionalToTheRa
 }
 
 /// No step cools, and few large steps end near many small ones.
-TEST(CohesiveCapClosedForm, StepsOfAnySizeEndAlike) {
+TEST(CohesiveCapClosedForm, FinalStateIsIndependentOfTheStep) {
   const Snow snow{0.1, 3e2, 3, 30, 0.2, 1e7};
   const auto material = snow.material(0.2);
   for (const Vector6& strain : {strain_of(0, 0, -0.2), strain_of(0.02, 0.01, -0.1, 0.05)}) {

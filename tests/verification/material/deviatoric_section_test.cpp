@@ -52,7 +52,7 @@ const Cone cones[] = {{"Matsuoka and Nakai",
                        }}};
 
 /// Every point of either cone has one t, with K from its strengths in extension and compression.
-TEST(DeviatoricSection, IsThatOfMatsuokaNakaiAndOfLadeDuncan) {
+TEST(DeviatoricSection, SectionIsThatOfMatsuokaNakaiAndLadeDuncan) {
   for (const Cone& cone : cones) {
     for (const double sine : {0.2, 0.4, 0.6, 0.7}) {
       const double p = 7e3, compression = p * 6 * sine / (3 - sine);
@@ -76,7 +76,7 @@ TEST(DeviatoricSection, IsThatOfMatsuokaNakaiAndOfLadeDuncan) {
 }
 
 /// t is a convex function of stress: between any two deviators it is below its mean.
-TEST(DeviatoricSection, IsConvex) {
+TEST(DeviatoricSection, SectionIsConvex) {
   std::mt19937 engine(4);
   std::normal_distribution<double> normal;
   for (const SectionParameters& section :
@@ -123,7 +123,7 @@ Vector6 strain(double xx, double yy, double zz, double xz = 0) {
 }
 
 /// Compression q = p tan(beta), extension K times that.
-TEST(DeviatoricSection, StrengthInCompressionAndExtension) {
+TEST(DeviatoricSection, CompressionAndExtensionHaveTheirStrength) {
   const double tangent = std::tan(radians(40));
   for (const auto& [keys, K] : {std::pair{"K 0.8", 0.8}, std::pair{"K 0.778", 0.778},
                                 std::pair{"K 0.73 section matsuoka_nakai", 0.73},
@@ -137,7 +137,7 @@ TEST(DeviatoricSection, StrengthInCompressionAndExtension) {
 /// separate mean stress p' = 2 q_c/(9 w), and flow normal to it has no strain along y where s2 = 2
 /// s1 s3/(s1 + s3). With m = (s1 + s3)/2 that is s1 s3 = m (3 p' - 2 m) and I3 = m (3 p' - 2 m)^2.
 /// The strain is turned too, so that the principal axes are not those of the grid.
-TEST(DeviatoricSection, StrengthInPlaneStrain) {
+TEST(DeviatoricSection, PlaneStrainHasItsStrength) {
   const double tangent = std::tan(radians(40));
   for (const double K : {0.65, 0.73, 0.85, 0.95}) {
     const double w = (1 - K * K) / (1 + K * K * K), mean = 2 * tangent / (9 * w);

@@ -24,7 +24,7 @@ std::string law(double psi) {
 /// Mohr-Coulomb whose sin(phi) and c cos(phi) are, with b = tan(beta) and f = tan(psi),
 ///   b sqrt(3 (9 - f^2))/(9 - b f) and d sqrt(3 (9 - f^2))/(9 - b f) (theory: laws, eq. 22).
 /// Work is dissipated as sigma1 de1 + sigma3 de3.
-TEST(DruckerPrager, IsMohrCoulombsLineInPlaneStrain) {
+TEST(DruckerPrager, StrengthInPlaneStrainIsMohrCoulomb) {
   const double b = std::tan(radians(beta));
   for (const double psi : {0.0, 15.0, beta}) {
     const auto material = material_of(law(psi));

@@ -133,7 +133,7 @@ void expect_agreement(const std::vector<Leg>& legs, int steps, bool extrapolate,
   ::testing::Test::RecordProperty("worst_difference", fmt::format("{:.2e}", worst.max()));
 }
 
-TEST(McCormickSand, ConfinedToEightMegapascalAndUnloaded) {
+TEST(McCormickSand, ConfinedCompressionTo8MegapascalFollowsTheRateForm) {
   // sigma1 = 8 MPa at an axial strain of 0.0707; the legs stop on the way, unload (elastic, then
   // into extension) and reload.
   const std::array<bool, 3> none{};
@@ -144,7 +144,7 @@ TEST(McCormickSand, ConfinedToEightMegapascalAndUnloaded) {
   EXPECT_NEAR(run_reference(legs)[3][2], -8e6, 0.15e6);
 }
 
-TEST(McCormickSand, Hydrostatic) {
+TEST(McCormickSand, HydrostaticCompressionFollowsTheRateForm) {
   const Matrix3 L = -Matrix3::Identity() / 3;
   const std::array<bool, 3> none{};
   expect_agreement(
@@ -155,7 +155,7 @@ TEST(McCormickSand, Hydrostatic) {
 class Triaxial : public ::testing::TestWithParam<std::tuple<double, double>> {};
 
 /// Consolidated hydrostatically, then compressed axially at constant lateral stress.
-TEST_P(Triaxial, CompressionAtConstantLateralStress) {
+TEST_P(Triaxial, TriaxialCompressionFollowsTheRateForm) {
   const auto [pressure, volume_strain] = GetParam();
   const std::array<bool, 3> none{}, lateral{true, true, false};
   const std::vector<Leg> legs{{-Matrix3::Identity() / 3, none, volume_strain},
@@ -183,7 +183,7 @@ class SimpleShear : public ::testing::TestWithParam<std::tuple<double, double>> 
 
 /// Consolidated hydrostatically, then sheared (v_x = rate z) at constant vertical stress without
 /// lateral strain; the axes of stress turn and the Jaumann rate matters.
-TEST_P(SimpleShear, AtConstantVerticalStress) {
+TEST_P(SimpleShear, SimpleShearAtConstantVerticalStressFollowsTheRateForm) {
   const auto [pressure, volume_strain] = GetParam();
   Matrix3 shear = Matrix3::Zero();
   shear(0, 2) = 1.0;

@@ -96,7 +96,7 @@ double deviation(double first_step) {
 
 /// Drained, undrained and confined compression, dense and loose: the update converges to the
 /// integrated rate equations, with the first order of its step.
-TEST(NorSandReference, PathsConvergeToTheRateEquations) {
+TEST(NorSandReference, PathsConvergeToTheRateForm) {
   const double coarse = deviation(8e-5), fine = deviation(2e-5);
   EXPECT_LT(fine, 0.01);
   EXPECT_LT(fine, 0.4 * coarse);

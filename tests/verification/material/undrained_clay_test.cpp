@@ -35,7 +35,7 @@ double shear(const Material& material, VectorX& state, double gamma, int steps,
 
 /// (sigma1 - sigma3)/2 is su in simple shear and plane strain, and sqrt(3)/2 su in the triaxial
 /// cell. Pressure changes none of them, and plastic flow keeps the volume.
-TEST(UndrainedClay, StrengthsAreTheirDefinitions) {
+TEST(UndrainedClay, StrengthsFollowTheirDefinitions) {
   const auto material = clay();
   for (const double pressure_strain : {0.0, 0.002}) {
     VectorX at_rest = material->initial_state();
@@ -82,7 +82,7 @@ TEST(UndrainedClay, PlainClayIsDruckerPrager) {
 }
 
 /// Ten times the rate above the reference adds the share; below it the rate does not matter.
-TEST(UndrainedClay, RateAddsItsShareOfEachDecade) {
+TEST(UndrainedClay, StrengthGrowsPerDecadeOfRate) {
   const auto material = clay("rate_share 0.12 reference_rate 0.01");
   const auto strength = [&](double rate) {
     VectorX state = material->initial_state();
@@ -96,7 +96,7 @@ TEST(UndrainedClay, RateAddsItsShareOfEachDecade) {
 
 /// The strength falls with the slip to su over the sensitivity, for any width of the band. The heat
 /// of an area of the band is the integral of the strength over the slip.
-TEST(UndrainedClay, RemouldsWithTheSlipAcrossTheBand) {
+TEST(UndrainedClay, RemouldingFollowsTheSlipAcrossTheBand) {
   const double sensitivity = 4.0, slip_95 = 0.05;
   const auto fall = [&](double slip) {
     return 1 / sensitivity + (1 - 1 / sensitivity) * std::exp(-3 * slip / slip_95);

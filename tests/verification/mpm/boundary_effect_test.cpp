@@ -23,7 +23,7 @@ GroundKind kind_of(const std::string& file) {
   return ground_kind(*read_material_file(inputs + file).make());
 }
 
-TEST(GroundKind, FollowsFromCompactionAndFriction) {
+TEST(GroundKind, CompactionAndFrictionSetTheKind) {
   for (const char* snow :
        {"fresh_snow", "fresh_snow_cam_clay", "fresh_snow_foam", "field_snow", "snow"})
     EXPECT_EQ(kind_of(fmt::format("materials/{}.yaml", snow)), GroundKind::snow) << snow;
@@ -58,7 +58,7 @@ std::vector<Fit> stored_fits() {
 }
 
 /// To 0.005, within the distances of the runs.
-TEST(BoundaryEffect, HasTheFitsOfTheStudy) {
+TEST(BoundaryEffect, ConstantsAreTheFitsOfTheStudy) {
   const std::vector<Fit> fits = stored_fits();
   EXPECT_EQ(fits.size(), 18u);
   for (const Fit& fit : fits)
@@ -75,7 +75,7 @@ TEST(BoundaryEffect, HasTheFitsOfTheStudy) {
     }
 }
 
-TEST(BoundaryEffect, IsSmallWhereTheGroundIsLargeEnough) {
+TEST(BoundaryEffect, EffectIsSmallAtTheRecommendedSize) {
   for (const GroundKind kind : {GroundKind::sand, GroundKind::clay, GroundKind::snow})
     for (const PressedBy tool : {PressedBy::wheel, PressedBy::plate})
       for (const BoundaryEffects& effects :

@@ -59,7 +59,7 @@ std::vector<double> drag(double cell, const std::vector<double>& paths) {
 /// A band of one cell would follow s/s_u = 1/s_t + (1 - 1/s_t) exp(-3 u/slip_95) at the path u. The
 /// band is about 0.7 cells wide, so that the stress is lower. In cells of half the size it is the
 /// same.
-TEST(ClayBand, SoftensWithTheSlipInCellsOfAnySize) {
+TEST(ClayBand, SofteningIsIndependentOfTheCell) {
   const std::vector<double> paths = {0.002, 0.005, 0.01, 0.02};
   const std::vector<double> coarse = drag(0.0125, paths), fine = drag(0.00625, paths);
   for (std::size_t n = 0; n < paths.size(); ++n) {

@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Contact, Enforcements, ::testing::ValuesIn(contact_law_
 
 /// a = g (sin(slope) - mu cos(slope)); every particle slides, so the friction is mu times the
 /// normal force, exactly.
-TEST_P(Enforcements, SlidesAsCoulombSays) {
+TEST_P(Enforcements, BlockSlidesByCoulombFriction) {
   const double slope = std::atan(0.6), duration = 0.2;
   // if a block bounces and shakes, its base slips less than the middle while it presses more
   Incline incline(slope, law(0.3, 1.0));
@@ -88,7 +88,7 @@ TEST_P(Enforcements, SlidesAsCoulombSays) {
 
 /// Below the angle of friction it does not slide once the first bounce is over. Springs hold it;
 /// impulses take away the velocity of each particle again in every step and let it creep.
-TEST_P(Enforcements, SticksBelowTheAngleOfFriction) {
+TEST_P(Enforcements, BlockSticksBelowTheAngleOfFriction) {
   const double slope = std::atan(0.2), duration = 0.4;
   Incline incline(slope, law(0.3, 1.0));
   incline.run(0.5 * duration);
@@ -103,7 +103,7 @@ TEST_P(Enforcements, SticksBelowTheAngleOfFriction) {
 /// tau = mu sigma (1 - exp(-j/k)), [Shoop2001] eq 26: the distance slid solves
 /// s'' = g sin - mu g cos (1 - exp(-s/k)). The block is put on the plate with its whole weight
 /// and bounces; its slip goes on.
-TEST_P(Enforcements, SlidesAsEquation26Says) {
+TEST_P(Enforcements, BlockSlidesByJanosiHanamotoShear) {
   ContactParameters parameters = law(0.8);
   parameters.slip_length = 0.05;
   const double slope = std::atan(0.5), duration = 0.2;
@@ -157,7 +157,7 @@ TEST_P(Enforcements, RoughSurfaceHoldsOrCreepsWithTheStep) {
   }
 }
 
-TEST_P(Enforcements, SmoothSurfaceDoesNotHold) {
+TEST_P(Enforcements, SmoothSurfaceHasNoShear) {
   const double slope = std::atan(1.5);
   Incline smooth(slope, law(0.0));
   smooth.run(0.1);
@@ -219,7 +219,7 @@ const Vector3 above_bed(0.02, 0, 0.1 + 1e-4);
 
 /// A plate in a bed of snow, pressed in and pulled out: momentum against all impulses; energies
 /// against all works.
-TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
+TEST_P(Enforcements, PressedBedKeepsMomentumAndEnergy) {
   const TerrainParameters p =
       bed_of(snow(), {"absorbing", "absorbing", "smooth", "absorbing", "rough", "free"});
   ContinuumTerrain ground(p, Communicator());
@@ -267,7 +267,7 @@ TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
 
 /// A rough plate presses sand whose modulus grows with the root of pressure, slides and lifts off.
 /// Its work goes to ground and friction, since its springs are empty at the end.
-TEST(Contact, SpringsOnGroundThatStiffensReturnWhatTheyTake) {
+TEST(Contact, SpringsOnStiffeningGroundConserveEnergy) {
   PressedGround press(
       bed_of("norsand density 1500 e0 0.75 M 1.25 gamma 0.93 lambda 0.02 csl_exponent 0.7 chi 5 N "
              "0.5 H 150 G 40e6 n 0.5 nu 0.2 pt 100",

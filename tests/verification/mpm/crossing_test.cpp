@@ -57,7 +57,7 @@ Noise noise_of(double strain, double speed) {
 
 /// At rest a uniform stress stays to rounding of the ends; through eight cells at 1 m/s the noise
 /// is that of the quadratic spline.
-TEST(CellCrossing, NoiseIsSmall) {
+TEST(CellCrossing, CellCrossingNoiseIsSmall) {
   const Noise rest = noise_of(0.001, 0.0), small = noise_of(0.001, 1.0),
               large = noise_of(0.05, 1.0);
   RecordProperty("noise", fmt::format("at rest rms {:.1e}; moving, strain 0.1 %: rms {:.2e} worst "

@@ -54,7 +54,7 @@ Punch punch_force(double cells_per_radius, double size, const char* far) {
 /// beside the edge make the punch wider by up to half a particle, its springs give way by a tenth
 /// of d. Ground that ends at walls and a rough base is stiffer; absorbing faces stand for the rest
 /// of the half-space.
-TEST(Punch, PressesIntoTheHalfSpace) {
+TEST(Punch, StiffnessIsThatOfTheElasticHalfSpace) {
   const Punch wide = punch_force(4, 8, "absorbing"), narrow = punch_force(4, 4, "absorbing"),
               boxed = punch_force(4, 4, "rough");
   RecordProperty("force",
@@ -115,7 +115,7 @@ constexpr double prandtl = 2.0 + pi;
 
 /// L. Prandtl (1920): q = (2 + pi) c. The answer comes from above, with about the first order of
 /// the cell: the singular edge of the strip.
-TEST(StripFooting, ConvergesToPrandtl) {
+TEST(StripFooting, BearingCapacityConvergesToPrandtl) {
   const double coarse = bearing_factor(5, 1), fine = bearing_factor(10, 1),
                extrapolated = 2 * fine - coarse;
   RecordProperty("bearing_factor",
@@ -129,7 +129,7 @@ TEST(StripFooting, ConvergesToPrandtl) {
 }
 
 /// Cells of a quarter at the edge and the surface alone.
-TEST(StripFooting, NeedsShortCellsAtItsEdgeAlone) {
+TEST(StripFooting, ShortCellsAtTheEdgeSuffice) {
   const double coarse = bearing_factor(5, 4), fine = bearing_factor(10, 4);
   RecordProperty("bearing_factor", fmt::format("b/5 {:.3f}, b/10 {:.3f}", coarse, fine));
   EXPECT_NEAR(coarse, prandtl, 0.05 * prandtl);
@@ -137,7 +137,7 @@ TEST(StripFooting, NeedsShortCellsAtItsEdgeAlone) {
 }
 
 /// The load of ground that flows at constant volume does not depend on its bulk modulus.
-TEST(StripFooting, DoesNotLockInNearlyIncompressibleGround) {
+TEST(StripFooting, NearlyIncompressibleGroundDoesNotLock) {
   const double soft = bearing_factor(5, 1, 0.3, 0.4), stiff = bearing_factor(5, 1, 0.49, 0.4);
   RecordProperty("bearing_factor", fmt::format("nu 0.3 {:.3f}, nu 0.49 {:.3f}", soft, stiff));
   EXPECT_NEAR(stiff, soft, 0.02 * soft);

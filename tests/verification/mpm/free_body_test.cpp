@@ -33,7 +33,7 @@ void carve_cube(ContinuumTerrain& ground) {
 }
 
 /// Straight flight through many cells: nothing changes but the place.
-TEST(FreeFlight, IsExact) {
+TEST(FreeFlight, FreeFlightIsExact) {
   ContinuumTerrain ground(block(1e6), Communicator());
   carve_cube(ground);
   const Vector3 v(3.0, -2.0, 1.0);
@@ -59,7 +59,7 @@ TEST(FreeFlight, IsExact) {
 
 /// Free fall: z = z_0 - g t^2/2 as leapfrog has it, z_0 - g dt^2 n(n + 1)/2; the weight's work is
 /// the kinetic energy.
-TEST(FreeFlight, FallsUnderGravity) {
+TEST(FreeFlight, FreeFallUnderGravityIsExact) {
   TerrainParameters parameters = block(1e6);
   parameters.gravity = {0.0, 0.0, -standard_gravity};
   ContinuumTerrain ground(parameters, Communicator());
@@ -129,7 +129,7 @@ struct SchemeCase {
 constexpr SchemeCase scheme_cases[] = {{"plain", {false, 0.0}, 2e-3}, {"usual", {}, 4e-3}};
 
 /// Momenta to rounding, energy and shape, with a remap in each step.
-TEST(RigidRotation, KeepsMomentaEnergyAndShape) {
+TEST(RigidRotation, RotationKeepsMomentaEnergyAndShape) {
   for (const SchemeCase& one : scheme_cases) {
     const Spin spin = spin_five_turns(1.0, 1, one.scheme);
     RecordProperty(fmt::format("energy_lost_{}", one.name), fmt::format("{:.1e}", spin.energy));
@@ -144,7 +144,7 @@ TEST(RigidRotation, KeepsMomentaEnergyAndShape) {
 /// With longer remap intervals momentum is still kept to rounding, and angular momentum to second
 /// order in the rotation during an interval: a body that spins faster has shorter intervals, as
 /// many in a turn, and loses as much.
-TEST(RigidRotation, LosesLittleWithLongRemapIntervals) {
+TEST(RigidRotation, LongGridResetIntervalsLoseLittleEnergy) {
   for (const SchemeCase& one : scheme_cases)
     for (const double speed : {1.0, 0.5}) {
       const Spin spin = spin_five_turns(speed, TerrainParameters().remap_interval, one.scheme);
@@ -158,7 +158,7 @@ TEST(RigidRotation, LosesLittleWithLongRemapIntervals) {
 }
 
 /// Under its own vibrations a free block keeps its momenta to rounding, and never gains energy.
-TEST(FreeVibration, KeepsMomentaAndNeverGainsEnergy) {
+TEST(FreeVibration, VibrationKeepsMomentaAndGainsNoEnergy) {
   ContinuumTerrain ground(block(1e6, 0.1), Communicator());
   carve_cube(ground);
   for_particles(ground, [](Particles& particles, std::size_t p) {

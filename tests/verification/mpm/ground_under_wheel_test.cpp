@@ -13,7 +13,7 @@
 namespace furrow::ground_under_wheel_test {
 namespace {
 
-TEST(GroundUnderWheel, IsChordOrWidthAndTheDepthOnEitherSideToTwoDigits) {
+TEST(GroundUnderWheel, SizeIsChordOrWidthPlusDepthOnEachSide) {
   EXPECT_EQ(ground_under_wheel(0.37, 0.272, 0.2).length,
             1.1);  // 2 (sqrt(0.2 * 0.54) + 0.2) = 1.057
   EXPECT_EQ(ground_under_wheel(0.37, 0.272, 0.5).length, 1.8);   // deeper than r: 2 (0.37 + 0.5)
@@ -45,7 +45,7 @@ Rolling roll(const GroundSize& ground) {
   return {sinkage / count, -fx / fz};
 }
 
-TEST(GroundUnderWheel, TwiceAsMuchChangesNeitherSinkageNorResistance) {
+TEST(GroundUnderWheel, DoubledSizeChangesNeitherSinkageNorResistance) {
   const GroundSize size =
       ground_under_wheel(WheelOnGround::radius, WheelOnGround::width, WheelOnGround::depth);
   const double narrow = WheelOnGround::width + 0.5 * WheelOnGround::depth;

@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Slide, Planes,
                          [](const auto& one) { return one.param.name; });
 
 /// a = g (sin(slope) - mu cos(slope)), and friction takes mu m g cos(slope) over the distance.
-TEST_P(Planes, ABlockSlidesAsCoulombSays) {
+TEST_P(Planes, BlockSlidesByCoulombFriction) {
   for (const double mu : {0.0, 0.3}) {
     Incline incline(std::atan(GetParam().plane), std::atan(GetParam().gravity), mu);
     incline.run(mu > 0.0 ? 0.4 : 0.2);
@@ -107,7 +107,7 @@ TEST_P(Planes, ABlockSlidesAsCoulombSays) {
 
 /// Below the angle of friction it stays, once the first bounce is over, but for what shaking lets
 /// it creep; a plain affine transfer in every step damps that.
-TEST_P(Planes, ABlockSticksBelowTheAngleOfFriction) {
+TEST_P(Planes, BlockSticksBelowTheAngleOfFriction) {
   Incline incline(std::atan(GetParam().plane), std::atan(GetParam().gravity), 0.8, 1, 0.0);
   const double duration = 0.4,
                free = 0.5 * standard_gravity * std::sin(incline.slope) * duration * duration;
@@ -128,7 +128,7 @@ void press(ContinuumTerrain& ground, double top, double force) {
 
 /// Without friction, and without sideways strain for want of Poisson's ratio, the loaded half moves
 /// as a separate column between smooth walls, and the other half not at all.
-TEST(SlideSurface, WithoutFrictionTwoColumnsMoveAlone) {
+TEST(SlideSurface, ColumnsWithoutFrictionMoveIndependently) {
   const auto column_to = [](double upper) {
     const double top = 8 * cell;
     TerrainParameters p =
@@ -181,7 +181,7 @@ std::vector<double> motions_of(ContinuumTerrain& ground) {
 
 /// Ground under pressure in a closed box, shaken: with friction that holds it, any surface gives
 /// the numbers of ground of one piece; and a checkpoint on the way changes nothing.
-TEST(SlideSurface, WithMuchFrictionIsGroundOfOnePiece) {
+TEST(SlideSurface, HighFrictionEqualsUndividedGround) {
   const auto shaken = [](std::optional<SlideSurface> slide, bool restarted) {
     TerrainParameters p =
         box(material_of(elastic(1e6, 0.2, 1000)), {-0.1, -0.1, 0}, {0.1, 0.1, 0.1}, cell);
@@ -223,7 +223,7 @@ TEST(SlideSurface, WithMuchFrictionIsGroundOfOnePiece) {
 
 /// The two parts of a free body hit and rub each other. Angular momentum: to rounding with a remap
 /// in each step, else to second order (terrain_step.h).
-TEST(SlideSurface, KeepsMomentumAndAccountsForEnergy) {
+TEST(SlideSurface, MomentumAndEnergyBalance) {
   for (const int remap_interval : {1, TerrainParameters().remap_interval}) {
     TerrainParameters p =
         box(material_of(elastic(1e6, 0.2, 500)), {-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, 2 * cell);

@@ -42,7 +42,7 @@ double growth(double nu, double step_over_limit) {
   return strain_rate.max() / rate;
 }
 
-TEST(StepLimit, ALoneParticleIsStableUpToTheClosedForm) {
+TEST(StepLimit, SingleParticleIsStableUpToTheClosedForm) {
   for (const double nu : {0.0, 0.3, 0.45}) {
     EXPECT_LT(growth(nu, 0.99), 10.0) << nu;  // 1/sqrt(1 - 0.99^2) = 7.1 in a leapfrog
     EXPECT_GT(growth(nu, 1.01), 1e4) << nu;   // 1.33 a step
@@ -50,7 +50,7 @@ TEST(StepLimit, ALoneParticleIsStableUpToTheClosedForm) {
 }
 
 /// The program's own step keeps below it.
-TEST(StepLimit, TheStepOfTheProgramIsBelow) {
+TEST(StepLimit, ChosenStepIsBelowTheLimit) {
   for (const double nu : {0.0, 0.3, 0.45}) {
     const ContinuumTerrain ground(
         box(material_of(elastic(E, nu, density)), {0, 0, 0}, {0.6, 0.6, 0.6}, h), Communicator());

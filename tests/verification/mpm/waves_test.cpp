@@ -53,7 +53,7 @@ double standing_wave_error(double cell) {
 
 /// The transfers take 0.024 (kh)^4 of the amplitude in a step: third order at a given Courant
 /// number. Splines and leapfrog are of second.
-TEST(StandingWave, ConvergesToTheClosedForm) {
+TEST(StandingWave, AmplitudeConvergesToTheClosedForm) {
   const double coarse = standing_wave_error(1.0 / 8), medium = standing_wave_error(1.0 / 16),
                fine = standing_wave_error(1.0 / 32);
   RecordProperty("errors", fmt::format("{:.2e} {:.2e} {:.2e}", coarse, medium, fine));
@@ -104,7 +104,7 @@ double measured_speed(double cell) {
 }
 
 /// c = sqrt(M/rho), M = E(1 - nu)/((1 + nu)(1 - 2 nu)).
-TEST(PressureWave, TravelsWithTheSpeedOfTheWaveModulus) {
+TEST(PressureWave, SpeedIsThatOfTheWaveModulus) {
   const double coarse = measured_speed(1.0 / 8), fine = measured_speed(1.0 / 16);
   RecordProperty("speed_over_c", fmt::format("{:.5f} {:.5f}", coarse / c_p, fine / c_p));
   EXPECT_NEAR(coarse / c_p, 1.0, 5e-3);
@@ -133,7 +133,7 @@ double reflection(const char* end, double cell) {
 /// with g' = -(c/2L)(f + g): the dashpot alone would be quiet, the spring that holds statically
 /// reflects what is longer than L. For a harmonic wave |R| = 1/sqrt(1 + 4 k^2 L^2): 8 % for a wave
 /// as long as L, the length of a bar whose other end is a plane of symmetry.
-TEST(AbsorbingFace, ReflectsAsItsSpringSays) {
+TEST(AbsorbingFace, ReflectionIsThatOfTheSpring) {
   const double length = bar_length;
   double f = 0.0, g = 0.0, expected = 0.0;
   const double ds = 1e-5;  // of c t
@@ -157,7 +157,7 @@ TEST(AbsorbingFace, ReflectsAsItsSpringSays) {
 /// by u with u' = v - (V/L) u, and g' = -u/2L; behind, what comes back is that of an end at rest
 /// which the pulse reaches sooner. Cells that enter ahead are at rest and without stress: they
 /// ring, and take a part of what comes back.
-TEST(AbsorbingFace, MovesOnWithoutReflectingMoreThanItsSpring) {
+TEST(AbsorbingFace, MovingFaceReflectsAsTheSpring) {
   const double length = 0.5 * bar_length, along = 0.1;  // V/c
   const auto measured = [&](int direction, double cell) {
     TerrainParameters parameters = bar(bar_length, cell);
@@ -210,7 +210,7 @@ TEST(AbsorbingFace, MovesOnWithoutReflectingMoreThanItsSpring) {
 /// Energy in a square of 2 x 2 m after a round wave has gone through its absorbing sides, from 0 to
 /// 45 degrees from their normals, less what is left in the same square of ground three times as
 /// wide: the square root is a mean amplitude reflected.
-TEST(AbsorbingFace, LetsObliqueWavesPass) {
+TEST(AbsorbingFace, ObliqueWavesAreAbsorbed) {
   const double cell = 1.0 / 20;
   const auto energy_left = [&](double half, const char* side) {
     TerrainParameters parameters =
@@ -283,7 +283,7 @@ double unrest(double cell, bool moving) {
 
 /// Ground stays where it is: what moves is the quadrature error of the outermost splines, and
 /// vanishes with the cell; also of ground that moves on by half a metre.
-TEST(AbsorbingFace, HoldsGroundAtRest) {
+TEST(AbsorbingFace, GroundAtRestIsHeld) {
   for (const bool moving : {false, true}) {
     const double coarse = unrest(0.1, moving), fine = unrest(0.05, moving);
     RecordProperty(moving ? "moving_ground" : "ground",
@@ -295,7 +295,7 @@ TEST(AbsorbingFace, HoldsGroundAtRest) {
 
 /// A pressure on a column: the base gives way by p L/M, L the column's height, and the column is
 /// compressed by p H/M on top of it.
-TEST(AbsorbingFace, GivesWayAsItsSpringSays) {
+TEST(AbsorbingFace, StaticDisplacementIsThatOfTheSpring) {
   const double height = 1.0, pressure = 100.0, cell = 0.1;
   TerrainParameters parameters =
       box(material_of(elastic(E, nu, rho)), {0, 0, 0}, {cell, cell, height}, cell);
@@ -327,7 +327,7 @@ TEST(AbsorbingFace, GivesWayAsItsSpringSays) {
 }
 
 /// Cells that grow by 1.15 to 1.3 on the way of a wave send nothing visible back.
-TEST(GradedGrid, LetsWavesPass) {
+TEST(GradedGrid, GradedGridTransmitsWaves) {
   for (const double growth : {1.15, 1.3}) {
     const double cell = 1.0 / 64;
     TerrainParameters parameters = bar(4.0, cell);

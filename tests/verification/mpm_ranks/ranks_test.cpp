@@ -274,7 +274,7 @@ INSTANTIATE_TEST_SUITE_P(Ranks, Variants,
                                            Variant{"all", true, true, false, "absorbing"}),
                          [](const auto& one) { return one.param.name; });
 
-TEST_P(Variants, GiveTheAnswerOfOne) {
+TEST_P(Variants, ResultsAreThoseOfOneRank) {
   const std::unique_ptr<Scene> one = scene_of_one(GetParam());
   if (one) {
     one->run(30);
@@ -307,7 +307,7 @@ TEST_P(Variants, GiveTheAnswerOfOne) {
 }
 
 /// A run of one rank goes on with all of them, and the other way round.
-TEST_P(Variants, TakeOverTheStateOfOne) {
+TEST_P(Variants, StateOfOneRankIsRestored) {
   const std::unique_ptr<Scene> one = scene_of_one(GetParam());
   if (one) one->run(12);
   Scene many(world_ranks(), GetParam(), layouts().front());
@@ -326,7 +326,7 @@ TEST_P(Variants, TakeOverTheStateOfOne) {
 
 const Variant all = {"all", true, true, false, "absorbing"};
 
-TEST(Blocks, ContinueBitForBitFromTheBytesOfTheFirstRank) {
+TEST(Blocks, RestartFromTheFirstRankIsBitwise) {
   for (const std::string& material : {snow(), std::string(porous_snow)}) {
     Variant variant = all;
     variant.material = material;
@@ -342,7 +342,7 @@ TEST(Blocks, ContinueBitForBitFromTheBytesOfTheFirstRank) {
   }
 }
 
-TEST(Blocks, ContinueInAnotherLayout) {
+TEST(Blocks, RestartInAnotherLayoutContinues) {
   const BlockLayout layout = layouts().front();
   if (layout.x == layout.y) GTEST_SKIP() << "as many blocks along x as along y";
   Scene first(world_ranks(), all, layout), turned(world_ranks(), all, {layout.y, layout.x});
@@ -355,7 +355,7 @@ TEST(Blocks, ContinueInAnotherLayout) {
 
 /// Halves of a particle on two ranks are not united. The border of two blocks along x lies in the
 /// fine cells: all halves behind the plate are on one rank.
-TEST(GradedWindow, GivesTheAnswerOfOneRank) {
+TEST(GradedWindow, ResultsAreThoseOfOneRank) {
   Variant variant = {"graded", false, false, false, "smooth"};
   variant.graded = true;
   const std::unique_ptr<Scene> one = scene_of_one(variant);
@@ -381,7 +381,7 @@ TEST(GradedWindow, GivesTheAnswerOfOneRank) {
 
 const Variant sleeping = {"sleeping", false, false, false, "absorbing", snow(), 0.1, 1.0, -0.2};
 
-TEST(SleepingGround, GivesTheAnswerOfOneRank) {
+TEST(SleepingGround, ResultsAreThoseOfOneRank) {
   const std::unique_ptr<Scene> one = scene_of_one(sleeping);
   if (one) one->run(60);
   for (const BlockLayout& layout : layouts()) {
@@ -399,7 +399,7 @@ TEST(SleepingGround, GivesTheAnswerOfOneRank) {
   }
 }
 
-TEST(SleepingGround, ContinuesOnRanks) {
+TEST(SleepingGround, RestartContinuesOnSeveralRanks) {
   const BlockLayout layout = layouts().front();
   Scene first(world_ranks(), sleeping, layout), second(world_ranks(), sleeping, layout),
       turned(world_ranks(), sleeping, {layout.y, layout.x});
@@ -419,7 +419,7 @@ TEST(SleepingGround, ContinuesOnRanks) {
 }
 
 /// Every column of nodes in use has one owner, and blocks are as equal as cells allow.
-TEST(Blocks, CoverAllCellsAndOwnEveryNodeOnce) {
+TEST(Blocks, BlocksCoverAllCellsAndOwnEveryNodeOnce) {
   const Communicator ranks = world_ranks();
   for (const BlockLayout& layout : layouts()) {
     const Grid grid(Axis(even(0, 20, 1), "x"), Axis(even(0, 12, 1), "y"), Axis(even(0, 3, 1), "z"));
@@ -452,7 +452,7 @@ TEST(Blocks, CoverAllCellsAndOwnEveryNodeOnce) {
 /// 4 or more cells share nodes with the next block only: 4 layers of them. A node has 4 numbers of
 /// 8 bytes; a step sends it once, for forces, and the first step of a remap interval once more, for
 /// momentum.
-TEST(Blocks, StoreAndSendWhatTheClosedFormSays) {
+TEST(Blocks, StoredAndSentSizesAreTheClosedForm) {
   const Communicator ranks = world_ranks();
   constexpr int cells = 6, levels = 5 + 2, interval = 4, steps = 10, remaps = 3;
   for (const BlockLayout& layout : layouts()) {
@@ -496,7 +496,7 @@ class Messages : public ::testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(OfLength, Messages, ::testing::Values(1, 2, 3, 1000));
 
 /// Rank r has 3 r numbers.
-TEST_P(Messages, ExchangeGatherSumAndMaximumOfAnyCount) {
+TEST_P(Messages, ExchangeGatherSumAndMaximumWorkForAnyCount) {
   const MPI_Comm world = MPI_COMM_WORLD;
   const Communicator ranks(&world, GetParam());
   const auto numbers_of = [](int rank) {

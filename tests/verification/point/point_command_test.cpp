@@ -32,7 +32,7 @@ void expect_png(const std::string& path) {
   EXPECT_EQ(content.substr(1, 3), "PNG");
 }
 
-TEST(PointCommand, RunLeavesReadableResultsThatAgree) {
+TEST(PointCommand, ResultFilesOfARunAgree) {
   const Scratch scratch;
   const std::string folder = scratch.path("triaxial");
   const Outcome outcome = furrow_point("run " + points + "mccormick_triaxial.yaml -o " + folder);
@@ -51,7 +51,7 @@ TEST(PointCommand, RunLeavesReadableResultsThatAgree) {
   expect_png(folder + "/point.png");
 }
 
-TEST(PointCommand, TheEffectiveInputRepeatsTheRun) {
+TEST(PointCommand, EffectiveInputRepeatsTheRun) {
   const Scratch scratch;
   ASSERT_EQ(
       furrow_point("run --no-plot " + points + "snow_rut.yaml -o " + scratch.path("a")).status, 0);
@@ -79,7 +79,7 @@ TEST(PointCommand, AllShippedPathsRun) {
 }
 
 /// furrow-post makes the fit; tests/unit/postproc/laws/law_fit_test.py checks its numbers.
-TEST(PointCommand, FitLeavesAMaterialFileAndAFigure) {
+TEST(PointCommand, FitWritesAMaterialFileAndAFigure) {
   const Scratch scratch;
   const std::string folder = scratch.path("fit");
   const Outcome outcome = furrow_point("fit " + points + "fit_mccormick.yaml -o " + folder);

@@ -79,7 +79,7 @@ TEST(PointDriver, TriaxialCompressionEndsInTheCriticalState) {
 
 /// On the cap in confined compression with small R: sigma_1 = p + 2q/3 of pa = (pb - R d)/(1 + R
 /// tan(beta)), Q = d + pa tan(beta), y = 1/sqrt(1 + 2.25 R^2), q = y Q, p = pa + 1.5 R^2 y Q.
-TEST(PointDriver, ConfinedCompressionOnTheCap) {
+TEST(PointDriver, ConfinedCompressionFollowsTheCap) {
   MaterialSections sections =
       read_material_file(std::string(FURROW_SOURCE_DIR) + "/inputs/materials/mccormick_sand.yaml")
           .sections;
@@ -104,7 +104,7 @@ TEST(PointDriver, ConfinedCompressionOnTheCap) {
 }
 
 /// Elastic law: every path has its closed form in logarithmic strain.
-TEST(PointDriver, ElasticPathsAreHookesLaw) {
+TEST(PointDriver, ElasticPathsFollowHookesLaw) {
   const auto ground = preset("compacted_sand_elastic");  // E 50 MPa, nu 0.3
   const double E = 50e6, G = E / 2.6, M = E * 0.7 / (1.3 * 0.4);
   const PointHistory tension = drive_point(*ground, path("tension", {{"strain", {"0.2"}}}));
@@ -128,7 +128,7 @@ TEST(PointDriver, ElasticPathsAreHookesLaw) {
 
 /// Six controlled stresses of an elastic point, sheared and stretched: the strain is Hooke's law
 /// inverted where it is small.
-TEST(PointDriver, SixStressesAtOnce) {
+TEST(PointDriver, SixStressesAreControlledTogether) {
   const auto ground = preset("compacted_sand_elastic");
   const double E = 50e6, nu = 0.3, G = E / 2.6;
   const Vector6 target = (Vector6() << -30, 20, -70, 10, -5, 15).finished();
@@ -150,7 +150,7 @@ TEST(PointDriver, SixStressesAtOnce) {
 /// Simple shear of rubber: sigma_xz = mu gamma exactly (Simo and Hughes, isochoric), q^2 = mu^2 (3
 /// gamma^2 + gamma^4); and ln V of simple shear, det = 1, has the largest principal stretch
 /// asinh(gamma/2).
-TEST(PointDriver, LargeSimpleShearOfRubber) {
+TEST(PointDriver, LargeSimpleShearOfRubberIsTheClosedForm) {
   const auto rubber = preset("rubber");
   const PointHistory history = drive_point(
       *rubber,
@@ -198,7 +198,7 @@ TEST(PointDriver, StepErrorFallsAtFirstOrder) {
   EXPECT_LT(before, 1e-3);
 }
 
-TEST(PointDriver, AnUnreachableStressIsAnErrorWithItsCause) {
+TEST(PointDriver, UnreachableStressIsAnErrorWithItsCause) {
   const auto snow = preset("variants/fresh_snow_shoop");
   // Uniaxial compression by stress: beyond the shear strength no strain gives 1 MPa without lateral
   // stress.
@@ -211,7 +211,7 @@ TEST(PointDriver, AnUnreachableStressIsAnErrorWithItsCause) {
   EXPECT_THROW(drive_point(*snow, tension), StateError);
 }
 
-TEST(PointDriver, ChannelsAreNamed) {
+TEST(PointDriver, ChannelsAreFoundByName) {
   const auto sand = preset("mccormick_sand");
   PointRecord record;
   record.state = sand->initial_state();

@@ -61,7 +61,7 @@ double oedometer_error(const std::string& preset) {
 }
 
 /// All shipped files are read, hold a law, and survive being written and read.
-TEST(Presets, AllAreRead) {
+TEST(Presets, ShippedMaterialsAreRead) {
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(inputs + "/materials")) {
     if (entry.path().extension() != ".yaml") continue;
@@ -74,7 +74,7 @@ TEST(Presets, AllAreRead) {
   EXPECT_GE(count, 16);
 }
 
-TEST(Presets, McCormickSandIsTRTables4And5) {
+TEST(Presets, McCormickSandHasTRTables4And5) {
   const MaterialOptions sand = options_of("mccormick_sand");
   const Options &material = sand.at("law").options, &elasticity = sand.at("elasticity").options,
                 &hardening = sand.at("hardening").options;
@@ -192,7 +192,7 @@ TEST(Presets, Grc1HasTheFrictionAngleOfItsDensity) {
 }
 
 /// The curve that the clusters of the ground snow_bonded_field were calibrated on is this law's.
-TEST(Presets, FieldSnowIsTheCurveOfItsGrains) {
+TEST(Presets, FieldSnowHasTheCurveOfItsGrains) {
   const CsvTable curve = CsvTable::read(inputs + "/validation/grains/field_snow_oedometer.csv");
   const std::vector<double> rho = curve.numbers("rho_kgm3");
   ASSERT_EQ(rho.size(), 10u);
@@ -206,7 +206,7 @@ TEST(Presets, FieldSnowIsTheCurveOfItsGrains) {
   }
 }
 
-TEST(Presets, SnowAsPrintedIsTRTable3) {
+TEST(Presets, SnowAsPrintedHasTRTable3) {
   const MaterialOptions snow = options_of("variants/fresh_snow_as_printed");
   const CsvTable table = reference("snow_tr_table3");
   EXPECT_EQ(snow.at("hardening").options.numbers("p"), table.numbers("p_Pa"));
@@ -271,7 +271,7 @@ TEST(Presets, FreshSnowStandsUnderItsOwnWeight) {
   EXPECT_NEAR(snow->current_density(history.records.back().state), 200.0, 0.2);
 }
 
-TEST(Presets, FreshSnowShoopCountsTable3From200) {
+TEST(Presets, FreshSnowShoopReadsTable3FromADensityOf200) {
   const Options hardening = options_of("variants/fresh_snow_shoop").at("hardening").options;
   const CsvTable table = reference("snow_tr_table3");
   const std::vector<double>&p = hardening.numbers("p"), &eps = hardening.numbers("eps_vol_pl");
@@ -293,7 +293,7 @@ TEST(Presets, FreshSnowShoopCountsTable3From200) {
   EXPECT_EQ(hardening.text("interpolation"), "linear");
 }
 
-TEST(Presets, OtherReadingsOfTable3) {
+TEST(Presets, ReadingsOfTable3HaveTheirCurves) {
   const std::vector<double> sigma1 =
       options_of("variants/fresh_snow_shoop").at("hardening").options.numbers("p");
   for (const auto& [name, share] : {std::pair{"variants/fresh_snow_p_third", 1.0 / 3.0},
@@ -319,7 +319,7 @@ TEST(Presets, InvertedTableFollowsTheOedometer) {
 }
 
 /// The reading p = sigma_1 of [Shoop2001] Table 3 is the nearest to the oedometer.
-TEST(Presets, SigmaOneIsTheReadingNearestToTheOedometer) {
+TEST(Presets, ReadingAsSigma1IsNearestToTheOedometer) {
   const double sigma1 = oedometer_error("variants/fresh_snow_shoop");
   EXPECT_LT(sigma1, 0.12);
   EXPECT_GT(oedometer_error("variants/fresh_snow_p_0413"), 2.0 * sigma1);
@@ -329,7 +329,7 @@ TEST(Presets, SigmaOneIsTheReadingNearestToTheOedometer) {
 
 /// The inverted table is the closed form of confined compression on the cap, solved for p_b and the
 /// plastic strain.
-TEST(Presets, InvertedTableIsTheClosedForm) {
+TEST(Presets, InvertedTableHasTheClosedForm) {
   const Options hardening = options_of("variants/fresh_snow_abele_gow").at("hardening").options;
   const CsvTable data = reference("snow_oedometer");
   const std::vector<double> sigma1 = data.numbers("sigma1_Pa"), rho = data.numbers("rho_kgm3");
@@ -346,7 +346,7 @@ TEST(Presets, InvertedTableIsTheClosedForm) {
 }
 
 /// M from [Shoop2001] Table 1 is 5.807; the other reading of pc0 gives 8.39.
-TEST(Presets, FoamHasBothReadings) {
+TEST(Presets, FoamHasBothReadingsOfPc0) {
   const double pt = 11.376, sigma0 = 275.79;
   const auto aspect = [&](double pc0) {
     return sigma0 / std::sqrt(pt * pc0 + sigma0 * (pc0 - pt) / 3.0 - sigma0 * sigma0 / 9.0);
@@ -370,7 +370,7 @@ TEST(Presets, FoamHasBothReadings) {
 
 /// The lambda of [Shoop2001] needs twice the oedometer's stress; the fitted one meets its
 /// densities.
-TEST(Presets, FoamInTheOedometer) {
+TEST(Presets, FoamFollowsTheOedometer) {
   EXPECT_NEAR(oedometer_error("fresh_snow_foam"), 0.163, 5e-3);
   EXPECT_LT(oedometer_error("variants/fresh_snow_foam_oedometer"), 0.04);
 }
@@ -378,7 +378,7 @@ TEST(Presets, FoamInTheOedometer) {
 /// The strengths of Cam clay are those of the closed form of confined compression
 /// (cohesive_cam_clay.h), p0 over sigma_1, at K0 = 0.12 [Shoop2001]; the law then meets the
 /// oedometer, but for the elastic strain beside the plastic.
-TEST(Presets, CamClayIsTheClosedFormAndMeetsTheOedometer) {
+TEST(Presets, CamClayHasTheClosedFormAndMeetsTheOedometer) {
   const MaterialOptions snow = options_of("fresh_snow_cam_clay");
   const double beta = snow.at("law").options.number("tension_ratio"),
                M = snow.at("law").options.number("M"), B = M / std::sqrt(1.0 + 2.0 * beta),
@@ -400,7 +400,7 @@ TEST(Presets, CamClayIsTheClosedFormAndMeetsTheOedometer) {
 
 /// The strengths are the closed form of confined compression (theory: snow, eqs. 5 and 6). The
 /// shear line limits K0 from 100 kPa on. The law meets the oedometer.
-TEST(Presets, SnowIsTheClosedFormAndMeetsTheOedometer) {
+TEST(Presets, SnowHasTheClosedFormAndMeetsTheOedometer) {
   const MaterialOptions snow = options_of("snow");
   const Options& law = snow.at("law").options;
   const double nu_p = law.number("nu_p"), d_200 = law.number("d"), m = law.number("d_exponent"),
@@ -428,7 +428,7 @@ TEST(Presets, SnowIsTheClosedFormAndMeetsTheOedometer) {
   EXPECT_LT(oedometer_error("snow"), 6e-3);
 }
 
-TEST(Presets, ElasticSandAndRubber) {
+TEST(Presets, ElasticSandAndRubberHaveTheirModuli) {
   const auto sand = file_of("compacted_sand_elastic").make();
   const ElasticModuli moduli = sand->moduli(sand->initial_state());
   const double E = 9.0 * moduli.bulk * moduli.shear / (3.0 * moduli.bulk + moduli.shear);

@@ -139,7 +139,7 @@ std::vector<Row> rows() {
 }
 
 /// A dash stands where the driver finds no state.
-TEST(SnowPage, NumbersAreThoseOfThePoints) {
+TEST(SnowPage, PageHasTheNumbersOfThePointRuns) {
   const auto page = page_rows();
   for (const Row& row : rows()) {
     std::string right = "| " + row.label + " | ...";
@@ -168,7 +168,7 @@ TEST(SnowPage, NumbersAreThoseOfThePoints) {
 
 /// K0 over M for beta = 0.1, by the formula of the page, which
 /// tests/verification/material/cohesive_cam_clay_test.cpp compares with the law.
-TEST(SnowPage, TableOfK0IsTheFormula) {
+TEST(SnowPage, TableOfK0FollowsTheFormula) {
   const auto page = page_rows();
   const std::vector<std::string>&slopes = page.at("M, beta = 0.1"), &ratios = page.at("K0");
   ASSERT_EQ(slopes.size(), ratios.size());

@@ -125,16 +125,16 @@ double twisted_beam(int n, double h, bool in_plane, double reference) {
   return model.solve()(direction, model.nearest({L, 0, 0})) / reference;
 }
 
-TEST(MacNealHarder, PinchedCylinder) {
+TEST(MacNealHarder, PinchedCylinderConverges) {
   expect_convergence("pinched cylinder", {8, 16, 32}, pinched_cylinder, 0.30, 0.02);
 }
-TEST(MacNealHarder, ScordelisLo) {
+TEST(MacNealHarder, ScordelisLoRoofConverges) {
   expect_convergence("Scordelis-Lo roof", {4, 8, 16, 32}, scordelis_lo, 0.08, 0.01);
 }
-TEST(MacNealHarder, Hemisphere) {
+TEST(MacNealHarder, HemisphereConverges) {
   expect_convergence("hemisphere", {4, 8, 16, 32}, hemisphere, 0.10, 0.01);
 }
-TEST(MacNealHarder, TwistedBeam) {
+TEST(MacNealHarder, TwistedBeamConverges) {
   for (const bool in_plane : {true, false})
     expect_convergence(
         in_plane ? "twisted beam, in plane" : "twisted beam, out of plane", {2, 4, 8},
@@ -143,7 +143,7 @@ TEST(MacNealHarder, TwistedBeam) {
 }
 /// Thickness 0.0032 (Belytschko et al. 1989): 5256 and 1294 for a unit force, of an element that
 /// does not lock in its membrane.
-TEST(MacNealHarder, ThinTwistedBeam) {
+TEST(MacNealHarder, ThinTwistedBeamConverges) {
   for (const bool in_plane : {true, false})
     expect_convergence(
         in_plane ? "thin twisted beam, in plane" : "thin twisted beam, out of plane", {2, 4, 8},

@@ -48,7 +48,7 @@ double patch_error(const ShellSection& section,
   return (found - exact).rightCols<4>().cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff();
 }
 
-TEST(Shell4, PatchTestOfTheMembrane) {
+TEST(Shell4, MembranePatchTestPasses) {
   const ShellSection section(belt(), 1.0);
   for (int k = 0; k < 3; ++k)
     EXPECT_LT(patch_error(section,
@@ -64,7 +64,7 @@ TEST(Shell4, PatchTestOfTheMembrane) {
 }
 
 /// w of constant curvatures, with rotations (dw/dy, -dw/dx).
-TEST(Shell4, PatchTestOfBendingAndTwist) {
+TEST(Shell4, BendingAndTwistPatchTestPasses) {
   const ShellSection section(belt(), 1.0);
   for (int k = 0; k < 3; ++k)
     EXPECT_LT(patch_error(section,
@@ -84,7 +84,7 @@ TEST(Shell4, PatchTestOfBendingAndTwist) {
 /// Constant transverse shear: w = gamma x without rotation is no equilibrium of a plate (it needs a
 /// moment), so the field is the thick plate's whose moment is carried at the nodes: only forces of
 /// the shear at the inner nodes must vanish for a constant one.
-TEST(Shell4, PatchTestOfTransverseShear) {
+TEST(Shell4, TransverseShearPatchTestPasses) {
   const ShellSection section(OrthotropicLayer::isotropic(1e6, 0.25, 0.05), 1.0);
   ShellModel model = patch(section);
   Matrix6X u = Matrix6X::Zero(6, 8);
@@ -96,7 +96,7 @@ TEST(Shell4, PatchTestOfTransverseShear) {
   EXPECT_NEAR(work / (0.5 * section.shear(0, 0) * 1e-6 * 0.24 * 0.12), 1.0, 1e-10);
 }
 
-TEST(Shell4, OnlySixMotionsAreFreeOfEnergy) {
+TEST(Shell4, OnlyRigidMotionsHaveNoEnergy) {
   ShellModel model = mapped_shell(
       1, 1, [](double s, double t) { return Vector3(s + 0.1 * t, t - 0.2 * s * t, 0.15 * s * t); },
       ShellSection(OrthotropicLayer::isotropic(1e6, 0.3, 0.05), 1.0), along_x);
@@ -112,7 +112,7 @@ TEST(Shell4, EqualShapesShareOneStiffness) {
 
 /// The elements in motion have the assembled stiffness: small displacements and rotations of a
 /// curved shell whose elements all differ.
-TEST(Shell4, SmallMotionsMeetTheAssembledStiffness) {
+TEST(Shell4, ForcesOfSmallMotionsAreTheAssembledStiffness) {
   ShellModel model = mapped_shell(
       4, 3,
       [](double s, double t) {
@@ -191,7 +191,7 @@ TEST(Shell4, ForcesAreTheGradientOfTheEnergy) {
 
 /// A square of fibres along x, stretched along them and sheared so that they slide past each other:
 /// the closed form U = R^T F, and what the tension does in the shear (shell4.h).
-TEST(Shell4, TensionTakesShearStiffnessInPolarAxesOnly) {
+TEST(Shell4, TensionReducesShearStiffnessInPolarAxesAlone) {
   const double stretch = 1e6, across = 2e4, G = 2e3, longer = 1.01;
   const double tension = stretch * (longer - 1.0);
   const ShellSection section(OrthotropicWall{stretch, across, G, 1.0, 1.0}, 1.0);
@@ -258,7 +258,7 @@ TEST(Shell4, PressureIsTheGradientOfTheVolume) {
 
 /// A thousand turns about a slanting axis, as the motion of a rolling tyre makes them: no strain,
 /// no energy, no force.
-TEST(Shell4, ManyTurnsWithoutStrain) {
+TEST(Shell4, ManyRigidTurnsLeaveNoStrain) {
   ShellModel model = ring(0.3475, 0.157, 36, 3, ShellSection(belt(), 19.6));
   ShellNodes& nodes = model.nodes;
   const Matrix3X start = nodes.x;
@@ -314,7 +314,7 @@ TEST(Shell4, PressureOnARingGivesTensionPR) {
 
 /// A thin ring pulled at two opposite points: growth of the loaded diameter P R^3/EI (pi/4 - 2/pi),
 /// inextensional.
-TEST(Shell4, InextensionalBendingOfARing) {
+TEST(Shell4, InextensionalBendingOfARingIsTheClosedForm) {
   const double R = 1.0, width = 0.1, h = 0.005, E = 1e9;
   ShellModel model =
       ring(R, width, 64, 2, ShellSection(OrthotropicLayer::isotropic(E, 0.0, h), 1.0));
@@ -435,7 +435,7 @@ TEST(Shell4, FreeMotionKeepsEnergyAndMomentum) {
 }
 
 /// The stated step is stable and not far below the limit.
-TEST(Shell4, StableStep) {
+TEST(Shell4, StableStepIsTheLimitOfStability) {
   for (const double share : {1.0, 1.4}) {
     ShellModel model = ring(0.3475, 0.157, 24, 2, ShellSection(belt(), 19.6));
     ShellNodes& nodes = model.nodes;
@@ -457,7 +457,7 @@ TEST(Shell4, StableStep) {
   }
 }
 
-TEST(Shell4, RefusesWhatIsNoShell) {
+TEST(Shell4, InvalidShellsAreRefused) {
   const ShellSection section(belt(), 19.6);
   Matrix3X x(3, 4);
   x << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;

@@ -50,7 +50,7 @@ Matrix3 some_deformation() {
   return F;
 }
 
-TEST(Brick8, PatchTestAtLargeStrain) {
+TEST(Brick8, PatchTestAtLargeStrainPasses) {
   BrickModel model = distorted_cube(3, 0.3, tread());
   const Matrix3 F = some_deformation();
   model.hold(on_surface, {0, 1, 2});
@@ -95,7 +95,7 @@ std::vector<std::pair<const char*, BrickModel>> single_elements() {
   return models;
 }
 
-TEST(Brick8, NothingButRigidMotionIsFreeOfEnergy) {
+TEST(Brick8, OnlyRigidMotionsHaveNoEnergy) {
   for (auto& [name, model] : single_elements()) {
     const Eigen::Index n = model.x.size();
     const Matrix24 element =
@@ -154,7 +154,7 @@ TEST(Brick8, RigidTurnsLeaveNoStrain) {
 }
 
 /// The same spin as a motion, by central differences: nothing is lost in it.
-TEST(Brick8, AFreeSpinKeepsItsMomentum) {
+TEST(Brick8, FreeSpinKeepsItsMomentum) {
   BrickModel model = distorted_cube(2, 0.2, tread());
   const VectorX mass = model.mesh.mass();
   const Vector3 centre = model.x * mass / mass.sum();
@@ -176,7 +176,7 @@ TEST(Brick8, AFreeSpinKeepsItsMomentum) {
     model.x += dt * v;
   }
   EXPECT_LT((momentum() - start).norm(), 1e-10 * start.norm());
-  EXPECT_NEAR(model.mesh.least_volume_ratio(), 1.0, 1e-3);
+  EXPECT_NEAR(model.mesh.minimum_volume_ratio(), 1.0, 1e-3);
 }
 
 /// Displacement upwards of the middle of the loaded side of Cook's membrane.
@@ -201,7 +201,7 @@ double cook(int n, double E, double nu, double force, bool plane_strain, int par
 
 /// Plane stress, E 1, nu 1/3, unit force: 23.96 at the middle of the loaded side (R. D. Cook, J.
 /// Struct. Div. ASCE 100, 1851 (1974), converged by many), small displacements.
-TEST(Brick8, CooksMembrane) {
+TEST(Brick8, CooksMembraneConverges) {
   const double small = 1e-5;
   const double coarse = cook(8, 1.0, 1.0 / 3.0, small, false) / small / 23.96;
   const double fine = cook(32, 1.0, 1.0 / 3.0, small, false) / small / 23.96;
@@ -212,7 +212,7 @@ TEST(Brick8, CooksMembrane) {
 
 /// Plane strain, nu 0.4999, at a large displacement: against the limit of the element's own
 /// refinement, n^-2 from 16 and 32. A locking element would stay at a third.
-TEST(Brick8, CooksMembraneIncompressible) {
+TEST(Brick8, IncompressibleCooksMembraneConverges) {
   const auto tip = [](int n) { return cook(n, 240.565, 0.4999, 20.0, true, 2); };
   const double at16 = tip(16), at32 = tip(32);
   const double limit = at32 + (at32 - at16) / 3.0;
@@ -224,7 +224,7 @@ TEST(Brick8, CooksMembraneIncompressible) {
 
 /// Slender cantilever of incompressible rubber in plane strain, length 20 times its depth, n
 /// elements over the depth and square ones: E' = E/(1 - nu^2) and shear of Timoshenko's beam.
-TEST(Brick8, BentCantileverIncompressible) {
+TEST(Brick8, IncompressibleBentCantileverConverges) {
   const double E = 6.6e6, nu = 0.4999, L = 20.0;
   std::string line;
   std::vector<double> ratios;
@@ -258,7 +258,7 @@ TEST(Brick8, BentCantileverIncompressible) {
 
 /// Long cylinder, radii 1 and 2 times 10 mm, inflated until its bore is 1.6 times as wide:
 /// incompressible, r^2 = R^2 + c, p = integral of mu (l^2 - 1/l^2) dr/r, l = r/R.
-TEST(Brick8, InflationOfAThickCylinder) {
+TEST(Brick8, InflationOfAThickCylinderIsTheClosedForm) {
   const double A = 0.01, B = 0.02, widening = 1.6;
   Rubber rubber = tread();
   rubber.law.bulk = 2000.0 * rubber.law.shear;
@@ -353,7 +353,7 @@ double growth(BrickModel& model, double share) {
   return largest / 1e-6;
 }
 
-TEST(Brick8, TheStepIsTheLimitOfStability) {
+TEST(Brick8, StableStepIsTheLimitOfStability) {
   for (auto& [name, model] : single_elements()) {
     EXPECT_LT(growth(model, 0.99), 10.0) << name;
     model.x = model.reference;
@@ -364,7 +364,7 @@ TEST(Brick8, TheStepIsTheLimitOfStability) {
 
 /// Squeezed, sheared and stretched, an element's step is not longer than its tangent allows, and
 /// not much shorter.
-TEST(Brick8, TheStepFollowsTheDeformation) {
+TEST(Brick8, StableStepFollowsTheDeformation) {
   for (auto& [name, model] : single_elements()) {
     if (std::string(name) == "wedge") continue;  // its nodes share masses
     const VectorX mass = model.mesh.mass();
@@ -430,7 +430,7 @@ BrickModel running_out() {
 
 /// Its thin wedges do not determine the step of a mesh, whose other bricks bring mass to their
 /// nodes; and the step is never longer than the mesh allows.
-TEST(Brick8, TheStepIsThatOfTheMesh) {
+TEST(Brick8, ThinWedgesDoNotLimitTheStableStep) {
   BrickModel edge = running_out();
   BrickModel wedge(edge.reference, {edge.mesh.bricks().back()}, tread());
   EXPECT_GT(edge.mesh.stable_time_step(), 1.5 * wedge.mesh.stable_time_step());
@@ -449,7 +449,7 @@ TEST(Brick8, TheStepIsThatOfTheMesh) {
 
 /// A block bonded to two plates is pressed to 40 % of its height in 20 ms and left there: it bulges
 /// and folds at the edges of the plates, and no point turns inside out.
-TEST(Brick8, PressedToFortyPercentOfItsHeight) {
+TEST(Brick8, CompressionTo40PercentOfTheHeightIsSolved) {
   const double size = 0.02, end = 0.02;
   BrickModel model = mapped_bricks(
       6, 6, 6, [&](double r, double s, double t) { return Vector3(size * r, size * s, size * t); },
@@ -460,7 +460,7 @@ TEST(Brick8, PressedToFortyPercentOfItsHeight) {
   model.forces();
   for (double time = 0.0; time < 1.2 * end;) {
     const Matrix3X f = model.forces();
-    least = std::min(least, model.mesh.least_volume_ratio());
+    least = std::min(least, model.mesh.minimum_volume_ratio());
     const double dt = 0.8 * model.mesh.stable_time_step();
     time += dt;
     v = (1.0 - 500.0 * dt) * v + dt * f * mass.cwiseInverse().asDiagonal();
@@ -484,7 +484,7 @@ TEST(Brick8, PressedToFortyPercentOfItsHeight) {
   EXPECT_GT(force, tread().law.shear * (1.0 / 0.16 - 0.4) * size * size);
 }
 
-TEST(Brick8, SaysWhichElementIsTurnedInsideOut) {
+TEST(Brick8, ErrorNamesTheInvertedElement) {
   BrickModel model = mapped_bricks(2, 1, 1, unit_cube, tread());
   model.x(2, model.nearest({1.0, 1.0, 1.0})) = -1.5;
   EXPECT_NE(error_of([&] { model.forces(); }).find("brick: element"), std::string::npos);
@@ -497,7 +497,7 @@ TEST(Brick8, SaysWhichElementIsTurnedInsideOut) {
             "brick: element 0 is turned inside out, or has no volume");
 }
 
-TEST(Brick8, AlikeBricksShareTheirShape) {
+TEST(Brick8, EqualBricksShareTheirShape) {
   BrickModel ring = mapped_bricks(
       2, 40, 1,
       [](double r, double s, double t) {

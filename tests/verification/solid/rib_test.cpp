@@ -92,7 +92,7 @@ double buckling_stress(Rib rib, double first, double step, double end) {
 
 /// Clamped below, level and free to sway above: pi^2 E' I/h^2, with width and height as they are
 /// when it buckles, squeezed by e at a constant volume: 1/(1 - e)^5 of that.
-TEST(Rib, TenTimesAsHighAsWideItBucklesAsEulersColumn) {
+TEST(Rib, SlenderRibBucklesAsAnEulerColumn) {
   const double width = 2e-3, height = 20e-3, modulus = plane_modulus(ribbed());
   const double euler = pi * pi * modulus * std::pow(width / height, 2) / 12.0;
   const double found = buckling_stress(Rib(width, height, 4, 20), 7.5e-3, 1e-4, 0.02);
@@ -101,7 +101,7 @@ TEST(Rib, TenTimesAsHighAsWideItBucklesAsEulersColumn) {
 
 /// The narrowest rib of p235_75r15_ribbed, 15.4 mm wide and 5.3 mm high, is stable far beyond the
 /// largest stress of its print, 0.86 MPa, with one brick or several through its width.
-TEST(Rib, OfTheRibbedTyreIsStableAtFourTimesTheStressOfItsPrint) {
+TEST(Rib, RibOfTheTyreIsStableAt4TimesThePrintStress) {
   const double width = 15.4e-3, height = 5.3e-3;
   for (const auto& [across, up] : {std::pair(1, 1), std::pair(2, 1), std::pair(4, 2)}) {
     Rib rib(width, height, across, up);

@@ -59,7 +59,7 @@ Outcome drop_and_pull(bool half) {
           ground.energy_budget().dissipated_energy};
 }
 
-TEST(HalfTyre, OnHalfAGroundIsTheWholeOnHalfAGround) {
+TEST(HalfTyre, HalfModelEqualsTheWholeOnHalfGround) {
   const Outcome half = drop_and_pull(true), whole = drop_and_pull(false);
   EXPECT_LT(whole.height, 0.33);
   EXPECT_GT(whole.force_z, 500.0);

@@ -108,20 +108,20 @@ void expect_many_turns(Tyre& tyre, double least, double largest) {
   EXPECT_NEAR(-run.force_x * 6.0 / run.damping_power, 1.0, 0.25);
 }
 
-TEST(RollingTyre, ManyTurns) {
+TEST(RollingTyre, ShellTyreKeepsEnergyOverManyTurns) {
   DarnellTyre tyre = darnell();
   // The belt hardly stretches: in a turn it lays down its own length, not that of the loaded
   // radius.
   expect_many_turns(tyre, 0.3475 - 0.004, 0.3475 + 0.004);
 }
 
-TEST(RollingTyre, ManyTurnsOnBricks) {
+TEST(RollingTyre, BrickTyreKeepsEnergyOverManyTurns) {
   BrickTyre tyre = bricks();
   // Between its inflated belts and the outside of its tread, which 24 sections hardly flatten
   expect_many_turns(tyre, 0.3520, 0.3730);
 }
 
-TEST(RollingTyre, SlipPullsAndBrakes) {
+TEST(RollingTyre, SlipGivesPullAndBraking) {
   DarnellTyre driven = darnell(), braked = darnell();
   const Outcome drive = roll(driven, "slip", 0.02, 2.0, 1.6);
   const Outcome brake = roll(braked, "slip", -0.02, 2.0, 1.6);

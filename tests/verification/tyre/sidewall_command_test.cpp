@@ -31,7 +31,7 @@ class SidewallCommand : public ::testing::Test {
   Scratch scratch_;
 };
 
-TEST_F(SidewallCommand, RunPrintsTabulatesAndDraws) {
+TEST_F(SidewallCommand, RunWritesTextTableAndFigure) {
   const std::string folder = scratch_.path("tr");
   const Outcome outcome = run("run " + tyres + "p235_75r15.yaml -o " + folder);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
@@ -65,7 +65,7 @@ TEST_F(SidewallCommand, RunPrintsTabulatesAndDraws) {
   EXPECT_EQ(picture.substr(1, 3), "PNG");
 }
 
-TEST_F(SidewallCommand, TheEffectiveTyreRepeatsTheRun) {
+TEST_F(SidewallCommand, EffectiveTyreRepeatsTheRun) {
   for (const char* name : {"p235_75r15.yaml", "generic_195_65r15.yaml"}) {
     ASSERT_EQ(run("run --no-plot -p 150e3 " + tyres + name + " -o " + scratch_.path("a")).status,
               0);
@@ -83,7 +83,7 @@ TEST_F(SidewallCommand, KeysAreListed) {
                                       HasSubstr("N m/rad/m")));
 }
 
-TEST_F(SidewallCommand, FailuresSayWhatIsWrong) {
+TEST_F(SidewallCommand, FailuresNameTheCause) {
   const auto expect_failure = [&](const std::string& arguments, const std::string& message) {
     const Outcome outcome = run(arguments);
     EXPECT_NE(outcome.status, 0) << arguments;

@@ -105,7 +105,7 @@ TEST(Sidewall, SectorMembraneHasTheNaturalShape) {
 /// complete elliptic integrals K and E,
 ///   chord/l = 2 E/K - 1,  P = EI (2 K/l)^2,  rise = k l/K.   (A. E. H. Love, Mathematical Theory
 ///   of Elasticity, 4th ed., art. 263)
-TEST(Sidewall, WithoutPressureItIsTheElastica) {
+TEST(Sidewall, ZeroPressureGivesTheElastica) {
   const double l = 0.16, EI = 0.5;
   for (const double slope : {20.0, 60.0, 100.0}) {  // [degrees] at either end, against the chord
     const double k = std::sin(0.5 * radians(slope)), K = std::comp_ellint_1(k),
@@ -254,7 +254,7 @@ TEST(Sidewall, ChainsOfMoreSegmentsConvergeToTheInflatedBand) {
 /// inflated. Rubber lies outside of its cords, and its sidewall turns by 97 to 101 degrees. The
 /// cords here agree within 1 % and 3 degrees, if they end at the diameter of the belts. With the
 /// diameter printed for their end, 72.5 cm, they would be nearly straight.
-TEST(Sidewall, SectionIsThatOfTheReport) {
+TEST(Sidewall, SectionHasTheSizesOfTheReport) {
   const TyreParameters tyre = tr_tyre();
   const Vector2 chord = tyre.sidewall_chord();
   SidewallDirect sidewall(tyre.sidewall, 241e3);

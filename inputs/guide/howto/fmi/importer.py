@@ -28,7 +28,7 @@ class Callbacks(ctypes.Structure):
 
 
 class FmuError(RuntimeError):
-    """With what the FMU has logged."""
+    """Error of the FMU, with its log."""
 
 
 class Fmu:

@@ -79,7 +79,7 @@ class Wheels:
         self.answers()
 
     def answers(self) -> list[Any]:
-        """One of each wheel, in their order."""
+        """Answers of all wheels, in their order."""
         try:
             received = [line.recv() for line in self.lines]
         except EOFError:

@@ -29,7 +29,7 @@ class Vehicle:
     """
 
     chassis: float = 900.0  # [kg]
-    wheel: float = 35.0  # [kg] each
+    wheel: float = 35.0  # mass of each wheel [kg]
     inertia: tuple[float, float, float] = (250.0, 900.0, 1100.0)  # roll, pitch, yaw [kg m^2]
     x: tuple[float, ...] = (1.0, 1.0, -1.2, -1.2)  # of the wheels from the centre of mass [m]
     y: tuple[float, ...] = (0.7, -0.7, 0.7, -0.7)
@@ -133,7 +133,7 @@ class Drive:
 
 
 def open_wheels(vehicle: Vehicle, **variables: object) -> Wheels:
-    """One process for each wheel."""
+    """Starts one process for each wheel."""
     return Wheels([{"x": x, "y": y, "z": z, **variables} for x, y, z in vehicle.poses()[:, :3]])
 
 

@@ -51,7 +51,7 @@ std::unique_ptr<Material> create_crushable_foam(const MaterialOptions& sections)
 const Range usual_sigma0 = Range::closed(0.3, 2.8);
 
 /// Warnings about sections that belong to two foams, or have another unit.
-std::vector<std::string> doubts_of_foam(const MaterialOptions& sections) {
+std::vector<std::string> foam_warnings(const MaterialOptions& sections) {
   const std::unique_ptr<Material> material = create_crushable_foam(sections);
   const double pc0 = static_cast<const CrushableFoam&>(*material).pc(0.0);
   const Options& law = sections.at("law").options;
@@ -89,7 +89,7 @@ MaterialModel CrushableFoam::model() {
   model.meaning = "snow and foams: ellipse hardening by compaction (ABAQUS, [Shoop2001] eq 17-18)";
   model.sections = {law_section(schema), elasticity_section(), hardening_section()};
   model.create = create_crushable_foam;
-  model.doubts = doubts_of_foam;
+  model.warnings = foam_warnings;
   model.examples = {
       "density 200 pt 11.376 sigma0 275.79 K 0.9 "
       "elasticity porous elasticity.kappa 0.005 elasticity.e0 3.5 pt_el 113.76 nu 0.3 "

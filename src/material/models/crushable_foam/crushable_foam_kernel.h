@@ -89,16 +89,9 @@ struct CrushableFoamKernel {
 
 inline BlockResult update_crushable_foam(const CrushableFoamParameters& parameters, double density,
                                          const PointBlock& block) {
-  using Kind = SectionParameters::Kind;
-  switch (parameters.section.kind) {
-    case Kind::abaqus:
-      return update_points(CrushableFoamKernel<Kind::abaqus>{parameters}, density, block);
-    case Kind::matsuoka_nakai:
-      return update_points(CrushableFoamKernel<Kind::matsuoka_nakai>{parameters}, density, block);
-    case Kind::round:
-      break;
-  }
-  return update_points(CrushableFoamKernel<Kind::round>{parameters}, density, block);
+  return for_section(parameters.section, [&](auto kind) {
+    return update_points(CrushableFoamKernel<kind.value>{parameters}, density, block);
+  });
 }
 
 constexpr void fill(CrushableFoamKernels& kernels) { kernels.update = update_crushable_foam; }

@@ -60,7 +60,7 @@ constexpr double usual_stiffness_ratio = 0.1;  // d/E; clay has up to 0.02 [Bowl
 constexpr double usual_cohesion_of_snow = 20.0, snow_density = 600.0;  // [Pa], [kg/m3]
 
 /// Warnings about other units, and sections that belong to two grounds.
-std::vector<std::string> doubts_of_cap(const MaterialOptions& sections) {
+std::vector<std::string> cap_warnings(const MaterialOptions& sections) {
   const Options& law = sections.at("law").options;
   const double d = law.number("d"), R = law.number("R");
   std::vector<std::string> sentences;
@@ -112,7 +112,7 @@ MaterialModel DruckerPragerCap::model() {
       "soils and snow: shear line, transition, hardening cap (ABAQUS, [Shoop2001] eq 12-16)";
   model.sections = {law_section(schema), elasticity_section(), hardening_section()};
   model.create = create_drucker_prager_cap;
-  model.doubts = doubts_of_cap;
+  model.warnings = cap_warnings;
   const std::string snow =
       " hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate";
   model.examples = {

@@ -55,7 +55,7 @@ struct DruckerPragerCapKernel {
   Numbers correct(int surface, const Lanes* prediction) const {
     const ElasticStep elastic(parameters.elasticity, prediction[0]);
     const Deviator deviator(parameters.section, prediction + trial_numbers);
-    Hardening own_hardening(parameters.hardening);  // these points are no neighbours
+    Hardening own_hardening(parameters.hardening);  // gathered points are no neighbours
     const CapTrial trial =
         make_trial(parameters, elastic, deviator, own_hardening, prediction[1], prediction[2]);
     const CapReturn end = return_mapping(
@@ -122,17 +122,9 @@ struct DruckerPragerCapKernel {
 
 inline BlockResult update_drucker_prager_cap(const DruckerPragerCapParameters& parameters,
                                              double density, const PointBlock& block) {
-  using Kind = SectionParameters::Kind;
-  switch (parameters.section.kind) {
-    case Kind::abaqus:
-      return update_gathered(DruckerPragerCapKernel<Kind::abaqus>{parameters}, density, block);
-    case Kind::matsuoka_nakai:
-      return update_gathered(DruckerPragerCapKernel<Kind::matsuoka_nakai>{parameters}, density,
-                             block);
-    case Kind::round:
-      break;
-  }
-  return update_gathered(DruckerPragerCapKernel<Kind::round>{parameters}, density, block);
+  return for_section(parameters.section, [&](auto kind) {
+    return update_gathered(DruckerPragerCapKernel<kind.value>{parameters}, density, block);
+  });
 }
 
 constexpr void fill(DruckerPragerCapKernels& kernels) {

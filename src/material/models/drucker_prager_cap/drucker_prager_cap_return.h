@@ -56,7 +56,7 @@ inline void return_to_shear(const DruckerPragerCapParameters& parameters, const 
                                   active && high > Lanes(0.0), end.iterations);
   const Lanes solution = select(active, max(x, 0.0), 0.0);
   residual(solution);
-  pressure = min(pressure, now.pa);  // it is below, but for rounding
+  pressure = min(pressure, now.pa);  // the pressure is below, except for rounding
   strength = shear_strength(parameters, now, pressure, 0.0, 0.0, nullptr).value;
   const Mask apex = strength <= Lanes(1e-12) * now.Q;
   where(active, end.compaction) = -solution;

@@ -58,7 +58,7 @@ std::unique_ptr<Material> create_norsand(const MaterialOptions& sections) {
                                    o.has("band_width") ? o.number("band_width") : q.shear_band);
 }
 
-std::vector<std::string> doubts_of_norsand(const MaterialOptions& sections) {
+std::vector<std::string> norsand_warnings(const MaterialOptions& sections) {
   const Options& o = sections.at("law").options;
   const double density = o.number("density"), e0 = o.number("e0"), solid = density * (1.0 + e0);
   std::vector<std::string> sentences;
@@ -131,7 +131,7 @@ MaterialModel NorSand::model() {
       "sand that peaks and falls to the critical state (NorSand, Jefferies and Shuttle, 2005)";
   model.sections = {law_section(schema)};
   model.create = create_norsand;
-  model.doubts = doubts_of_norsand;
+  model.warnings = norsand_warnings;
   const std::string sand = " M 1.25 gamma 0.85 lambda 0.02 chi 3.5 N 0.5 H 100 G 40e6 n 0.5 nu 0.2";
   model.examples = {
       "density 1700 e0 0.6" + sand, "density 1450 e0 0.9" + sand + " H_psi 300 image_pressure 2e3",

@@ -50,7 +50,7 @@ struct NorSandKernel {
     return (power(min(x, parameters.tip), N / (1.0 - N)) - Lanes(1.0)) * Lanes(parameters.M / N);
   }
   /// D_l
-  FURROW_INLINE Lanes least_dilatancy(const Lanes& psi) const {
+  FURROW_INLINE Lanes minimum_dilatancy(const Lanes& psi) const {
     return min(max(Lanes(parameters.chi_i) * psi, -parameters.M),
                NorSandParameters::loosest * parameters.largest_D());
   }
@@ -87,7 +87,7 @@ struct NorSandKernel {
                            : logarithm(image_old);
     Lanes psi = voids - Lanes(parameters.gamma) + Lanes(parameters.lambda) * fall;
     if (parameters.shear_band > 0.0) {
-      const Lanes D_l = least_dilatancy(psi);
+      const Lanes D_l = minimum_dilatancy(psi);
       const Mask softens = psi < Lanes(0.0) && P_tr > Lanes(0.0) && P_tr < ratio(D_l) * image_old &&
                            t_tr > stress_ratio(D_l) * P_tr;
       const Lanes rest =
@@ -97,7 +97,7 @@ struct NorSandKernel {
       voids = voids + more;
       psi = psi + more;
     }
-    const Lanes limit = least_dilatancy(psi);
+    const Lanes limit = minimum_dilatancy(psi);
     const Lanes x_l = ratio(limit), lowest = min(limit, largest), x_low = min(x_l, tip);
 
     // The trial against the surface; the slack is rounding.
@@ -110,13 +110,13 @@ struct NorSandKernel {
     if (any(yielding)) {
       const Lanes over_k = Lanes(1.0) / (Lanes(3.0) * deviator.stiffness(shear)), c = bulk * over_k;
       const Lanes H = max(Lanes(parameters.H) - Lanes(parameters.H_psi) * psi,
-                          NorSandParameters::least_hardening * parameters.H) *
+                          NorSandParameters::minimum_hardening * parameters.H) *
                       hardening_over_reference(image_old);
       const Lanes over_x_l = Lanes(1.0) / x_l;
       const auto pressure = [&](const Lanes& at) __attribute__((always_inline)) {
         return (P_tr - c * at * t_tr) / (Lanes(1.0) - c * at * stress_ratio(at));
       };
-      // Where Deps_q = 0
+      // points with Deps_q = 0
       const Lanes no_flow = select(
           P_tr > Lanes(0.0),
           (Lanes(parameters.M) - t_tr / max(P_tr, 1e-290)) * Lanes(1.0 / (1.0 - parameters.N)),
@@ -212,16 +212,9 @@ struct NorSandKernel {
 
 inline BlockResult update_norsand(const NorSandParameters& parameters, double density,
                                   const PointBlock& block) {
-  using Kind = SectionParameters::Kind;
-  switch (parameters.section.kind) {
-    case Kind::abaqus:
-      return update_points(NorSandKernel<Kind::abaqus>{parameters}, density, block);
-    case Kind::matsuoka_nakai:
-      return update_points(NorSandKernel<Kind::matsuoka_nakai>{parameters}, density, block);
-    case Kind::round:
-      break;
-  }
-  return update_points(NorSandKernel<Kind::round>{parameters}, density, block);
+  return for_section(parameters.section, [&](auto kind) {
+    return update_points(NorSandKernel<kind.value>{parameters}, density, block);
+  });
 }
 
 constexpr void fill(NorSandKernels& kernels) { kernels.update = update_norsand; }

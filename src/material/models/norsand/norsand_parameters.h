@@ -13,7 +13,7 @@ struct NorSandParameters {
   double N = 0.5;             ///< volumetric coupling
   double chi_i = 4.0;         ///< dilatancy over the state parameter of the image
   double H = 100.0;           ///< plastic hardening modulus at the reference pressure
-  double H_exponent = 0.0;    ///< exponent of its decrease with the image pressure
+  double H_exponent = 0.0;    ///< exponent of the decrease of H with the image pressure
   double H_psi = 0.0;         ///< its decrease with the state parameter of the image
   double gamma = 1.0;         ///< critical void ratio at p = 1 Pa, or at p = 0 with an exponent
   double lambda = 0.0;        ///< slope of the critical state line
@@ -31,7 +31,7 @@ struct NorSandParameters {
   double largest_D() const { return M / (1.0 - N); }
 
   static constexpr double reference_pressure = 1e5;  ///< of G and H [Pa]
-  static constexpr double least_hardening = 0.1;     ///< share of H that remains in loose sand
+  static constexpr double minimum_hardening = 0.1;   ///< share of H that remains in loose sand
   static constexpr double loosest = 3.0;             ///< bound of D_l over largest_D()
 };
 

@@ -25,7 +25,7 @@ DENSITY, GRAVITY, SPACING = 1500.0, 9.80665, 0.0125
 
 
 class ClosedForms(unittest.TestCase):
-    def test_circle_has_the_solution_of_its_axis(self) -> None:
+    def test_circle_has_the_closed_form_on_its_axis(self) -> None:
         z, a = np.array([0.01, 0.1, 0.5, 3.0]), 0.2
         for factor in (ELASTIC, *SOEHNE):
             expected = 1 - (z / np.sqrt(z**2 + a**2)) ** factor
@@ -83,7 +83,7 @@ class Measured(unittest.TestCase):
         growth = (stress(self.HEAVY, 0.9) - stress(self.LIGHT, 0.9)) / (self.HEAVY - self.LIGHT)
         return np.array([*(stress(self.HEAVY, z) for z in (0.3, 0.6, 0.9)), 9.81 * growth])
 
-    def test_soehne_4_meets_the_subsoil_and_misses_the_topsoil(self) -> None:
+    def test_soehne_4_agrees_in_the_subsoil_and_not_in_the_topsoil(self) -> None:
         error = {factor: self.formulas(factor) / self.MEASURED - 1 for factor in (ELASTIC, *SOEHNE)}
         rms = {factor: float(np.sqrt(np.mean(found[1:] ** 2))) for factor, found in error.items()}
         self.assertEqual(min(rms, key=lambda factor: rms[factor]), 4.0)
@@ -184,7 +184,7 @@ class Report(FolderTest):
         denser = layers["density"] / layers["density_before"] - 1
         np.testing.assert_allclose(denser, 0.1 * np.exp(-layers["depth"] / 0.2))
 
-    def test_as_a_command(self) -> None:
+    def test_command_prints_the_result(self) -> None:
         write_pressed(self.folder / "a")
         done = run_post("compaction", f"soft={self.folder / 'a'}")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -196,7 +196,7 @@ class Report(FolderTest):
         pixels = matplotlib.image.imread(self.folder / "compaction/compaction.png")[:, :, :3]
         self.assertGreater(len(np.unique((pixels * 15).astype(int).reshape(-1, 3), axis=0)), 30)
 
-    def test_refusals(self) -> None:
+    def test_faults_are_refused(self) -> None:
         write_run(self.folder / "bare")
         with self.assertRaisesRegex(ResultsError, "no terrain at the end of a run"):
             read_compaction(self.folder / "bare")

@@ -16,7 +16,7 @@ class CostRatioTest(unittest.TestCase):
         self.assertEqual((row["run"], row["pairs"], row["ratio"]), ("dear over cheap", 2, 3.0))
         self.assertEqual(row["ratio_error"], round(math.sqrt(2) / math.sqrt(2), 3))
 
-    def test_one_pair_has_no_error(self) -> None:
+    def test_single_pair_has_no_error(self) -> None:
         self.assertEqual(cost_ratio("", {"dear_1": 30.0, "cheap_1": 9.0}, self.PAIRS), [])
 
 

@@ -85,7 +85,7 @@ class FlowTest(FolderTest):
         write_moved(self.folder / "b", b, density)
         return compare_flows([read_wheel_run(self.folder / name) for name in "ab"], 0.02)
 
-    def test_a_field_is_found_again(self) -> None:
+    def test_known_field_is_recovered(self) -> None:
         result = self.of(shear, shear)
         flow = result.flows[0]
         x, z = np.meshgrid(*result.window)
@@ -106,7 +106,7 @@ class FlowTest(FolderTest):
         denser = self.of(shear, shear, 1.1 * DENSITY)
         self.assertAlmostEqual(denser.density_difference, 0.1 / 1.05)
 
-    def test_ground_at_rest_bears_its_weight(self) -> None:
+    def test_stress_of_ground_at_rest_is_its_weight(self) -> None:
         """Closed form rho g h, of particles that have it and of grains by their contacts' forces."""
         write_moved(self.folder / "a", shear)
         write_columns(self.folder / "b")
@@ -119,13 +119,13 @@ class FlowTest(FolderTest):
             np.testing.assert_allclose(ratio, 1, atol=0.02)
         self.assertLess(result.stress_difference, 0.02)
 
-    def test_twice_the_stress_has_its_known_difference(self) -> None:
+    def test_doubled_stress_has_its_known_difference(self) -> None:
         write_moved(self.folder / "a", shear)
         write_moved(self.folder / "b", shear, stress=2 * DENSITY * 9.81)
         runs = [read_wheel_run(self.folder / name) for name in "ab"]
         self.assertAlmostEqual(compare_flows(runs, 0.02).stress_difference, 2 / 3)
 
-    def test_grains_without_stress_are_said(self) -> None:
+    def test_grains_without_stress_are_reported(self) -> None:
         write_moved(self.folder / "a", shear)
         write_columns(self.folder / "b", virial=False)
         done = run_post("flow", self.folder / "a", self.folder / "b")
@@ -134,7 +134,7 @@ class FlowTest(FolderTest):
         with h5py.File(self.folder / "flow/flow.h5") as content:
             self.assertNotIn("vertical_stress", content["first"])
 
-    def test_as_a_command(self) -> None:
+    def test_command_prints_the_result(self) -> None:
         write_moved(self.folder / "a", shear)
         write_moved(self.folder / "b", lambda x: 0.5 * shear(x))
         done = run_post("flow", self.folder / "a", self.folder / "b")
@@ -147,7 +147,7 @@ class FlowTest(FolderTest):
         pixels = matplotlib.image.imread(self.folder / "flow/flow.png")[:, :, :3]
         self.assertGreater(len(np.unique((pixels * 15).astype(int).reshape(-1, 3), axis=0)), 50)
 
-    def test_refusals(self) -> None:
+    def test_faults_are_refused(self) -> None:
         write_moved(self.folder / "a", shear)
         run = read_wheel_run(self.folder / "a")
         with self.assertRaisesRegex(ResultsError, "is 1 mm; allowed: at least 10 mm"):

@@ -22,7 +22,7 @@ def plate_curve(label: str, factor: float, box: float = 0.8, **facts: float) -> 
 class PlateErrorsTest(unittest.TestCase):
     base = plate_curve("base", math.exp(5 * 0.02), diameter=0.02)
 
-    def test_errors_are_those_of_the_checks(self) -> None:
+    def test_errors_equal_those_of_the_checks(self) -> None:
         checks = [
             plate_curve("coarse", math.exp(5 * 0.04), diameter=0.04),
             plate_curve("seed", 1.1 * math.exp(5 * 0.02), diameter=0.02),
@@ -41,7 +41,7 @@ class PlateErrorsTest(unittest.TestCase):
         noise = e / math.sqrt(2) / math.sqrt(2)
         self.assertAlmostEqual(best.parts.size / best.value, math.hypot(bound, noise), places=4)
 
-    def test_a_plate_s_best_estimate_is_on_the_curve_of_its_sizes(self) -> None:
+    def test_best_estimate_of_a_plate_lies_on_the_curve_of_its_sizes(self) -> None:
         checks = [
             plate_curve("coarse", math.exp(5 * 0.04), diameter=0.04),
             plate_curve("coarser", math.exp(5 * 0.06), diameter=0.06),
@@ -57,7 +57,7 @@ class PlateErrorsTest(unittest.TestCase):
         self.assertEqual(run.unknown, ["domain", "packing"])
         self.assertEqual(run.quantity.label, "pressure at 10 mm [kPa]")
 
-    def test_packings_make_the_best_estimate_surer(self) -> None:
+    def test_packings_reduce_the_error_of_the_best_estimate(self) -> None:
         random, scatter = np.random.default_rng(2), 0.02
         sizes, held, errors = (0.02, 0.04, 0.06), 0, []
         for _ in range(100):
@@ -75,7 +75,7 @@ class PlateErrorsTest(unittest.TestCase):
         few, many = np.mean(errors, axis=0)
         self.assertLess(many, few)
 
-    def test_a_series_that_is_not_monotonic_keeps_its_finest_value(self) -> None:
+    def test_non_monotonic_series_gives_its_finest_value(self) -> None:
         # ln p at 2, 4, 6 cm: 1, -2, 1 e
         e, sizes = 0.03, (0.02, 0.04, 0.06)
         base, *checks = (
@@ -85,7 +85,7 @@ class PlateErrorsTest(unittest.TestCase):
         self.assertAlmostEqual(best.value, run.value, places=9)
         self.assertGreater(best.parts.size / best.value, e)
 
-    def test_of_one_size_there_is_no_limit_and_beyond_the_end_nothing(self) -> None:
+    def test_one_size_has_no_limit_and_no_value_beyond_its_curve(self) -> None:
         (alone,) = plates.plate_entries(self.base, [], 0.01)
         self.assertEqual((alone.kind, alone.unknown), (RUN, ["size", "domain", "packing"]))
         self.assertEqual(plates.plate_entries(self.base, [], 0.06), [])

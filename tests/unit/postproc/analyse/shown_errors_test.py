@@ -72,7 +72,7 @@ class CommittedTest(unittest.TestCase):
             self.assertEqual(known - set(columns), set(), path)
         self.assertEqual(listed, {}, "errors.csv has tables that do not exist")
 
-    def test_tables_with_errors_of_cells_have_no_smaller_ones_than_are_known(self) -> None:
+    def test_errors_of_cells_are_not_below_the_known_ones(self) -> None:
         known, seen = size_errors(), 0
         for row in read_rows(INPUTS / "validation" / "errors.csv"):
             if not re.search("cells|grains", row["holds"]) or "change" in row["holds"]:
@@ -108,7 +108,7 @@ class CommittedTest(unittest.TestCase):
         self.assertGreater(pages, 15)
         self.assertEqual({page.parent.name for page in over_time}, {"convergence", "grains"})
 
-    def test_cross_check_shows_no_smaller_errors_than_its_parts(self) -> None:
+    def test_errors_of_the_cross_check_are_not_below_their_parts(self) -> None:
         folder = INPUTS / "crosscheck"
         page = (folder / "README.md").read_text(encoding="utf-8")
         table = [line for line in page.splitlines() if line.startswith("|") and "±" in line]
@@ -126,7 +126,7 @@ class CommittedTest(unittest.TestCase):
                 checked += 1
         self.assertGreater(checked, 15)
 
-    def test_regimes_have_no_smaller_error_than_their_own_tests_leave(self) -> None:
+    def test_errors_of_regimes_are_not_below_those_of_their_tests(self) -> None:
         """The error of the model and of the tests cover the mean square of the differences of each regime."""
         tests = read_rows(INPUTS / "validation" / "measured.csv")
         for regime in read_rows(INPUTS / "validation" / "model_errors.csv"):
@@ -166,7 +166,7 @@ class OutputTest(FolderTest):
             found += 1
         return found
 
-    def test_texts_of_a_run(self) -> None:
+    def test_texts_of_a_run_state_the_kind_of_error(self) -> None:
         write_run(self.folder / "run", torque=50.0, pull=0.1)
         run = read_wheel_run(self.folder / "run")
         histories = self.folder / "histories.png"
@@ -184,7 +184,7 @@ class OutputTest(FolderTest):
             parts = [value for name, value in line.items() if name.startswith("u_") and isinstance(value, float)]
             self.assertAlmostEqual(float(line["uncertainty"]), math.hypot(*(p for p in parts if p == p)))
 
-    def test_density_under_the_track_names_what_its_error_lacks(self) -> None:
+    def test_density_under_the_track_lists_the_excluded_errors(self) -> None:
         run = self.run_on_sand()
         with patch.object(comparison, "track_density", return_value=(1650.0, 5.0)):
             result = compare([run])
@@ -194,14 +194,14 @@ class OutputTest(FolderTest):
         self.assertEqual((row["u_time"], row["u_packing"]), (5.0, 0.0))
         self.assertTrue(math.isnan(float(row["u_size"])))
 
-    def test_texts_of_a_folder(self) -> None:
+    def test_texts_of_a_folder_state_the_kind_of_error(self) -> None:
         write_run(self.folder / "run", torque=50.0)
         folder = self.folder / "run"
         run = read_wheel_run(folder)
         for text in (report(folder), headline(folder), verdict_line(folder, quick=False)):
             self.assertGreaterEqual(self.assert_whole(text, run), 1)
 
-    def test_values_of_a_sweep(self) -> None:
+    def test_values_of_a_sweep_state_the_kind_of_error(self) -> None:
         run = self.run_on_sand()
         for name, value in quantities([run], {}).items():
             known = [value.parts.part(part) for part in value.parts.known]

@@ -47,7 +47,7 @@ class CompareCommandTest(SharedFolderTest):
     def run_post(self, *arguments: object) -> "CompletedProcess[str]":
         return run_post(*arguments, folder=self.folder)
 
-    def test_refuses_another_load_and_says_why(self) -> None:
+    def test_other_load_is_refused_with_the_reason(self) -> None:
         done = self.run_post("compare", "a", "heavy", "-o", "refused")
         self.assertEqual(done.returncode, 1)
         self.assertIn(
@@ -116,7 +116,7 @@ class CompareCommandTest(SharedFolderTest):
         for name in ("report.csv", "report.h5"):
             self.assertTrue((self.folder / "page" / name).is_file())
 
-    def test_cost_draws_and_writes_a_table(self) -> None:
+    def test_cost_writes_figure_and_table(self) -> None:
         done = self.run_post("cost", "a", "b", "--write", "runs.csv", "-o", "cost.png")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("grains, ground unknown", done.stdout)

@@ -36,7 +36,7 @@ class ExportTest(FolderTest):
         with h5py.File(self.folder / name / "history.h5") as content:
             return {channel: data[()].tolist() for channel, data in content["history"].items()}
 
-    def test_every_channel_with_its_unit_and_every_digit(self) -> None:
+    def test_export_has_every_channel_with_unit_and_every_digit(self) -> None:
         self.export("b")
         rows, history = self.rows("b/history.csv"), self.history("b")
         names = {name.partition(" [")[0]: name for name in rows[0]}
@@ -46,7 +46,7 @@ class ExportTest(FolderTest):
         for channel, values in history.items():
             self.assertEqual([float(row[names[channel]]) for row in rows], values)
 
-    def test_some_channels_of_several_runs(self) -> None:
+    def test_chosen_channels_of_several_runs_are_exported(self) -> None:
         self.export("a", "b", "--channels", "force_z, hub_drop", "-o", "out.csv")
         rows = self.rows("out.csv")
         self.assertEqual(list(rows[0]), ["run", "time [s]", "force_z [N]", "hub_drop [m]"])
@@ -54,14 +54,14 @@ class ExportTest(FolderTest):
             found = [float(row["hub_drop [m]"]) for row in rows if row["run"] == name]
             self.assertEqual(found, self.history(name)["hub_drop"])
 
-    def test_mistyped_channel_names_the_near_one(self) -> None:
+    def test_mistyped_channel_suggests_the_nearest(self) -> None:
         errors = io.StringIO()
         with contextlib.redirect_stderr(errors):
             self.assertEqual(main(["export", str(self.folder / "a"), "--channels", "hub_dorp"]), 1)
         self.assertIn("no run has the channel 'hub_dorp'", errors.getvalue())
         self.assertIn("did you mean 'hub_drop'?", errors.getvalue())
 
-    def test_channel_of_one_run_only_leaves_cells_empty(self) -> None:
+    def test_channel_of_one_run_leaves_empty_cells(self) -> None:
         with h5py.File(self.folder / "b" / "history.h5", "r+") as content:
             del content["history/slip"]
         self.export("a", "b", "--channels", "slip", "-o", "out.csv")

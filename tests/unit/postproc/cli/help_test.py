@@ -42,7 +42,7 @@ class HelpTest(unittest.TestCase):
                 with self.subTest(entry.path, parameter=parameter.name):
                     self.assertTrue(getattr(parameter, "help", ""))
 
-    def test_former_names_print_the_present_one(self) -> None:
+    def test_former_command_names_print_the_present_one(self) -> None:
         names = [name for entry in entries() for name in entry.former]
         self.assertIn("fit-law", names)
         for entry in entries():
@@ -53,7 +53,7 @@ class HelpTest(unittest.TestCase):
                 said = outcome(lambda: main([name, "--help"])).said
                 self.assertEqual(said, f"furrow-post: '{name}' is now 'furrow-post {' '.join(words[:-1])}'\n")
 
-    def test_the_program_of_soil_cards_is_a_group(self) -> None:
+    def test_program_of_soil_cards_is_a_group(self) -> None:
         for words, path in ((["make"], "material"), (["card"], "make"), (["table"], "table")):
             said = outcome(lambda: soil([*words, "--help"])).said
             self.assertEqual(said, f"furrow-soil: is now 'furrow-post card {path}'\n")

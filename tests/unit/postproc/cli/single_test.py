@@ -48,24 +48,24 @@ class SingleRunTest(SharedFolderTest):
         self.assertGreater(len(colours), least_colours)
         self.assertGreater((pixels.min(axis=2) < 0.9).mean(), 0.01)  # not blank
 
-    def test_plot(self) -> None:
+    def test_plot_writes_a_figure(self) -> None:
         done = run_post("plot", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.expect_picture(self.folder / "histories.png", 20)
 
-    def test_plot_against_the_place_of_the_axle(self) -> None:
+    def test_plot_has_the_position_of_the_axle_as_abscissa(self) -> None:
         file = self.folder / "place.svg"
         done = run_post("plot", self.folder, "--against", "x", "-o", file)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("x of the axle [m]", file.read_text())
         self.assertNotIn("time [s]", file.read_text())
 
-    def test_picture(self) -> None:
+    def test_picture_is_written(self) -> None:
         done = run_post("picture", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.expect_picture(self.folder / "rut.png", 200)
 
-    def test_resistance_is_that_of_the_program_and_of_the_signal(self) -> None:
+    def test_resistance_equals_that_of_program_and_signal(self) -> None:
         done = run_post("resistance", "--csv", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         names, values = (line.split(",") for line in done.stdout.strip().splitlines())
@@ -87,7 +87,7 @@ class SingleRunTest(SharedFolderTest):
         shutil.copy(self.folder / "history.h5", folder)
         return folder
 
-    def test_plot_marks_the_means_of_the_summary(self) -> None:
+    def test_plot_shows_the_means_of_the_summary(self) -> None:
         folder = self.copy("summarised")
         command = ("plot", folder, "--format", "svg")
         self.assertEqual(run_post(*command).returncode, 0)
@@ -110,7 +110,7 @@ class SingleRunTest(SharedFolderTest):
         self.assertIn("slip 10 % imposed", drawn)
         self.assertIn("(imposed)", drawn)
 
-    def test_faulty_parts(self) -> None:
+    def test_faulty_parts_are_refused(self) -> None:
         folder = self.copy("faulty")
         with h5py.File(folder / "history.h5", "a") as content:
             del content["history/slip"]
@@ -126,7 +126,7 @@ class SingleRunTest(SharedFolderTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn("summary.json: cannot be read", done.stderr)
 
-    def test_errors(self) -> None:
+    def test_errors_are_one_line(self) -> None:
         missing = run_post("plot", self.folder / "nowhere")
         self.assertEqual(missing.returncode, 1)
         self.assertIn("no such file; name the results folder", missing.stderr)

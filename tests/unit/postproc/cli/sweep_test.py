@@ -9,7 +9,7 @@ from support.runs import write_run
 
 
 class SweepCommandTest(FolderTest):
-    def test_folders_of_runs_and_refusals(self) -> None:
+    def test_sweep_lists_folders_of_runs_and_refuses_faults(self) -> None:
         for ground, sinkage in (("soft", 0.05), ("hard", 0.02)):
             for load in (1000.0, 2000.0):
                 write_run(self.folder / ground / f"load_{load:g}", load, sinkage)

@@ -88,25 +88,25 @@ class WordingTest(unittest.TestCase):
                 self.assertIn(text, end.said)
         return end
 
-    def test_unknown_options(self) -> None:
+    def test_unknown_options_are_refused(self) -> None:
         for program in programs():
             if program.name != WHOLE:
                 self.expect(program, ["--no-such-option"], "there is no option '--no-such-option'", "--help'")
 
-    def test_misspelt_options(self) -> None:
+    def test_misspelt_options_get_a_suggestion(self) -> None:
         for program in programs():
             for option in options(program.command):
                 name = max(option.opts, key=len)
                 if name.startswith("--") and len(name) > 5:
                     self.expect(program, [name[:-2] + name[-1]], "did you mean", name)
 
-    def test_options_without_a_value(self) -> None:
+    def test_options_without_a_value_are_refused(self) -> None:
         for program in programs():
             for option in options(program.command):
                 if not option.is_flag and not option.count:
                     self.expect(program, [option.opts[0]], f"{option.opts[0]} needs ")
 
-    def test_values_of_another_type_or_range(self) -> None:
+    def test_values_of_wrong_type_or_range_are_refused(self) -> None:
         tested = 0
         for program in programs():
             for option in options(program.command):
@@ -118,14 +118,14 @@ class WordingTest(unittest.TestCase):
                     tested += 1
         self.assertGreater(tested, 100)
 
-    def test_missing_arguments(self) -> None:
+    def test_missing_arguments_are_refused(self) -> None:
         for program in programs():
             for parameter in program.command.params:
                 if parameter.required and program.name != WHOLE:
                     self.expect(program, [], "is missing")
                     break
 
-    def test_every_type_is_of_the_package(self) -> None:
+    def test_parameter_types_are_those_of_the_package(self) -> None:
         for program in programs():
             for parameter in program.command.params:
                 if not getattr(parameter, "is_flag", False):

@@ -11,7 +11,7 @@ GOAL = 0.10  # rms of Fx/Fz
 
 
 class FrameTest(unittest.TestCase):
-    def test_traction_along_the_heading_is_that_of_the_rotated_force(self) -> None:
+    def test_traction_along_the_heading_is_the_rotated_force(self) -> None:
         angle, force = math.radians(20.0), (-0.27, 0.25)  # along and across the travel
         lateral = -force[0] * math.sin(angle) + force[1] * math.cos(angle)
         traction = force[0] * math.cos(angle) + force[1] * math.sin(angle)
@@ -23,12 +23,12 @@ class FrameTest(unittest.TestCase):
 
 
 class PageTest(unittest.TestCase):
-    def test_grains_leave_the_measurement_as_they_become_finer(self) -> None:
+    def test_finer_grains_increase_the_distance_from_the_measurement(self) -> None:
         rms = stored("cmu_sand", "accuracy").set_index(["ground", "size_mm"])["rms_fx_over_fz"]["grains"]
         self.assertTrue(rms[[10.0, 8.0, 6.0, 0.0]].is_monotonic_increasing)
         self.assertGreater(rms[0.0], GOAL)
 
-    def test_the_law_of_the_smooth_wheel_meets_grousers_with_six_mm_alone(self) -> None:
+    def test_law_of_the_smooth_wheel_agrees_for_grousers_of_six_mm_alone(self) -> None:
         rows = stored("cmu_sand", "grousers_accuracy")
         points = [p for p in study.MEASURED if p["kind"] == "grouser" and -0.55 < p["slip"] < 0.8]
         self.assertTrue((rows["slips"] == len(points)).all())
@@ -37,7 +37,7 @@ class PageTest(unittest.TestCase):
         self.assertGreater(rms[8.0], GOAL)
         self.assertLessEqual(rms[6.0], GOAL)
 
-    def test_with_coarse_grains_lateral_force_follows_their_strength_alone(self) -> None:
+    def test_lateral_force_on_coarse_grains_follows_their_strength_alone(self) -> None:
         sideways = stored("cmu_sand", "grounds").dropna(subset="fy_over_fz")
         is_strong = sideways["ground"].str.contains("rolling")
         weak, (strong,) = sideways["fy_over_fz"][~is_strong], sideways["fy_over_fz"][is_strong]
@@ -45,7 +45,7 @@ class PageTest(unittest.TestCase):
         self.assertLess(weak.max() - weak.min(), 0.11)
         self.assertGreater(strong, weak.max() + 0.11)
 
-    def test_sixteen_grains_in_the_width_have_less_lateral_force_than_five(self) -> None:
+    def test_lateral_force_falls_from_5_to_16_grains_in_the_width(self) -> None:
         mine = stored("cmu_sand", "slip_angle").query("ground == 'grains, rolling friction 0.35'")
         finest = mine.loc[mine["grains_in_width"].idxmax()]
         self.assertGreaterEqual(finest["grains_in_width"], 16.0)

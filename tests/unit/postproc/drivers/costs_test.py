@@ -15,7 +15,7 @@ driver: Any = evaluation_of(FOLDER)
 
 
 class CostsTest(unittest.TestCase):
-    def test_every_table_is_of_the_listed_runs(self) -> None:
+    def test_tables_have_the_listed_runs(self) -> None:
         tables = {path.stem for path in FOLDER.glob("*.csv")} - {"runs", "models", "provenance"}
         self.assertEqual(tables, set(driver.TABLES))
         for table in driver.TABLES:
@@ -32,7 +32,7 @@ class CostsTest(unittest.TestCase):
                     parts = family.components("sinkage", family.bases[-1].size, 0.0)
                     self.assertTrue(all(map(math.isfinite, [parts.part(name) for name in parts.NUMERICAL])), parts)
 
-    def test_the_cheapest_run_within_the_asked_error_is_marked(self) -> None:
+    def test_cheapest_run_within_the_requested_error_is_marked(self) -> None:
         rows = read_rows(FOLDER.parent / "validation" / "speed.csv")
         self.assertEqual(len({row["kind"] for row in rows}), 3)
         self.assertLessEqual({"continuum", "grains", "hybrid", "terrain/scm", "formula"}, {row["ground"] for row in rows})

@@ -24,7 +24,7 @@ import wheel_cases
 
 
 class LinesTest(unittest.TestCase):
-    def test_parts_that_are_not_known_are_named(self) -> None:
+    def test_unknown_parts_are_named(self) -> None:
         """The page has the other answers."""
         for value, parts, expected in (
             (0.13, (), "inconclusive, +30 %, unknown: uncertainty of grains"),
@@ -35,7 +35,7 @@ class LinesTest(unittest.TestCase):
                 own = {"continuum": Entry(HUB_DROP, "continuum", 0.1, Budget(0.0, 0.0, 0.0, 0.0), RUN), "grains": other}
                 self.assertEqual(lines.answers(own), [expected])
 
-    def test_a_line_is_the_entry_again(self) -> None:
+    def test_line_of_the_table_restores_its_entry(self) -> None:
         parts = Budget(1e-3, 2e-3, math.nan, 0.0)
         for quantity in (HUB_DROP, COEFFICIENT, pressure_at(0.015)):
             for kind in (RUN, BEST):
@@ -52,7 +52,7 @@ class SeriesTest(unittest.TestCase):
     twin = row("base", "grains", 0.04, 0.08, 0.20, 10.0, error=0.001)
     point = row("point", "grains", 0.0401, 0.12, 0.26, 10.0, error=0.003)
 
-    def test_sinkages_go_by_the_ratio_and_coefficients_by_the_difference(self) -> None:
+    def test_sinkages_compare_by_ratio_and_coefficients_by_difference(self) -> None:
         ratio_error = 0.15 * math.hypot(0.003 / 0.12, 0.001 / 0.08)
         for quantity, base, value, parts in (
             (HUB_DROP, 0.1, 0.1 * 1.5, (ratio_error, 0.003, 0.0015, 0.006)),
@@ -63,7 +63,7 @@ class SeriesTest(unittest.TestCase):
                 zero = series.moved(whole, self.point, self.twin, 0.004)
                 np.testing.assert_allclose([zero.value, *(zero.parts.part(name) for name in Budget.NUMERICAL)], [value, *parts], atol=5e-8)
 
-    def test_the_twin_has_the_point_s_size_packing_and_width(self) -> None:
+    def test_twin_run_has_size_packing_and_width_of_the_point(self) -> None:
         others = [
             row("coarse", "grains", 0.05, 0.1, 0.2, 99.0),
             row("packing", "grains", 0.04, 0.1, 0.2, 99.0, seed="2"),
@@ -85,7 +85,7 @@ class PlanTest(unittest.TestCase):
         self.assertIn(SOURCE / "inputs" / "scenes" / "tyre_on_sintered_snow.lig", scene.arguments)
         self.assertNotIn("here", scene.variables)
 
-    def test_scripts_and_materials_are_there(self) -> None:
+    def test_scripts_and_materials_exist(self) -> None:
         for plan in cases.plan():
             with self.subTest(run=plan.run.name):
                 self.assertIn(plan.run.arguments[1], plan.run.input_files())
@@ -102,13 +102,13 @@ class PlanTest(unittest.TestCase):
 class PageTest(unittest.TestCase):
     """README.md is made of results.csv, and that of the runs that are planned."""
 
-    def test_the_page_s_table_is_that_of_results_csv(self) -> None:
+    def test_table_of_the_page_is_results_csv(self) -> None:
         page = (FOLDER / "README.md").read_text(encoding="utf-8")
         table = lines.table(read_rows(FOLDER / "results.csv"))
         self.assertGreater(len(table), 2)
         self.assertIn("\n".join(["", *table, ""]), page)
 
-    def test_every_ground_is_by_one_program(self) -> None:
+    def test_every_ground_has_one_program(self) -> None:
         self.assertEqual(read_comments(FOLDER / "results.csv"), list(lines.HEAD))
         runs = [row for row in read_rows(FOLDER / "results.csv") if row["kind"] == RUN]
         wanted = {(plan.case, plan.ground) for plan in cases.plan()}

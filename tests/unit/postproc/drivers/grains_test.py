@@ -55,7 +55,7 @@ class TrackTest(unittest.TestCase):
         ):
             return track_density.report(Path("rolled"))
 
-    def test_mass_over_volume(self) -> None:
+    def test_density_is_mass_over_volume(self) -> None:
         middle, beside, ahead = self.report().splitlines()
         density, height, left = (float(middle.split()[k]) for k in (5, 7, 10))
         self.assertAlmostEqual(density, 2 * BULK, delta=0.1 * BULK)
@@ -64,7 +64,7 @@ class TrackTest(unittest.TestCase):
         self.assertIn(" 200 kg/m3, 200 mm high, 1.00 of the mass before", beside)
         self.assertRegex(ahead, "ahead +[+-]0 mm risen")
 
-    def test_refuses_what_has_no_density_of_clusters(self) -> None:
+    def test_ground_without_clusters_is_refused(self) -> None:
         self.assertRaisesRegex(ResultsError, "its ground is no grains", self.report, "continuum")
         self.assertRaisesRegex(ResultsError, "did not measure its density", self.report, bulk=math.nan)
 

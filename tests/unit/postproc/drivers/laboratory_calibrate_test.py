@@ -127,7 +127,7 @@ class CalibrateTest(unittest.TestCase):
         self.assertAlmostEqual(found["crush_strength"]["value"] / CRUSH, 1.0, delta=within)
         self.assertAlmostEqual(found["tensile_strength"]["value"] / TENSILE, 1.0, delta=within)
 
-    def test_two_tests_at_once(self) -> None:
+    def test_two_tests_are_calibrated_together(self) -> None:
         result = calibrated({})
         self.require_found(result, 0.08)
         self.assertTrue(result["converged"], result)
@@ -140,20 +140,20 @@ class CalibrateTest(unittest.TestCase):
         self.assertIn("shear_strength: the curves do not depend on it", undetermined)
         self.assertNotIn("tensile_strength^", undetermined)
 
-    def test_far_start_by_logarithms(self) -> None:
+    def test_distant_start_converges_by_logarithms(self) -> None:
         """A tenth of the strength that is wanted: differences lead there slowly, logarithms at
         once, for the strength is a power of the parameter."""
         result = calibrated({**far_start(), "iterations": 6})
         self.require_found(result, 0.02)
         self.assertTrue(result["converged"], result)
 
-    def test_stopped_too_early(self) -> None:
+    def test_early_stop_is_reported(self) -> None:
         result = calibrated({**far_start(), "iterations": 1})
         self.assertFalse(result["converged"])
         self.assertEqual(result["ended"], "1 evaluations were not enough")
         self.assertGreater(result["next_factor"]["tensile_strength"], 1.5)
 
-    def test_packings_that_scatter(self) -> None:
+    def test_scatter_of_packings_widens_the_error(self) -> None:
         changes = {"seeds": [86028121, 67867967], "tests": with_tension([CRUSH * TENSILE, "20%"])}
         result = calibrated(changes, Scattering)
         self.require_found(result, 0.2)  # four times the scatter

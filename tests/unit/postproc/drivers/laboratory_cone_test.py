@@ -45,7 +45,7 @@ class ConeTest(FolderTest):
         )
         return [self.made(kind, smallest * np.array(stress), np.array(strain)) for kind, stress, strain in ends]
 
-    def test_finds_the_cone(self) -> None:
+    def test_cone_is_recovered(self) -> None:
         found = cone.fit_cone([*self.of_all_kinds(1e4), *self.of_all_kinds(5e4)])
         self.assertAlmostEqual(found.tangent, TANGENT, places=5)
         self.assertAlmostEqual(found.K, K, places=5)
@@ -55,7 +55,7 @@ class ConeTest(FolderTest):
         self.assertAlmostEqual(found.intermediate, own, places=6)
         self.assertIn("K 0.750 +- 0.000, from 6 tests", found.sentences()[0])
 
-    def test_what_does_not_fit_is_said(self) -> None:
+    def test_misfit_is_reported(self) -> None:
         """Plane strain as strong as compression: no smooth cone has that."""
         tests = self.of_all_kinds(1e4)
         strong = np.array([1e4, 2.9e4, 4.9e4])
@@ -64,10 +64,10 @@ class ConeTest(FolderTest):
         self.assertLess(found.of("plane_strain")[0], -0.01)
         self.assertGreater(found.of("triaxial")[0], 0.0)
 
-    def test_every_kind_is_needed(self) -> None:
+    def test_every_kind_of_test_is_required(self) -> None:
         self.assertRaisesRegex(ResultsError, "there is no plane_strain", cone.fit_cone, self.of_all_kinds(1e4)[:2])
 
-    def test_angles_of_the_single_tests(self) -> None:
+    def test_angles_of_single_tests_are_listed(self) -> None:
         """sin(phi) = (s1 - s3)/(s1 + s3)."""
         for test, sine in zip(self.of_all_kinds(2e4), (3 * TANGENT / (6 + TANGENT), None, None)):
             values = values_of(test)
@@ -77,7 +77,7 @@ class ConeTest(FolderTest):
             if sine:
                 self.assertAlmostEqual(known, sine, places=6)
 
-    def test_plane_strain_against_the_section(self) -> None:
+    def test_plane_strain_is_compared_with_the_section(self) -> None:
         """The stress is on the section x^2 (1 - w c x) = 1 - w, and flow normal to it."""
         for ratio in (0.65, 0.8, 0.95):
             w = (1 - ratio**2) / (1 + ratio**3)

@@ -28,7 +28,7 @@ class CapLawTest(FolderTest):
         folder = self.folder / f"triaxial_{lateral:g}"
         return LaboratoryTest(write_cell(folder, "triaxial", strain, stress, confinement=lateral))
 
-    def test_friction_and_its_match(self) -> None:
+    def test_friction_and_its_matched_cone_are_found(self) -> None:
         found, each = cap.friction([self.triaxial(1e4), self.triaxial(5e4)])
         sine = 3 * TANGENT / (6 + TANGENT)  # triaxial compression
         self.assertEqual(len(each), 2)
@@ -38,7 +38,7 @@ class CapLawTest(FolderTest):
         half = float(np.sin(np.radians(30.0)))
         self.assertAlmostEqual(plane.tangent(half), float(np.sqrt(0.75)), places=9)
 
-    def test_short_tests_are_said(self) -> None:
+    def test_short_tests_are_reported(self) -> None:
         for end, said in ((0.2, ""), (0.02, "ends at 2.0% of axial strain")):
             told = io.StringIO()
             with contextlib.redirect_stderr(told):
@@ -46,11 +46,11 @@ class CapLawTest(FolderTest):
             self.assertIn(said, told.getvalue())
             self.assertEqual(bool(said), bool(told.getvalue()))
 
-    def test_elasticity(self) -> None:
+    def test_elasticity_is_identified(self) -> None:
         found = cap.elasticity(self.triaxial(5e4))
         np.testing.assert_allclose(found, (E, NU), rtol=1e-3)
 
-    def test_eccentricity_and_hardening(self) -> None:
+    def test_eccentricity_and_hardening_are_identified(self) -> None:
         on_cap = cap.cap_stress(np.geomspace(1e3, 3e5, 3000), R, TANGENT, 0.0)
         K0 = float(on_cap.K0[0])
         self.assertAlmostEqual(cap.eccentricity(K0, TANGENT), R, delta=1e-3)

@@ -20,7 +20,7 @@ sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
 
 import identify_snow
 import snow_strength
-from snow_laws import LAWS, Elastic, Material, fit, judged
+from snow_laws import LAWS, Elastic, Material, compared_rows, fit
 from snow_paths import Points, predicted
 from snow_record import Place, Row, read_record, record_of, write_record
 
@@ -46,7 +46,7 @@ def shear_strength(M: float, beta: float, p0: float, load: float) -> float:
 
 
 class RecordTest(FolderTest):
-    def test_curves_in_closed_form(self) -> None:
+    def test_curves_have_the_closed_form(self) -> None:
         """Two packings, one 10 % stronger: means, scatter, and the place of each value."""
         tests = []
         axial, pulled = np.linspace(0, 0.6, 2000), np.linspace(0, 1e-3, 400)
@@ -85,7 +85,7 @@ class RecordTest(FolderTest):
         at_20_kPa = found[Place("oedometer", 0, 0, 2e4, "density")]
         self.assertAlmostEqual(at_20_kPa.value / density, 1.0, delta=1e-3)
 
-    def test_refusals(self) -> None:
+    def test_faults_are_refused(self) -> None:
         rows = np.ones((20, 9))
         sand = write_test(self.folder / "s", "test plate ground made", rows)
         with self.assertRaisesRegex(ResultsError, "is a test 'plate'; name results of oedometer"):
@@ -98,7 +98,7 @@ class FitTest(FolderTest):
         tools = Tools.of(SOURCE / "inputs" / "laboratory" / "run.py")
         return self.enterContext(Points(tools, self.folder))
 
-    def test_finds_the_law_of_a_record(self) -> None:
+    def test_law_of_a_record_is_recovered(self) -> None:
         kinds = [
             ("oedometer", 0.0, (0.0,), ("density",)),
             ("oedometer", 0.0, (5e3, 1e4, 2e4, 5e4), ("density", "K0")),
@@ -120,7 +120,7 @@ class FitTest(FolderTest):
             made = np.interp(np.log(density / 200), STRAINS, np.log([p for _, p in TABLE]))
             self.assertAlmostEqual(np.log(strength), made, delta=0.03)
 
-    def test_shear_of_a_law_in_closed_form(self) -> None:
+    def test_shear_of_a_law_has_the_closed_form(self) -> None:
         """It ends in flow without lateral strain: df/d(sigma_xx) = 0 with sigma_zz given, on
         q^2 (1 + 2 beta) = M^2 (p + beta p0)(p0 - p)."""
         loads = (1.0, 300.0)
@@ -131,7 +131,7 @@ class FitTest(FolderTest):
             tau = shear_strength(M, beta, p0, row.confinement)
             self.assertAlmostEqual(values[row.place] / tau, 1.0, delta=2e-3)
 
-    def test_strengths_beside_measurements(self) -> None:
+    def test_strengths_are_compared_with_measurements(self) -> None:
         """Clusters as the record has them, a preset's undisturbed snow in closed form, slabs of
         200 kg/m3 as [Sigrist2006] has them."""
         record = read_record(RECORD)
@@ -147,10 +147,10 @@ class FitTest(FolderTest):
         slabs = snow_strength.measured("tension")[0]
         self.assertAlmostEqual(float(slabs.at(200.0)), 5.85e3, delta=10)
 
-    def test_preset_is_that_of_its_record(self) -> None:
+    def test_preset_is_the_fit_of_its_record(self) -> None:
         record = read_record(RECORD)
         material = fit(LAWS["cam_clay"], record, self.points())
-        rows = judged(record)
+        rows = compared_rows(record)
         values = predicted(material.sections(), rows, self.points())
         made = identify_snow.material_text("snow: fitted", RECORD, material, rows, values)
         title, made = made.split("\n", 1)
@@ -161,10 +161,10 @@ class FitTest(FolderTest):
         both = [[float(x) for x in re.findall(NUMBER, text)] for text in (made, shipped)]
         np.testing.assert_allclose(both[0], both[1], rtol=0.02, atol=0.011)
 
-    def test_preset_of_the_slab_is_as_far_from_its_record_as_it_says(self) -> None:
+    def test_preset_of_the_slab_has_its_stated_misfit(self) -> None:
         """Free sides at every density, which the clusters of snow_bonded do not give a law."""
         preset = MATERIALS / "snow_bonded_slab_cam_clay.yaml"
-        rows = judged(read_record(RECORDS / "snow_bonded_slab.csv"))
+        rows = compared_rows(read_record(RECORDS / "snow_bonded_slab.csv"))
         values = predicted(identify_snow.sections_of(preset), rows, self.points())
         found = identify_snow.deviations(rows, values)
         lines = preset.read_text(encoding="utf-8").splitlines()

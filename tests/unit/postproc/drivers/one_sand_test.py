@@ -20,7 +20,7 @@ study = evaluation("one_sand")
 
 
 class MatrixTest(unittest.TestCase):
-    def test_error_above_the_goal_neither_meets_nor_misses_it(self) -> None:
+    def test_error_above_the_goal_gives_no_verdict(self) -> None:
         self.assertEqual(study.verdict(0.05, 0.02, 0.1), "met")
         self.assertEqual(study.verdict(0.05, 0.2, 0.1), "inconclusive")
         self.assertEqual(study.verdict(-0.2, 0.06, 0.1), "inconclusive")
@@ -56,7 +56,7 @@ class MatrixTest(unittest.TestCase):
         # a circle of 16 steps, counted in squares
         self.assertAlmostEqual(heights.sum() / 0.08 / (math.pi * 16**2), 1.0, delta=0.02)
 
-    def test_deposit_ends_where_it_is_thin(self) -> None:
+    def test_deposit_ends_at_its_thin_edge(self) -> None:
         """A cone of 0.08 m height and 0.16 m radius on a layer: 5 mm thick at 0.15 m."""
         step = 0.002
         places = np.arange(-0.2, 0.2, step) + step / 2

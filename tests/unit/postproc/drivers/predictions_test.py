@@ -28,7 +28,7 @@ class SetUpTest(unittest.TestCase):
         places = {(row["case"], row["slip_angle_deg"], round(float(row["slip"]), 1)) for row in chosen}
         self.assertEqual(len(places), 2 * 3 * 4)
 
-    def test_slip_by_total_speed_becomes_that_by_the_speed_in_the_wheel_plane(self) -> None:
+    def test_slip_by_total_speed_is_converted_to_the_wheel_plane(self) -> None:
         for slip, angle in ((0.5, 30.0), (0.0, 45.0), (-0.5, 15.0)):
             travel, converted = study.in_wheel_frame(slip, angle)
             rim = travel / (1 - slip) if slip >= 0 else travel * (1 + slip)
@@ -36,7 +36,7 @@ class SetUpTest(unittest.TestCase):
             self.assertAlmostEqual(converted, (rim - forward) / max(rim, forward))
             self.assertAlmostEqual(max(rim, travel), 1.0)
 
-    def test_grc_1_is_the_matsuoka_nakai_cone_of_38_degrees_in_study_and_scene(self) -> None:
+    def test_study_and_scene_have_grc_1_of_38_degrees(self) -> None:
         sine = math.sin(math.radians(38.0))
         for folder in (FOLDER / "materials", SOURCE / "inputs/materials"):
             law = yaml.safe_load((folder / "grc1.yaml").read_text())["law"]
@@ -53,7 +53,7 @@ class ValuesTest(unittest.TestCase):
         for name, quantities in rows.groupby("id")["quantity"]:
             self.assertEqual(set(quantities), QUANTITIES[name.split("-")[0]], name)
 
-    def test_frozen_values_are_those_that_were_committed_first(self) -> None:
+    def test_frozen_values_equal_the_first_committed_ones(self) -> None:
         names = ("id", "quantity", "value", "standard_error")
         for file, known in (("predictions.csv", "933e6fc99b72bf23"), ("second.csv", "4d2d4bc0eabbd30a")):
             lines = [",".join(row[name] for name in names) for row in read_rows(FOLDER / file)]

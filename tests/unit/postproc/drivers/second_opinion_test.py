@@ -14,7 +14,7 @@ study = evaluation("second_opinion")
 
 
 class ComparisonTest(unittest.TestCase):
-    def test_plate_has_shared_nodes_and_a_third_of_the_edge_under_the_plate(self) -> None:
+    def test_plate_mesh_has_shared_nodes(self) -> None:
         deck = study.decks.plate(3, 0.01, plastic=True)
         nodes = re.search(r"NSET=ALL\n(.*?)\*ELEMENT", deck, re.S)
         assert nodes
@@ -25,7 +25,7 @@ class ComparisonTest(unittest.TestCase):
         self.assertEqual(len(plate[1].splitlines()), 8)  # of the face of one element
         self.assertTrue(deck.endswith("PLATE,3,3,-0.01\n*NODE PRINT, NSET=PLATE, TOTALS=ONLY\nRF\n*END STEP\n"))
 
-    def test_error_on_grains_is_that_of_the_mean_difference_of_packings(self) -> None:
+    def test_error_on_grains_is_the_mean_difference_of_packings(self) -> None:
         folder = VALIDATION / "second_opinion"
         engine = Engine(folder, load_yaml(folder / DEFINITION), study)
         tables = Tables(engine)

@@ -49,7 +49,7 @@ class FieldSnowTest(unittest.TestCase):
         self.assertAlmostEqual(p[rho.index(525)] / (0.594 * 210e3), 1.0, places=5)
         self.assertTrue(np.all(np.diff(p) > 0))
 
-    def test_presets_are_what_was_identified(self) -> None:
+    def test_presets_are_the_identified_ones(self) -> None:
         preset = (SOURCE / "inputs/materials/field_snow.yaml").read_text()
         found = field_snow(220.0)
         for key in ("rho", "p"):
@@ -62,7 +62,7 @@ class FieldSnowTest(unittest.TestCase):
             self.assertEqual(column(preset, key), column(found, key))
         self.assertEqual(number(preset, "M"), number(found, "M"))
 
-    def test_runs_have_the_field_snow_of_their_density_and_slope(self) -> None:
+    def test_runs_use_the_field_snow_of_their_density_and_slope(self) -> None:
         """Their texts in study.yaml are those that field_snow() writes."""
         for name, case in cases("snow_wheel").items():
             text = case.files.get("material.yaml", "")
@@ -73,7 +73,7 @@ class FieldSnowTest(unittest.TestCase):
             self.assertEqual(text, field_snow(density, beginning, f"field snow of {density:g} kg/m3", m), name)
             self.assertEqual(case.fallback, {} if name == "passes" else {"remap_interval": 8})
 
-    def test_pressure_in_closed_form_is_the_material_s_in_confined_compression(self) -> None:
+    def test_closed_form_pressure_equals_confined_compression(self) -> None:
         text = field_snow(220.0)
         rho, p = column(text, "rho"), column(text, "p")
         stress = study.field_stress(np.log(np.array(rho[1:]) / 220.0))
@@ -81,7 +81,7 @@ class FieldSnowTest(unittest.TestCase):
 
 
 class IdentifyTest(unittest.TestCase):
-    def test_the_stresses_of_made_up_runs_are_found(self) -> None:
+    def test_stresses_of_synthetic_runs_are_recovered(self) -> None:
         """Sinkage, resistance and density are straight in the logarithms of the three stresses."""
         share = cam_clay_confined(CRUSHED, 0.1)[1]
         wanted = np.log([5e3, 20e3, 90e3])

@@ -26,17 +26,17 @@ def start(*words: object) -> "subprocess.CompletedProcess[str]":
 
 
 class DriversTest(unittest.TestCase):
-    def test_there_are_all_studies(self) -> None:
+    def test_drivers_exist_for_all_studies(self) -> None:
         self.assertEqual(len(STUDIES), 28)
 
-    def test_help(self) -> None:
+    def test_help_is_printed(self) -> None:
         for driver in TOOLS:
             with self.subTest(driver=driver):
                 done = start(driver, "--help")
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertIn("usage:", done.stdout.lower())
 
-    def test_list_names_every_run_once(self) -> None:
+    def test_list_has_every_run_once(self) -> None:
         with tempfile.TemporaryDirectory() as results:
             for place in STUDIES:
                 with self.subTest(place=place):

@@ -74,7 +74,7 @@ def not_stored(page: str, numbers: list[float]) -> set[str]:
 
 
 class StudyPagesTest(unittest.TestCase):
-    def test_numbers_of_a_page_are_those_of_its_tables(self) -> None:
+    def test_pages_have_the_numbers_of_their_tables(self) -> None:
         pages = sorted(VALIDATION.glob("*/README.md"))
         self.assertGreater(len(pages), 10)
         for page in pages:
@@ -88,7 +88,7 @@ class StudyPagesTest(unittest.TestCase):
                     "the page says what the study's tables do not: mend it, or evaluate again",
                 )
 
-    def test_a_number_is_looked_up_as_rounded_and_in_other_units(self) -> None:
+    def test_number_is_found_rounded_and_in_other_units(self) -> None:
         page = "| run | z mm | c |\n|---|---|---|\n| `d 7` a 3 | {} | [x7](y) |\n"
         for text in ("163", "16.3", "0.1629", "162.87", "-163"):
             self.assertEqual(not_stored(page.format(text), [0.16287, 5.0]), set())
@@ -101,7 +101,7 @@ class LabelsTest(unittest.TestCase):
 
     registry = Registry.of(SOURCE)
 
-    def test_the_report_is_no_source_of_what_is_ours_or_what_it_does_not_print(self) -> None:
+    def test_report_is_the_source_of_its_printed_values_alone(self) -> None:
         for value in self.registry:
             if value.reference_of == "ours":
                 self.assertFalse(value.remark.startswith("report:"), value.id)
@@ -112,7 +112,7 @@ class LabelsTest(unittest.TestCase):
         names = [f"report_wheel.d_30.{name}" for name in ("sinkage_m", "resistance")]
         self.assertEqual({self.registry[name].label for name in names}, {"fitted"})
 
-    def test_contradictions_of_the_report_have_rows(self) -> None:
+    def test_contradictions_of_the_report_are_listed(self) -> None:
         for name, verdict in (
             ("report_wheel.depth_40_free_d30.sinkage_m", "missed"),
             ("report_wheel.effects.d_30_impulse.resistance_percent", "missed"),
@@ -127,7 +127,7 @@ class LabelsTest(unittest.TestCase):
         effects = stored("report_wheel", "effects").set_index("run")["resistance_percent"]
         self.assertLess(effects[["friction_0.8", "friction_rough", "soft"]].max(), 0.0)
 
-    def test_contact_at_a_skid_is_that_of_the_skidding_wheel(self) -> None:
+    def test_contact_of_a_skid_belongs_to_the_skidding_wheel(self) -> None:
         for slip in ("-0.1", "-0.2"):
             error = self.registry[f"report_wheel.slip_{slip}.resistance"].uncertainty()
             self.assertLess(error or 1.0, 0.01, slip)
@@ -137,7 +137,7 @@ class LabelsTest(unittest.TestCase):
         self.assertRegex(page, r"\| `T11` \| all 16 \| held out \|")
         self.assertNotIn("All values have the label", page)
 
-    def test_verdicts_on_the_findings_are_those_of_their_rows(self) -> None:
+    def test_verdicts_on_findings_equal_those_of_their_rows(self) -> None:
         """The first value of a row of the page has a verdict that allows the words of the row."""
         allowed = {
             "holds": ("agrees", "met"),
@@ -163,7 +163,7 @@ class ReportItemsTest(unittest.TestCase):
     def test_every_item_occurs_once(self) -> None:
         self.assertEqual([item["item"] for item in self.items], [str(n + 1) for n in range(126)])
 
-    def test_states_are_those_of_the_rows(self) -> None:
+    def test_states_of_items_equal_those_of_their_rows(self) -> None:
         for item in self.items:
             with self.subTest(item["item"]):
                 for pattern in item["rows"].split():
@@ -181,7 +181,7 @@ class ReportItemsTest(unittest.TestCase):
         for row in read_rows(VALIDATION / "experiments.csv"):
             self.assertLessEqual(set(row["audit"].split()), known, row["id"])
 
-    def test_the_page_counts_them(self) -> None:
+    def test_page_has_the_number_of_items(self) -> None:
         states = [item["state"] for item in self.items]
         known = [value for value in self.registry if value.expected() is not None]
         answered = [item for item in self.items if item["state"] == "row"]

@@ -90,7 +90,7 @@ def listed(text: str, key: str) -> list[float]:
 
 
 class MouldTest(unittest.TestCase):
-    def test_four_arcs_meet_without_a_corner(self) -> None:
+    def test_four_arcs_join_smoothly(self) -> None:
         shape = outline(Mould(crown=1.0))
         self.assertEqual((shape.axial[0], shape.radius[0]), (0.0, BELT_RADIUS))
         self.assertEqual((shape.axial[-1], shape.radius[-1]), BEAD)
@@ -103,14 +103,14 @@ class MouldTest(unittest.TestCase):
         self.assertLess(total, shape.length)
         self.assertAlmostEqual(total, shape.length, delta=2e-3)
 
-    def test_a_flat_crown_has_its_sagitta(self) -> None:
+    def test_flat_crown_has_its_sagitta(self) -> None:
         of = Mould(crown=1.0)
         shape = outline(of)
         edge = shape.axial.index(of.crown_end)
         drop = 1.0 - math.sqrt(1.0 - of.crown_end**2)
         self.assertAlmostEqual(shape.radius[edge], BELT_RADIUS - drop, delta=1e-5)
 
-    def test_the_tyre_files_have_what_was_chosen(self) -> None:
+    def test_tyre_files_have_the_chosen_profile(self) -> None:
         edge = Mould(crown_end=0.0775, shoulder=0.030, widest=0.109, belt_end=0.0775, tread_end=0.088)
         for tread, of, rubber in (
             ("smooth", Mould(), 1.109596e6),
@@ -133,7 +133,7 @@ class MouldTest(unittest.TestCase):
 
 
 class GroovesTest(unittest.TestCase):
-    def test_the_ribbed_tread_has_the_report_s_share_of_voids(self) -> None:
+    def test_ribbed_tread_has_the_void_share_of_the_report(self) -> None:
         """[Shoop2001] Table 9: 5.1 x 16.6 and 5.3 x 16.2 mm, headed "width x depth", and a share of
         0.44. The share excludes the heading: grooves as wide as 5.1 and 5.3 mm make 0.13."""
         text = (SOURCE / "inputs" / "tyres" / "p235_75r15_ribbed.yaml").read_text(encoding="utf-8")
@@ -145,7 +145,7 @@ class GroovesTest(unittest.TestCase):
         self.assertAlmostEqual(sum(listed(text, "depth")) / half_tread, 0.13, delta=0.005)
 
 
-    def test_the_tyre_with_the_printed_grooves_has_all_else_of_the_ribbed_one(self) -> None:
+    def test_tyre_with_printed_grooves_equals_the_ribbed_one_otherwise(self) -> None:
         text = cases("tyre_brick")["grooves/printed_241"].files["tyre.yaml"]
         made, ribbed = yaml.safe_load(text), yaml.safe_load((SOURCE / "inputs" / "tyres" / "p235_75r15_ribbed.yaml").read_text())
         self.assertEqual(made.pop("title"), f"{ribbed.pop('title')}, grooves by width and depth")
@@ -156,7 +156,7 @@ class GroovesTest(unittest.TestCase):
         middle, of_ribbed = (np.add(one["to"], one["from"]) / 2 for one in (voids, others))
         np.testing.assert_allclose(middle, of_ribbed, atol=1e-4)
 
-    def test_all_but_the_grooves_comes_from_the_file_of_the_ribbed_tyre(self) -> None:
+    def test_file_of_the_ribbed_tyre_gives_all_except_the_grooves(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "tyre.yaml"
             file.write_text("title: Other\ncap:\n  C10: 1e6  # softer\nvoids:\n  from: [1]\n")
@@ -166,7 +166,7 @@ class GroovesTest(unittest.TestCase):
 
 
 class Table6Test(unittest.TestCase):
-    def test_the_stored_table_has_its_errors(self) -> None:
+    def test_stored_table_has_its_errors(self) -> None:
         table, measured = stored("tyre_brick", "table6"), stored("tyre_table6", "reference")
         for what in ("deflection_cm", "area_cm2", "section_width_cm"):
             error = table[f"{what.rpartition('_')[0]}_error"]

@@ -30,7 +30,7 @@ def table6(used_for: str) -> list[PlateTest]:
 
 
 class MeasuredTyresTest(unittest.TestCase):
-    def test_the_tyre_of_shoop_is_recovered_from_table_6(self) -> None:
+    def test_tyre_of_shoop_is_recovered_from_table_6(self) -> None:
         """Its tread width, section, belts and stiffnesses are known from Tables 6 and 8."""
         known = Catalogue(read_size("235/75R15"), 241e3, rim_width=6.5 * INCH, diameter=0.737)
         fit = fit_tyre(known, table6("identification"))
@@ -49,7 +49,7 @@ class MeasuredTyresTest(unittest.TestCase):
             for name, value in test.measured.items():
                 self.assertLess(abs(state[name] / value - 1.0), 0.17, (test.pressure, name))
 
-    def test_a_truck_tyre_meets_its_curves(self) -> None:
+    def test_truck_tyre_agrees_with_its_curves(self) -> None:
         """[Goodyear2010]: the fitted file beside the same tyre without its tests."""
         tests = read_tests(TYRES / "measured" / "335_65r22_5.csv")
         known = Catalogue(read_size("335/65R22.5"), 414e3, rim_width=9 * INCH, diameter=0.9974, mass=55.4)
@@ -70,7 +70,7 @@ def misfit(states: list[dict[str, float]], tests: list[PlateTest]) -> float:
 
 
 class FilesTest(unittest.TestCase):
-    def test_estimates_are_what_their_command_writes(self) -> None:
+    def test_estimates_equal_the_output_of_their_command(self) -> None:
         """furrow-tyre reads them, and the rated load deflects them as is usual."""
         for name in ESTIMATES:
             text = (TYRES / f"{name}.yaml").read_text(encoding="utf-8")

@@ -13,7 +13,7 @@ class TyreFormulasTest(unittest.TestCase):
             self.assertTrue(study.formulas(keys["size"], keys["soil"]).answers, keys)
             self.assertIn("tread:", study.estimate(keys["size"]).text)
 
-    def test_a_tyre_on_soft_clay_is_outside_of_maclaurins_range(self) -> None:
+    def test_tyre_on_soft_clay_is_outside_the_range_of_maclaurin(self) -> None:
         # N = CI b^0.8 d^0.8 delta^0.4/W is 1.4, the formula starts at 1.85
         answers = evaluation("tyre_formulas").formulas("265/70R17", "clay_soft", 1e-6).answers
         outside = {one.method: [limit for limit in one.outside if not limit.startswith("slip ")] for one in answers}

@@ -182,22 +182,22 @@ class ArgumentsFaultsTest(FaultsTest):
     def post(self, words: list[str], message: str) -> None:
         self.expect(" ".join(map(repr, words)), outcome(lambda: main(words)), message)
 
-    def test_formulas(self) -> None:
+    def test_faulty_arguments_of_formulas_are_refused(self) -> None:
         for words, terrain, message in EMPIRICAL:
             last = [] if terrain is None else [terrain]
             self.post(["empirical", *words.split(), *last], message)
 
-    def test_comparisons(self) -> None:
+    def test_faulty_arguments_of_comparisons_are_refused(self) -> None:
         for words, message in COMPARE:
             output = [] if "-o" in words else ["-o", "out"]
             self.post(["compare", "a", "b", *words, *output], message)
         self.assertFalse(Path("out").exists())
 
-    def test_others(self) -> None:
+    def test_faulty_arguments_of_other_commands_are_refused(self) -> None:
         for words, message in OTHERS:
             self.post(words, message)
 
-    def test_runs(self) -> None:
+    def test_faulty_arguments_of_runs_are_refused(self) -> None:
         for words, message in RUN:
             with self.subTest(words=words):
                 found = outcome(lambda: main(["run", *words]))
@@ -205,7 +205,7 @@ class ArgumentsFaultsTest(FaultsTest):
                 self.assertIn(message, found.said)
                 self.assertLessEqual(len(found.said.splitlines()), 2)
 
-    def test_folder_with_an_equals_sign_in_its_name(self) -> None:
+    def test_folder_name_with_an_equals_sign_is_read(self) -> None:
         name = "slip=0.1"
         shutil.copytree("a", name)
         for words in (["report", name, "-o", "=.html"], ["compare", name, "b", "-o", "out="]):
@@ -213,14 +213,14 @@ class ArgumentsFaultsTest(FaultsTest):
                 self.assertEqual(outcome(lambda: main(words)), (0, ""))
         self.assertIn(f"  {name} ", Path("out=", "compare.txt").read_text())
 
-    def test_table_with_the_mark_of_a_spreadsheet(self) -> None:
+    def test_table_with_a_byte_order_mark_is_read(self) -> None:
         for encoding in ("utf-8", "utf-8-sig"):
             Path("marked.csv").write_text(Path("table.csv").read_text(), encoding=encoding)
             words = ["cost", "marked.csv", "-o", "cost.png"]
             with self.subTest(encoding=encoding):
                 self.assertEqual(outcome(lambda: main(words)), (0, ""))
 
-    def test_tables_of_runs(self) -> None:
+    def test_faulty_tables_of_runs_are_refused(self) -> None:
         good = Path("table.csv").read_text()
         head, *rows = good.splitlines(keepends=True)
         size = "half,rigid wheel,"  # stands before the size
@@ -243,7 +243,7 @@ class ArgumentsFaultsTest(FaultsTest):
         Path("bad.csv").write_bytes(good.encode() + b"\xe9\xff")
         self.post(["cost", "bad.csv"], "bad.csv: is not text in UTF-8")
 
-    def test_locales_without_umlauts(self) -> None:
+    def test_ascii_locale_prints_every_text(self) -> None:
         """Text is UTF-8 in any locale; the error gives a name that is not."""
         plain = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
         environment = {**os.environ, **plain}
@@ -261,7 +261,7 @@ class ArgumentsFaultsTest(FaultsTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn(b"is a name that is not UTF-8; rename", done.stderr.splitlines()[-1])
 
-    def test_pythons_without_packages(self) -> None:
+    def test_missing_packages_are_reported(self) -> None:
         """The last line names the missing packages and what to install; furrow-post has no other."""
         programs = [
             file

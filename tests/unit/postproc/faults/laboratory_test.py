@@ -224,7 +224,7 @@ class LaboratoryFaultsTest(FaultsTest):
             found = outcome(module.main)
         self.expect(" ".join(words), found, message)
 
-    def test_tests(self) -> None:
+    def test_faulty_tests_are_refused(self) -> None:
         for words, message in TESTS:
             self.start("run", words.split(), message)
         for name, value in (("grains", ""), ("", "3"), (" ", "3")):
@@ -234,7 +234,7 @@ class LaboratoryFaultsTest(FaultsTest):
         Path("task.json").write_text(text)
         self.start("calibrate", ["task.json", "-o", "out", "--build", "none"], message)
 
-    def test_calibrations(self) -> None:
+    def test_faulty_calibrations_are_refused(self) -> None:
         self.calibrate(json.dumps(GOOD), "there is no program")  # nothing else is wrong
         for changes, message in CALIBRATIONS:
             kept = {key: value for key, value in {**GOOD, **changes}.items() if value is not None}
@@ -243,7 +243,7 @@ class LaboratoryFaultsTest(FaultsTest):
             self.calibrate(text, message)
         self.start("calibrate", ["none.json"], "none.json: no such file or directory")
 
-    def test_every_value_of_a_calibration(self) -> None:
+    def test_faulty_values_of_a_calibration_are_refused(self) -> None:
         """Key, value and needed form are in the message, by the schema of the file."""
         faults = list(faults_of(SCHEMA))
         for place, value, needed in faults:
@@ -254,7 +254,7 @@ class LaboratoryFaultsTest(FaultsTest):
             self.calibrate(json.dumps(task[0]), f"{name} is {value}; needed is {needed}")
         self.assertEqual(len(faults), 263)  # another number: the schema accepts or refuses other values
 
-    def test_results_of_tests(self) -> None:
+    def test_faulty_results_of_tests_are_refused(self) -> None:
         for kind, rows in CURVES.items():
             folder = write_test(Path(kind), f"test {kind} {FACTS}", rows)
             self.assertEqual(outcome(lambda: main(["laboratory", str(folder)])).status, 0)
@@ -269,7 +269,7 @@ class LaboratoryFaultsTest(FaultsTest):
         for fault, facts, message in BAD_FACTS:
             self.evaluate(fault, write_test(Path("plate"), facts, CURVES["plate"]), message)
 
-    def test_deposits(self) -> None:
+    def test_faulty_deposits_are_refused(self) -> None:
         for kind in ("collapse", "repose"):
             folder = Path(kind)
             folder.mkdir()
@@ -284,7 +284,7 @@ class LaboratoryFaultsTest(FaultsTest):
     def evaluate(self, fault: str, folder: Path, message: str) -> None:
         self.expect(fault, outcome(lambda: main(["laboratory", str(folder)])), message)
 
-    def test_laws_from_tests(self) -> None:
+    def test_faulty_laws_from_tests_are_refused(self) -> None:
         triaxial, oedometer = (
             str(write_test(Path(kind), f"test {kind} {FACTS}", CURVES[kind])) for kind in ("triaxial", "oedometer")
         )

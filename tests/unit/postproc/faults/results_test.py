@@ -182,7 +182,7 @@ class ResultsFaultsTest(FaultsTest, SharedFolderTest):
         words = [subcommand, str(folder), *other, "-o", str(output)]
         self.expect(f"{subcommand}: {fault}", outcome(lambda: main(words)), message)
 
-    def test_damaged_files_end_no_process(self) -> None:
+    def test_damaged_files_give_an_error(self) -> None:
         intact = (self.folder / "good" / "history.h5").read_bytes()
         for fault, content in damaged(intact):
             folder = self.copy()
@@ -197,14 +197,14 @@ class ResultsFaultsTest(FaultsTest, SharedFolderTest):
             self.post("truncated", subcommand, folder, "not a results file of Furrow, or damaged")
             self.post("no folder", subcommand, folder / "none", "none: no such file; name the")
 
-    def test_histories(self) -> None:
+    def test_faulty_histories_are_refused(self) -> None:
         for fault, change, subcommand, message in HISTORIES:
             folder = self.copy()
             with h5py.File(folder / "history.h5", "r+") as content:
                 change(content)
             self.post(fault, subcommand, folder, message)
 
-    def test_summaries(self) -> None:
+    def test_faulty_summaries_are_refused(self) -> None:
         for fault, text, subcommand, message in SUMMARIES:
             folder = self.copy()
             (folder / "summary.json").write_text(text)
@@ -217,7 +217,7 @@ class ResultsFaultsTest(FaultsTest, SharedFolderTest):
         (folder / "summary.json").write_bytes(b'{"title": "\xe9"}')
         self.post("no UTF-8", "plot", folder, "summary.json: ")
 
-    def test_summaries_with_other_values_than_the_history(self) -> None:
+    def test_summary_that_contradicts_the_history_is_refused(self) -> None:
         for name, mean, message in CHANGED:
             folder = self.copy()
             content = json.loads((folder / "summary.json").read_text())
@@ -226,7 +226,7 @@ class ResultsFaultsTest(FaultsTest, SharedFolderTest):
             for subcommand in ("compare", "report", "cost"):
                 self.post(f"{name} {mean}", subcommand, folder, message)
 
-    def test_terrain_of_another_run_beside_the_history(self) -> None:
+    def test_terrain_of_another_run_is_refused(self) -> None:
         folder = self.copy()
         with h5py.File(folder / "terrain.h5", "w") as content:
             content.create_group("run")["styles"] = np.bytes_(b"[]")
@@ -234,7 +234,7 @@ class ResultsFaultsTest(FaultsTest, SharedFolderTest):
             content.create_group("terrain")
         self.post("another input", "terrain", folder, "terrain.h5: is of another run than history.h5")
 
-    def test_frames_outside_of_the_results(self) -> None:
+    def test_frames_outside_the_results_are_refused(self) -> None:
         folder = self.copy()
         (folder / "vtk").mkdir()
         for name in ("../../secret.vtp", "/etc/passwd", "x/../../../a.vtp"):
@@ -243,14 +243,14 @@ class ResultsFaultsTest(FaultsTest, SharedFolderTest):
             said = outcome(lambda: main(words))
             self.expect(name, said, "outside of its folder")
 
-    def test_grains(self) -> None:
+    def test_faulty_grains_are_refused(self) -> None:
         for fault, change, message in GRAINS:
             folder = self.copy("grains")
             with h5py.File(folder / "history.h5", "r+") as content:
                 change(content)
             self.post(fault, "picture", folder, message)
 
-    def test_terrain(self) -> None:
+    def test_faulty_terrain_is_refused(self) -> None:
         vectors, numbers = ("x", "initial_position"), ("density", "volume")
         shapes: dict[str, tuple[int, ...]] = dict.fromkeys(vectors, (50, 3))
         shapes |= dict.fromkeys(numbers, (50,))
@@ -267,7 +267,7 @@ class ResultsFaultsTest(FaultsTest, SharedFolderTest):
                     group[name] = np.random.default_rng(0).random(shape)
             self.post(fault, "terrain", folder, message)
 
-    def test_the_guard_costs_little(self) -> None:
+    def test_check_of_the_file_takes_little_time(self) -> None:
         path = self.folder / "large.h5"
         with h5py.File(path, "w") as content:
             content["x"] = np.zeros((1_000_000, 4))  # 32 MB
@@ -276,7 +276,7 @@ class ResultsFaultsTest(FaultsTest, SharedFolderTest):
             self.assertEqual(content["x"].shape, (1_000_000, 4))
         self.assertLess(time.monotonic() - began, 5.0)
 
-    def test_what_is_missing_in_a_sound_file_is_named(self) -> None:
+    def test_missing_parts_of_a_valid_file_are_named(self) -> None:
         with self.assertRaisesRegex(ResultsError, "history.h5: has no 'nothing'"):
             with opened(self.folder / "good" / "history.h5") as content:
                 content["nothing"]

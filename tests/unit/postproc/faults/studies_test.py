@@ -48,12 +48,12 @@ def forge(study: Study, results: Path, content: str | None) -> None:
 
 
 class StudiesFaultsTest(FaultsTest):
-    def test_words(self) -> None:
+    def test_wrong_arguments_are_refused(self) -> None:
         study = load_study(INPUTS / "crosscheck")
         for word, message in WORDS:
             self.expect(word, outcome(lambda: run_study(study, [word])), message)
 
-    def test_results_that_are_no_results(self) -> None:
+    def test_folders_without_results_are_refused(self) -> None:
         for folder in STUDIES:
             study = load_study(folder)
             if folder.name in NEEDS_NO_RUNS:

@@ -30,7 +30,7 @@ class FilmTest(FolderTest):
         super().setUp()
         self.run_folder = write_moving_run(self.folder / "run", "continuum")
 
-    def test_has_the_frames_of_the_run(self) -> None:
+    def test_film_has_the_frames_of_the_run(self) -> None:
         film = self.folder / "film.mp4"
         done = run_post("film", self.run_folder, film)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -49,14 +49,14 @@ class FilmTest(FolderTest):
             self.assertGreater(colour[frame].mean(), 0.02)
             self.assertLess(colour[other].mean(), 0.005)
 
-    def test_shows_every_wheel(self) -> None:
+    def test_film_shows_every_wheel(self) -> None:
         alone = MovingPictures(read_motion(self.run_folder))
         write_rolling_wheel(self.run_folder / "rear", 3 * RADIUS)
         both = MovingPictures(read_motion(self.run_folder))
         areas = [wheel_area(pictures) for pictures in (alone, both)]
         self.assertAlmostEqual(areas[1] / areas[0], 2.0, delta=0.3)
 
-    def test_refuses_in_one_line(self) -> None:
+    def test_faults_are_one_line(self) -> None:
         cases = (
             (["film", self.run_folder, "x.gif"], "x.gif: its name must end in .mp4"),
             (["film", self.run_folder, "none/x.mp4"], "there is no folder none; make it first"),
@@ -71,7 +71,7 @@ class FilmTest(FolderTest):
         done = run_post("film", self.run_folder)
         self.assertIn("repeat the run with 'vtk N'", done.stderr)
 
-    def test_says_that_ffmpeg_is_missing(self) -> None:
+    def test_missing_ffmpeg_is_reported(self) -> None:
         path = os.environ["PATH"]
         os.environ["PATH"] = str(self.folder)
         self.addCleanup(os.environ.__setitem__, "PATH", path)

@@ -19,7 +19,7 @@ COUNT = 5
 
 
 class ModesTest(FolderTest):
-    def test_table_shapes_and_figure(self) -> None:
+    def test_modes_write_table_shapes_and_figure(self) -> None:
         tyre = SOURCE / "inputs/tyres/p235_75r15.yaml"
         options = f"--mesh 4 36 --pressure 20 --modes {COUNT} --folder".split()
         done = subprocess.run(
@@ -48,7 +48,7 @@ class ModesTest(FolderTest):
         self.assertGreater((pixels.min(axis=2) < 0.9).mean(), 0.05)  # not blank
         self.assertGreater(len(np.unique((pixels * 15).astype(int).reshape(-1, 3), axis=0)), 50)
 
-    def test_what_cannot_be_drawn(self) -> None:
+    def test_modes_that_cannot_be_drawn_are_refused(self) -> None:
         done = run_post("modes", self.folder)
         self.assertEqual(done.returncode, 1)
         self.assertIn("has no natural modes (*_modes.h5); make them by", done.stderr)

@@ -46,7 +46,7 @@ class AccuracyTableTest(FolderTest):
         self.assertEqual(browser.troubles, [])
         return browser
 
-    def test_on_a_phone_every_cell_is_in_view_with_the_name_of_its_column(self) -> None:
+    def test_phone_shows_every_cell_with_the_name_of_its_column(self) -> None:
         browser = self.shown(PHONE)
         self.assertLessEqual(browser.evaluate("document.documentElement.scrollWidth"), PHONE)
         cells = browser.evaluate(
@@ -61,7 +61,7 @@ class AccuracyTableTest(FolderTest):
             self.assertGreater(width, LEAST, name)
             self.assertIn(label, (f'"{name}"', "none" if name == "what" else ""))
 
-    def test_on_a_desktop_all_columns_are_in_view(self) -> None:
+    def test_desktop_shows_all_columns(self) -> None:
         browser = self.shown(DESKTOP)
         self.assertLessEqual(browser.evaluate("document.documentElement.scrollWidth"), DESKTOP)
         first = "document.querySelector('tbody td:first-child').getBoundingClientRect().width"

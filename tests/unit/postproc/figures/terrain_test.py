@@ -67,7 +67,7 @@ class TerrainTest(FolderTest):
         with h5py.File(self.folder / "history.h5", "w") as content:
             content["surface/triangles"], content["surface/x"] = triangles, x
 
-    def test_densities_are_those_of_the_terrain(self) -> None:
+    def test_densities_equal_those_of_the_terrain(self) -> None:
         terrain = Terrain.read(self.folder)
         body = Outline(self.folder, terrain)
         self.assertEqual(len(terrain.x), 2 * 70 * 20 * 10)  # mirrored
@@ -82,7 +82,7 @@ class TerrainTest(FolderTest):
         self.assertAlmostEqual(share_left(terrain, body), 1.0)
         self.assertAlmostEqual(bow_wave(terrain, body), 0.0)
 
-    def test_long_particles_behind_the_wheel_change_nothing(self) -> None:
+    def test_long_particles_behind_the_wheel_do_not_change_the_density(self) -> None:
         """One of eight particles of the track is left, as a grid with fine cells around the wheel leaves them."""
         with h5py.File(self.folder / "terrain.h5", "r+") as content:
             group = content["terrain"]
@@ -104,7 +104,7 @@ class TerrainTest(FolderTest):
         self.assertAlmostEqual(densities.in_rut, 2 * DENSITY)
         self.assertAlmostEqual(rut_depth(terrain, body), 0.5 * DEPTH)
 
-    def test_half_a_tyre_is_as_a_whole_one(self) -> None:
+    def test_half_model_of_a_tyre_is_drawn_whole(self) -> None:
         """Its surface is kept for y >= 0 alone: sections, shoulder and rut are those of both."""
         terrain = Terrain.read(self.folder)
         whole = Outline(self.folder, terrain)
@@ -121,7 +121,7 @@ class TerrainTest(FolderTest):
         volume = np.linalg.det(corners - whole.centre).sum() / 6  # outward normals: positive
         self.assertAlmostEqual(volume, np.pi * RADIUS**2 * WIDTH, delta=0.01 * volume)
 
-    def test_displacements_are_those_of_the_terrain(self) -> None:
+    def test_displacements_equal_those_of_the_terrain(self) -> None:
         """The track is pressed to half, its surface drawn forward by 3 cm; beside it, in a layer at
         half of the depth, ground goes out by 1 cm, less far away, and up by 5 mm."""
         terrain = Terrain.read(self.folder)
@@ -147,7 +147,7 @@ class TerrainTest(FolderTest):
             self.assertAlmostEqual(value, expected)
         self.assertIn("beside the wheel            1.0 outwards, 0.5 up", found.report())
 
-    def test_what_is_pushed_aside_is_missing_in_the_rut(self) -> None:
+    def test_displaced_volume_is_missing_in_the_rut(self) -> None:
         """Snow of the track moves outwards: over 2 |y| it has half of its mass a length left."""
         terrain = Terrain.read(self.folder)
         body = Outline(self.folder, terrain)
@@ -176,7 +176,7 @@ class TerrainTest(FolderTest):
         self.assertGreater(dark, 0.01)
         self.assertLess(dark, 0.5)
 
-    def test_stress_is_put_together_from_its_principal_values(self) -> None:
+    def test_stress_is_composed_of_its_principal_values(self) -> None:
         write_stress(self.folder / "terrain.h5")
         stress = TerrainStress.read(self.folder)
         self.assertEqual(len(stress.mises), 2 * 70 * 20 * 10)
@@ -189,7 +189,7 @@ class TerrainTest(FolderTest):
         self.assertAlmostEqual(abs(directions[0, :, 1] @ np.array([0.5**0.5, 0.5**0.5])), 1.0)
         np.testing.assert_allclose(in_plane(tensor, 1)[0][0], [-2e3, -2e3])
 
-    def test_arc_is_where_the_deviatoric_stress_is_greatest(self) -> None:
+    def test_arc_follows_the_largest_deviatoric_stress(self) -> None:
         write_stress(self.folder / "terrain.h5")
         terrain, stress = Terrain.read(self.folder), TerrainStress.read(self.folder)
         arc = arc_ahead(terrain, stress, Outline(self.folder, terrain))
@@ -198,7 +198,7 @@ class TerrainTest(FolderTest):
         np.testing.assert_allclose(radius, ARC, atol=0.75 * SPACING)
         self.assertGreater(arc.ahead, 0.5 * ARC)
 
-    def test_stress_is_drawn_where_the_run_kept_it(self) -> None:
+    def test_recorded_stress_is_drawn(self) -> None:
         target = self.folder / "stress.png"
         with self.assertRaisesRegex(ResultsError, "has no 'mises'"):
             draw_stress(self.folder, "synthetic", target)
@@ -208,7 +208,7 @@ class TerrainTest(FolderTest):
         red = (picture[..., 0] > 0.6) & (picture[..., 1] < 0.3) & (picture[..., 2] < 0.3)
         self.assertGreater(red.mean(), 1e-3)  # tension
 
-    def test_plastic_strain_is_drawn_where_the_run_kept_it(self) -> None:
+    def test_recorded_plastic_strain_is_drawn(self) -> None:
         """Two more panels; where it strained, ahead of the axle, they are dark."""
         write_stress(self.folder / "terrain.h5")
         shapes, dark = [], []
@@ -230,7 +230,7 @@ class TerrainTest(FolderTest):
         self.assertGreater(shapes[1], shapes[0])
         self.assertGreater(dark[2], 2 * dark[1])
 
-    def test_stress_is_drawn_where_the_axle_is_between_two_layers(self) -> None:
+    def test_stress_is_drawn_for_an_axle_between_two_layers(self) -> None:
         """A run that stopped early: no particle lies within half a spacing of the axle."""
         write_stress(self.folder / "terrain.h5")
         with h5py.File(self.folder / "terrain.h5", "a") as content:
@@ -241,7 +241,7 @@ class TerrainTest(FolderTest):
         draw_stress(self.folder, "synthetic", target, dpi=60)
         self.assertGreater(target.stat().st_size, 0)
 
-    def test_a_section_of_three_particles_is_drawn(self) -> None:
+    def test_section_of_three_particles_is_drawn(self) -> None:
         target = self.folder / "terrain.png"
         with h5py.File(self.folder / "terrain.h5", "a") as content:
             group = content["terrain"]

@@ -86,7 +86,7 @@ class ViewTest(SharedFolderTest):
         """Share of pixels that differ."""
         return float((np.abs(before - after).max(axis=2) > 0.02).mean())
 
-    def test_loads_without_error_and_without_a_network(self) -> None:
+    def test_page_loads_without_errors_and_network(self) -> None:
         self.show("grains")
         self.assertEqual(self.browser.troubles, [])
         self.assertEqual(self.browser.requests, [(self.folder / "grains.html").resolve().as_uri()])
@@ -104,7 +104,7 @@ class ViewTest(SharedFolderTest):
         self.assertGreater(sand.mean(), 0.01)
         self.assertGreater(wheel.mean(), 0.01)
 
-    def test_places_are_those_of_the_run(self) -> None:
+    def test_positions_equal_those_of_the_run(self) -> None:
         for kind in ("grains", "continuum"):
             self.show(kind)
             for frame in (0, FRAMES - 1):
@@ -170,7 +170,7 @@ class ViewTest(SharedFolderTest):
         self.assertGreater(self.changed(end, self.stage()), 0.05)
         self.assertEqual(self.browser.troubles, [])
 
-    def test_opens_at_the_end_with_everything_in_view(self) -> None:
+    def test_page_opens_at_the_end_with_everything_in_view(self) -> None:
         for folders in (("grains",), ("grains", "continuum")):
             self.show(*folders)
             self.assertEqual(self.time(), FRAMES - 1)
@@ -234,7 +234,7 @@ class ViewTest(SharedFolderTest):
             )
         )
 
-    def test_no_grain_that_touches_pokes_through(self) -> None:
+    def test_touching_grains_do_not_penetrate_the_wheel(self) -> None:
         """A sheet that cuts 3 cm off the grains below it is seen whole from above."""
         low, high = np.array([0.5, 0.0]), np.array([0.9, 0.25])
         x = np.array([[x, y, LEVEL - 0.03] for x in (low[0], high[0]) for y in (low[1], high[1])])
@@ -257,7 +257,7 @@ class ViewTest(SharedFolderTest):
         sand = inside[:, :, 0] - inside[:, :, 2] > 0.15
         self.assertFalse(sand.any())
 
-    def test_play_goes_to_the_end(self) -> None:
+    def test_play_runs_to_the_end(self) -> None:
         self.show("grains")
         self.browser.evaluate("document.querySelector('.furrow-speed').value = 2")
         self.browser.evaluate("document.querySelector('.furrow-play').click()")
@@ -278,7 +278,7 @@ class ViewTest(SharedFolderTest):
         self.assertEqual(labels, ["grains", "continuum"])
         self.assertEqual(self.browser.troubles, [])
 
-    def test_a_small_page_has_fewer_frames_then_fewer_points(self) -> None:
+    def test_small_page_has_fewer_frames_then_fewer_points(self) -> None:
         library = 0.88  # [MB] of three.js
         write_moving_run(self.folder / "large", number=20, noise=0.01)
         page = self.folder / "small.html"

@@ -41,14 +41,14 @@ class LaboratoryTests(FolderTest):
         facts = f"test triaxial ground clay confinement {confinement}"
         return write_test(self.folder / f"triaxial_{confinement:g}", facts, rows)
 
-    def test_mohr_coulomb_from_triaxial_tests(self) -> None:
+    def test_triaxial_tests_give_mohr_coulomb(self) -> None:
         folders = [self.triaxial(c) for c in (1e4, 2e4, 5e4)]
         found = self.together(folders)
         self.assertAlmostEqual(found["friction_angle_end"].value, PHI, delta=0.02)
         self.assertAlmostEqual(found["cohesion_end"].value, COHESION, delta=5)
         self.assertAlmostEqual(self.values(folders[0])["dilation"], 0.2, places=6)
 
-    def test_free_sides(self) -> None:
+    def test_unconfined_test_gives_the_free_sides(self) -> None:
         """Sides that give way by 0.05 of the axial strain; a linear, then a brittle pull."""
         axial = np.linspace(0, 0.45, 500)
         strain = np.column_stack((-0.06 * axial, -0.04 * axial, axial))
@@ -77,7 +77,7 @@ class LaboratoryTests(FolderTest):
         facts = f"test shear ground clay confinement {sigma} gap 0.1"
         return write_test(self.folder / f"shear_{sigma:g}", facts, rows)
 
-    def test_janosi_from_shear(self) -> None:
+    def test_shear_test_gives_janosi(self) -> None:
         folders = [self.shear(sigma) for sigma in (1e4, 3e4, 6e4)]
         values = self.values(folders[0])
         self.assertAlmostEqual(values["janosi_K"], 0.004, delta=2e-5)
@@ -88,7 +88,7 @@ class LaboratoryTests(FolderTest):
         self.assertAlmostEqual(found["friction_angle_residual"].value, PHI, delta=0.05)
         self.assertAlmostEqual(found["cohesion_residual"].value, COHESION, delta=10)
 
-    def test_bekker_from_two_plates(self) -> None:
+    def test_two_plates_give_bekker(self) -> None:
         kc, kphi, n = 3e3, 1.5e6, 1.1
         folders = []
         for size in (0.06, 0.12):
@@ -102,7 +102,7 @@ class LaboratoryTests(FolderTest):
         self.assertAlmostEqual(found["bekker_kphi"].value / kphi, 1, places=3)
         self.assertAlmostEqual(found["bekker_kc"].value / kc, 1, places=2)
 
-    def test_oedometer_against_a_reference(self) -> None:
+    def test_oedometer_is_compared_with_a_reference(self) -> None:
         strain = np.linspace(0, 1.2, 500)
         density, modulus = 200 * np.exp(strain), 4.0
         axial = 4e3 * np.exp(modulus * strain)
@@ -122,7 +122,7 @@ class LaboratoryTests(FolderTest):
         self.assertAlmostEqual(found["rms_ln_stress"], float(np.log(2)), delta=1e-3)
         self.assertAlmostEqual(found["rms_ln_density"], float(np.log(2) / 4), delta=1e-3)
 
-    def test_slope_of_a_wedge(self) -> None:
+    def test_wedge_has_its_slope(self) -> None:
         random = np.random.default_rng(1)
         x, y = random.uniform(0, 0.32, 20000), random.uniform(0, 0.06, 20000)
         slope = np.tan(np.radians(28.0))
@@ -143,7 +143,7 @@ class LaboratoryTests(FolderTest):
         self.assertIn("E50", content["quantities"])
         self.assertGreater((folder / "laboratory.png").stat().st_size, 10000)
 
-    def test_refusals(self) -> None:
+    def test_faults_are_refused(self) -> None:
         with self.assertRaisesRegex(ResultsError, "has no facts.txt"):
             LaboratoryTest(self.folder)
         (self.folder / "facts.txt").write_text("test juggling")

@@ -14,7 +14,7 @@ RADIUS, WIDTH, DEPTH = 0.37, 0.272, 0.2
 
 
 class CompressedSnowTest(unittest.TestCase):
-    def test_spring_bed_is_bekkers_wheel(self) -> None:
+    def test_spring_bed_has_the_sinkage_of_bekkers_wheel(self) -> None:
         """p = k w under a circle: the integral of k (sqrt(r^2 - x^2) - (r - z)) in closed form."""
         k, z = 1e6, 0.08
 
@@ -31,7 +31,7 @@ class CompressedSnowTest(unittest.TestCase):
             self.assertAlmostEqual(snow.carried(sunk, sides) / 6e3, 1, 6)
             self.assertLess(snow.sinkage(6e3, sides, 5e3), sunk)
 
-    def test_steep_pressure_has_its_resistance_in_closed_form(self) -> None:
+    def test_steep_pressure_has_the_closed_form_resistance(self) -> None:
         """p = p_m exp(-(z_m - z)/lambda): W = b p_m sqrt(pi r lambda/2), c = sqrt(2 lambda/(pi r))."""
         sinkage, greatest, length = 0.12, 1e6, 5e-4
 
@@ -44,7 +44,7 @@ class CompressedSnowTest(unittest.TestCase):
         self.assertAlmostEqual(found, sinkage, delta=1e-5)
         self.assertAlmostEqual(snow.work(found) / load / math.sqrt(2 * length / (math.pi * RADIUS)), 1.0, delta=0.01)
 
-    def test_bearing_capacity_of_the_report_s_snow_is_prandtls(self) -> None:
+    def test_bearing_capacity_of_the_snow_is_prandtl(self) -> None:
         study = evaluation("report_wheel")
         self.assertAlmostEqual(math.degrees(study.PHI), 13.86, places=2)
         self.assertAlmostEqual(study.NC, 10.29, places=2)  # tables: 10.37 at 14 degrees

@@ -11,12 +11,12 @@ TYRE = SOURCE / "inputs" / "tyres" / "p235_75r15.yaml"
 
 
 class ConeFilesTest(unittest.TestCase):
-    def test_the_soil_is_that_of_the_material_file(self) -> None:
+    def test_soil_is_read_from_the_material_file(self) -> None:
         self.assertEqual(soil_of(MATERIALS / "sand_medium.yaml"), Soil("sand", 131e3))
         self.assertEqual(soil_of(MATERIALS / "clay_stiff.yaml"), Soil("clay", 530e3))
         self.assertIsNone(soil_of(MATERIALS / "fresh_snow.yaml"))
 
-    def test_the_tyre_has_the_sizes_of_its_designation(self) -> None:
+    def test_tyre_has_the_sizes_of_its_designation(self) -> None:
         """P235/75 R15 has a diameter of 0.733 m and a section height of 0.176 m. Its deflection is that of [Shoop2001]."""
         tyre = formula_tyre(TYRE, 179e3, 6227.0)
         self.assertAlmostEqual(tyre.diameter, 0.733, delta=0.01)

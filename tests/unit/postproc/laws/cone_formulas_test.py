@@ -39,14 +39,14 @@ class TractionTest(unittest.TestCase):
         self.assertAlmostEqual(at_all.resistance, 0.15, delta=0.005)
         self.assertAlmostEqual(gee_clough(200e3, tyre, 1e-6).net / 1e-6, 5.01, delta=0.005)
 
-    def test_wismer_luth_by_hand(self) -> None:
+    def test_wismer_luth_has_hand_computed_values(self) -> None:
         found = wismer_luth(CI, TYRE, 0.2)
         self.assertAlmostEqual(found.numeric, 24, places=12)
         self.assertAlmostEqual(found.resistance, 0.09, places=12)
         self.assertAlmostEqual(found.gross, 0.572305, delta=1e-6)
         self.assertAlmostEqual(found.net, 0.482305, delta=1e-6)
 
-    def test_brixius_by_hand(self) -> None:
+    def test_brixius_has_hand_computed_values(self) -> None:
         # by pocket calculator: the exponential terms and the root of the mobility number
         found = brixius(CI, TYRE, 0.2)
         self.assertAlmostEqual(found.numeric, 24.774194, delta=1e-6)
@@ -55,7 +55,7 @@ class TractionTest(unittest.TestCase):
         radial = brixius(CI, replace(TYRE, radial=True), 0.2)
         self.assertAlmostEqual(radial.gross, 0.88 * 0.91604085 * 0.85043138 + 0.0325, delta=1e-6)
 
-    def test_clay_of_the_vehicle_terrain_interface_by_hand(self) -> None:
+    def test_vehicle_terrain_interface_on_clay_has_hand_computed_values(self) -> None:
         number = 24 / (0.71554175 * 1.2262375)
         found = vti_clay(CI, TYRE, 0.2)
         self.assertAlmostEqual(found.numeric / number, 1, places=6)
@@ -67,7 +67,7 @@ class TractionTest(unittest.TestCase):
         self.assertLess(abs(just.net), 0.01)
         self.assertAlmostEqual(found.gross - just.gross, 0.5 * math.log10(0.2 / free) * 1.3125**0.25, places=6)
 
-    def test_all_agree_in_tendency(self) -> None:
+    def test_formulas_agree_in_tendency(self) -> None:
         formulas: dict[str, ConeFormula] = {
             "Wismer-Luth": wismer_luth,
             "Brixius": brixius,
@@ -80,7 +80,7 @@ class TractionTest(unittest.TestCase):
             self.assertLess(firm.resistance, soft.resistance, name)
             self.assertGreater(formula(CI, TYRE, 0.3).net, soft.net, name)
 
-    def test_values_of_a_second_program(self) -> None:
+    def test_values_agree_with_a_second_program(self) -> None:
         formulas: dict[str, ConeFormula] = {
             "drove_sand": drove_sand,
             "vti_clay": vti_clay,
@@ -101,7 +101,7 @@ class TractionTest(unittest.TestCase):
                 compared += 1
         self.assertGreater(compared, 200)
 
-    def test_band_is_that_of_the_formulas_in_their_range(self) -> None:
+    def test_band_covers_the_formulas_in_their_range(self) -> None:
         passenger = Tyre(6e3, 0.734, 0.235, 0.176, 0.025)
         clay = formulas_for("clay", 300e3, passenger, 0.2)
         self.assertEqual(len(clay.answers), 5)
@@ -128,7 +128,7 @@ class TractionTest(unittest.TestCase):
         with self.assertRaisesRegex(ResultsError, "DROVE, sand: has no value here: contact pressure"):
             formulas_for("sand", 1500e3, soft, 0.2)
 
-    def test_refusals(self) -> None:
+    def test_faults_are_refused(self) -> None:
         with self.assertRaisesRegex(OutOfRange, "width over diameter 0.625, allowed 0.2 to 0.4"):
             wismer_luth(CI, Tyre(20e3, 0.8, 0.5), 0.2)
         with self.assertRaisesRegex(OutOfRange, "load over width and diameter 1.25e.05 Pa, allowed 15000 to"):
@@ -152,7 +152,7 @@ class VehicleConeIndexTest(unittest.TestCase):
         tyre = Tyre(math.nan, 48 * self.IN, 16 * self.IN, 12 * self.IN, deflection * 12 * self.IN)
         return WheeledVehicle(40e3 * self.LB, 4, 8, tyre, 18 * self.IN, power * self.HP, manual)
 
-    def test_mobility_index_and_one_pass(self) -> None:
+    def test_mobility_index_and_one_pass_have_published_values(self) -> None:
         found = vehicle_cone_index(self.vehicle())
         index = 40000 / (16 * 24 * 8) * 1.38 / 0.26 + 5 - 1.8
         self.assertAlmostEqual(found.mobility_index, index, places=6)
@@ -161,7 +161,7 @@ class VehicleConeIndexTest(unittest.TestCase):
         self.assertAlmostEqual(found.one_pass / PSI, psi, places=6)
         self.assertAlmostEqual(psi, 25.4267, delta=1e-4)
 
-    def test_factors_of_deflection_engine_and_transmission(self) -> None:
+    def test_factors_of_deflection_engine_and_transmission_are_published_ones(self) -> None:
         plain = vehicle_cone_index(self.vehicle())
         soft = vehicle_cone_index(self.vehicle(deflection=0.3))
         self.assertAlmostEqual(soft.one_pass / plain.one_pass, 0.5**0.25, places=9)
@@ -175,7 +175,7 @@ class VehicleConeIndexTest(unittest.TestCase):
 
 
 class CommandTest(unittest.TestCase):
-    def test_options_of_a_formula(self) -> None:
+    def test_options_of_a_formula_are_listed(self) -> None:
         words = "--load 20e3 --diameter 1.6 --width 0.5 --slip 0.2 --cone_index 600e3".split()
         found = run_post("empirical", "wismer_luth", *words)
         self.assertIn("net traction coefficient    0.4823", found.stdout)

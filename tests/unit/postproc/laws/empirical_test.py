@@ -28,7 +28,7 @@ class SnowTest(unittest.TestCase):
         self.assertEqual(empirical.nrmm_final_density(500e3), 917.0)
         self.assertLess(empirical.nrmm_final_density(172e3), 917.0)
 
-    def test_resistance_of_a_half_sunk_wheel(self) -> None:
+    def test_half_sunk_wheel_has_its_resistance(self) -> None:
         # z = r: the arc is a quarter of the circle; up to 150 kg/m3 deep snow counts once
         expected = 13.6041 * (120 * 0.25 * 0.4 * math.pi / 2) ** 1.26
         found = empirical.nrmm_resistance(120, 0.25, 0.4, 0.4)
@@ -39,14 +39,14 @@ class SnowTest(unittest.TestCase):
         self.assertAlmostEqual(deep / shallow, 1.5, delta=2e-3)
         self.assertAlmostEqual(deeper / before, 2.5 / 1.5, delta=2e-3)
 
-    def test_factors_of_deep_snow_may_go_by_the_depth(self) -> None:
+    def test_factors_of_deep_snow_can_depend_on_depth(self) -> None:
         z = 0.12
         plain = empirical.nrmm_resistance(200, 0.25, 0.39, z)
         for depth, factor in ((0.25, 1.0), (0.27, 1.5), (0.38, 1.5), (0.40, 2.5)):
             found = empirical.nrmm_resistance(200, 0.25, 0.39, z, depth)
             self.assertAlmostEqual(found / plain, factor, places=12)
 
-    def test_refuses_what_its_tests_do_not_cover(self) -> None:
+    def test_values_outside_the_tests_are_refused(self) -> None:
         message = "density 300 kg/m3, allowed 105 to 225 .*Table 11.*--extrapolate"
         with self.assertRaisesRegex(OutOfRange, message):
             empirical.nrmm(6240, 0.37, 0.272, 0.2, 300, 179e3)
@@ -54,7 +54,7 @@ class SnowTest(unittest.TestCase):
         self.assertEqual(len(prediction.outside), 1)
         self.assertIn("EXTRAPOLATED: density 300", prediction.report())
 
-    def test_scatter_is_that_of_the_measurements(self) -> None:
+    def test_scatter_equals_that_of_the_measurements(self) -> None:
         rows = read_numbers(reference("snow_wheel"))
         self.assertGreater(len(rows), 20)
         coefficient, sinkage = [], []
@@ -74,20 +74,20 @@ class SnowTractionTest(unittest.TestCase):
     WEIGHT = 23401 * 4.4482216  # [N]
     AREA = 2 * 15 * 105 * 0.0254**2  # [m2] of two tracks, in inches
 
-    def test_gross_traction_is_that_of_table_a5(self) -> None:
+    def test_gross_traction_equals_table_a5(self) -> None:
         printed = {"undisturbed": 44134.3, "packed": 29692.1, "ice": 16741.3}
         for surface, traction in printed.items():
             found = empirical.snow_traction(surface, self.WEIGHT, self.AREA)
             self.assertAlmostEqual(found.gross / traction, 1, delta=2e-5, msg=surface)
             self.assertAlmostEqual(found.coefficient * self.WEIGHT / traction, 1, delta=2e-5)
 
-    def test_on_a_slope_the_load_is_the_part_normal_to_it(self) -> None:
+    def test_load_on_a_slope_is_its_normal_part(self) -> None:
         # example 2, 30 degrees: the ratio to example 1 depends on the exponent alone
         load = self.WEIGHT * math.cos(math.radians(30))
         found = empirical.snow_traction("undisturbed", load, self.AREA)
         self.assertAlmostEqual(found.gross / 39207.1, 1, delta=2e-5)
 
-    def test_refuses_units_that_no_wheel_has(self) -> None:
+    def test_impossible_units_of_a_wheel_are_refused(self) -> None:
         with self.assertRaisesRegex(ResultsError, "a contact pressure of 6.2 Pa; allowed: 5000 to 2e"):
             empirical.snow_traction("ice", 6.2, 1.0)
         with self.assertRaisesRegex(ResultsError, "no surface 'slush'; there are undisturbed, packed, ice"):
@@ -107,7 +107,7 @@ class SandTest(unittest.TestCase):
         work = 0.25 * np.trapz(ground.plate_pressure(z, 0.25), z)
         self.assertAlmostEqual(p.resistance / float(work), 1, places=5)
 
-    def test_wong_reece_against_an_independent_quadrature(self) -> None:
+    def test_wong_reece_agrees_with_an_independent_quadrature(self) -> None:
         names = {"compact": "Wong-Reece compact sand", "loose": "Wong-Reece loose sand"}
         rows = read_rows(reference("wong_reece"))
         self.assertEqual(len(rows), 27)
@@ -122,7 +122,7 @@ class SandTest(unittest.TestCase):
             self.assertAlmostEqual(values["drawbar pull"], pull, delta=1.6, msg=str(row))
             self.assertAlmostEqual(values["torque"], torque, delta=1.6, msg=str(row))
 
-    def test_refusals(self) -> None:
+    def test_faults_are_refused(self) -> None:
         lete, compact = terrain("LETE sand"), terrain("Wong-Reece compact sand")
         with self.assertRaisesRegex(OutOfRange, "diameter 0.3 m, allowed at least 0.5 .*50 cm"):
             empirical.bekker(200, 0.3, 0.15, lete)
@@ -136,7 +136,7 @@ class SandTest(unittest.TestCase):
         with self.assertRaisesRegex(ResultsError, "6 N on a wheel of 0.9 m x 0.35 m are 19 Pa over diameter and width"):
             empirical.bekker(6, 0.9, 0.35, lete)
 
-    def test_own_numbers_are_options_and_assumed_ones_are_printed(self) -> None:
+    def test_given_numbers_are_options_and_assumed_ones_are_printed(self) -> None:
         """The values are those of an independent quadrature."""
         wheel = "--load 400 --diameter 0.5 --width 0.16 --slip 0.2".split()
         soil = "--k_phi 3.2e6 --n 1.4 --c 140 --phi 35 --K 0.01".split()

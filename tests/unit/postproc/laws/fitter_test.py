@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from furrow_post.laws.fitter import NotComputed, Parameter, Search, fit, judge, plain
+from furrow_post.laws.fitter import NotComputed, Parameter, Search, assess, fit, plain
 from furrow_post.arrays import Floats
 
 X = np.linspace(0.1, 1.0, 10)
@@ -18,7 +18,7 @@ def line(data: Floats, deviation: float = 1.0):  # type: ignore[no-untyped-def]
 
 
 class FitterTest(unittest.TestCase):
-    def test_a_prior_weighs_as_its_variance(self) -> None:
+    def test_prior_is_weighted_by_its_variance(self) -> None:
         """The posterior of a line has a closed form."""
         data, s, t = 2.0 * X + 0.01 * np.sin(9 * X), 0.1, 0.5
         found = fit([Parameter("slope", "", 1.0, -math.inf, math.inf, spread=t)], line(data, s))
@@ -28,9 +28,9 @@ class FitterTest(unittest.TestCase):
         self.assertAlmostEqual(one.deviation, precision**-0.5, places=6)
         self.assertAlmostEqual(one.share, 1 - 1 / (precision * t**2), places=6)
 
-    def test_without_data_a_parameter_is_its_prior(self) -> None:
+    def test_parameter_without_data_is_its_prior(self) -> None:
         parameter = Parameter("a", "", 3.0, -math.inf, math.inf, spread=0.2)
-        (one,) = judge([parameter], np.array([1.0]), np.zeros(0), np.zeros((0, 1))).parameters
+        (one,) = assess([parameter], np.array([1.0]), np.zeros(0), np.zeros((0, 1))).parameters
         self.assertEqual((one.value, one.share), (3.0, 0.0))
         self.assertAlmostEqual(one.deviation, 0.6)  # of z, in units of the start
 
@@ -51,7 +51,7 @@ class FitterTest(unittest.TestCase):
         ratio = wider.parameters[0].deviation / found.parameters[0].deviation
         self.assertAlmostEqual(ratio, 3.0, delta=0.25)  # of 400 numbers
 
-    def test_intervals_hold_the_truth_as_often_as_they_state(self) -> None:
+    def test_intervals_have_their_stated_coverage(self) -> None:
         noise, truth = np.random.default_rng(7), 5.0
         parameter = [Parameter("k", "", 1.0, 0.0, math.inf)]
         inside = 0
@@ -80,7 +80,7 @@ class FitterTest(unittest.TestCase):
         np.testing.assert_allclose(cheap.values, exact.values, rtol=1e-5)
         self.assertLess(cheap.evaluations, exact.evaluations)
 
-    def test_what_cannot_be_computed_is_gone_around(self) -> None:
+    def test_failed_evaluations_are_skipped(self) -> None:
         def residuals(values: Floats) -> Floats:
             if values[0] > 2.5:
                 raise NotComputed("too steep")

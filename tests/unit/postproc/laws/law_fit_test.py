@@ -100,7 +100,7 @@ class LawFitTest(FolderTest):
         self.assertFalse(density.determined)
         self.assertEqual(density.remark, "the curves do not depend on it")
 
-    def test_a_parameter_at_its_bound_is_reported(self) -> None:
+    def test_parameter_at_its_bound_is_reported(self) -> None:
         point = self.opened([{"name": "hardening.lambda", "lower": 0.001, "upper": 0.04}])
         fit = fit_law(point.parameters, measured(point, [0.045]), point)
         (fitted,) = fit.parameters
@@ -108,19 +108,19 @@ class LawFitTest(FolderTest):
         self.assertEqual(fitted.remark, "stands at its upper bound 0.04")
         self.assertIn("NOT DETERMINED: stands at its upper bound 0.04", report(point, fit))
 
-    def test_a_start_at_a_bound_leaves_it(self) -> None:
+    def test_fit_leaves_a_start_at_a_bound(self) -> None:
         point = self.opened(
             [{"name": "hardening.lambda", "start": 0.06, "lower": 0.001, "upper": 0.06}]
         )
         fit = fit_law(point.parameters, measured(point, [0.045]), point)
         self.assertAlmostEqual(fit.parameters[0].value / 0.045, 1.0, delta=1e-6)
 
-    def test_one_number_of_a_table_is_a_parameter(self) -> None:
+    def test_number_of_a_table_can_be_a_parameter(self) -> None:
         point = self.opened([{"name": "hardening.p[6]", "start": 2.2e6}], "mccormick_sand")
         fit = fit_law(point.parameters, measured(point, [2.758e6]), point)  # Table 5, row 6
         self.assertAlmostEqual(fit.parameters[0].value / 2.758e6, 1.0, delta=1e-6)
 
-    def test_an_answer_has_the_cause_of_a_refusal(self) -> None:
+    def test_refused_start_is_reported_with_its_cause(self) -> None:
         point = self.opened([{"name": "hardening.lambda"}])
         with self.assertRaisesRegex(NotComputed, "keyword 'lambda' is -1.0; allowed: a number > 0"):
             point(np.array([-1.0]))
@@ -148,7 +148,7 @@ class FormulaTest(unittest.TestCase):
             raise NotComputed("too small")
         return [1 + values[0] * self.X]
 
-    def test_a_linear_fit_has_the_error_of_the_closed_form(self) -> None:
+    def test_linear_fit_has_the_error_of_the_closed_form(self) -> None:
         data = 1 + 2 * self.X + np.array([0.01, -0.02, 0.01, 0.03, -0.01, 0.0])
         fit = self.fit(Parameter("slope", "", -0.1, -math.inf, math.inf), data)
         slope = self.X @ (data - 1) / (self.X @ self.X)
@@ -157,7 +157,7 @@ class FormulaTest(unittest.TestCase):
         expected = spread / math.sqrt(self.X @ self.X)
         self.assertAlmostEqual(fit.parameters[0].deviation / expected, 1.0, delta=1e-6)
 
-    def test_data_missed_by_more_than_their_deviation_widen_the_error(self) -> None:
+    def test_misfit_beyond_the_deviation_widens_the_error(self) -> None:
         off = np.array([0.01, -0.02, 0.01, 0.03, -0.01, 0.0])
         slope = Parameter("slope", "", 1.0, -math.inf, math.inf)
         unknown = self.fit(slope, 1 + 2 * self.X + off)
@@ -214,7 +214,7 @@ class FormulaTest(unittest.TestCase):
         (fitted,) = self.fit(Parameter("slope", "", 1.0, 0.1, 10.0), data, deviation=0.1).parameters
         self.assertAlmostEqual(fitted.deviation, 0.1, delta=1e-6)
 
-    def test_a_start_that_cannot_be_computed_is_refused_with_the_cause(self) -> None:
+    def test_start_that_cannot_be_computed_is_refused_with_the_cause(self) -> None:
         with self.assertRaisesRegex(NotComputed, "too small"):
             self.fit(Parameter("slope", "", -0.6, -math.inf, math.inf), self.X)
         with self.assertRaisesRegex(NotComputed, "y is -1 and is compared in logarithms"):
@@ -232,7 +232,7 @@ class ShippedFitsTest(FolderTest):
         self.assertTrue(fit.converged)
         return fit
 
-    def test_oedometer_is_met_within_its_error_by_the_tables(self) -> None:
+    def test_tables_agree_with_the_oedometer_within_its_error(self) -> None:
         for name, limit in (("abele_gow_table", 0.1), ("cam_clay", 0.15)):  # deviations of 3 %
             fit = self.shipped(name)
             self.assertLess(fit.rms, limit)
@@ -276,7 +276,7 @@ class ShippedFitsTest(FolderTest):
             self.assertAlmostEqual(interval.error / pc0["deviation"], 1.0)
         self.assertEqual(sorted(results.glob("*.part")), [])
 
-    def test_a_law_that_misses_the_data_by_more_than_two_deviations_is_reported(self) -> None:
+    def test_law_that_misses_the_data_by_more_than_two_deviations_is_reported(self) -> None:
         with PointCurves(POINTS / "fit_cam_clay.yaml") as point:
             fit = fit_law(point.parameters, point.curves, point)
 
@@ -288,7 +288,7 @@ class ShippedFitsTest(FolderTest):
                 "this law cannot follow the data: the rms residual is 2.1 deviations", reported(2.1)
             )
 
-    def test_a_refused_file_leaves_no_results(self) -> None:
+    def test_refused_file_leaves_no_results(self) -> None:
         results = self.folder / "fit"
         done = run_post("fit", "law", POINTS / "snow_rut.yaml", "-o", results)
         self.assertEqual(done.returncode, 1)

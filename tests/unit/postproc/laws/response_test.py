@@ -26,7 +26,7 @@ def identify(m: float, scatter: float = 0.0) -> Identified:
 
 
 class ResponseTest(unittest.TestCase):
-    def test_the_parameter_of_the_tests_is_found(self) -> None:
+    def test_parameter_of_the_tests_is_recovered(self) -> None:
         found = identify(2.4)
         self.assertAlmostEqual(found.value, 2.4, delta=0.001)
         self.assertAlmostEqual(found.left["sinkage"], 0.0, places=4)
@@ -40,12 +40,12 @@ class ResponseTest(unittest.TestCase):
             self.assertAlmostEqual(found.value, 2.4, delta=0.01)
             self.assertAlmostEqual((found.high - found.low) / (2 * expected), 1.0, delta=0.05)
 
-    def test_a_value_beyond_the_runs_is_a_bound(self) -> None:
+    def test_value_beyond_the_runs_is_a_bound(self) -> None:
         found = identify(4.0)
         self.assertEqual((found.value, found.high), (3.3, 3.3))
         self.assertLess(found.low, 3.3)
 
-    def test_k0_and_strength_are_those_of_confined_compression(self) -> None:
+    def test_k0_and_strength_follow_from_confined_compression(self) -> None:
         """K0 as src/material/snow.md has it; p and q under an axial stress of 1 on the ellipse."""
         for slope, k0 in ((3.3, 0.12), (2.0, 0.41), (1.5, 0.57)):
             found, p0 = cam_clay_confined(slope, 0.1)

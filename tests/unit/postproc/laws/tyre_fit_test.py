@@ -88,7 +88,7 @@ class FitTest(unittest.TestCase):
         self.assertEqual(found["sidewall_stiffness"].verdict(), "guess")
         self.assertEqual(fit.stretch, 1.0)
 
-    def test_without_tests_all_is_guess(self) -> None:
+    def test_parameters_without_tests_are_estimates(self) -> None:
         fit = fit_tyre(KNOWN, [], formula)
         for parameter in fit.parameters:
             self.assertEqual(parameter.value, parameter.guess.value)
@@ -122,7 +122,7 @@ class FitTest(unittest.TestCase):
         self.assertGreater(variance, 0.6)
         self.assertLess(variance, 1.4)
 
-    def test_a_misfit_beyond_the_errors_enlarges_them(self) -> None:
+    def test_misfit_beyond_the_errors_enlarges_them(self) -> None:
         tests = measure((0.0, 0.0, 0.0, 0.0, 0.0), tuple(MEASURED))
         good = fit_tyre(KNOWN, tests, formula)
         for test, factor in zip(tests, (1.2, 0.83, 0.83, 1.2)):
@@ -132,7 +132,7 @@ class FitTest(unittest.TestCase):
         width = [fit.parameters[1].error for fit in (good, bad)]
         self.assertGreater(width[1], 1.5 * width[0])
 
-    def test_trial_tyres_that_do_not_rest_are_left(self) -> None:
+    def test_unsettled_trial_tyres_are_skipped(self) -> None:
         def fragile(text: str, tests: Sequence[PlateTest], mesh: Mesh) -> list[dict[str, float]]:
             if (
                 yaml.safe_load(text)["tread"]["half_width"]
@@ -155,7 +155,7 @@ class FitTest(unittest.TestCase):
 
 
 class EstimateTest(unittest.TestCase):
-    def test_the_tyre_that_others_are_scaled_from_is_itself(self) -> None:
+    def test_scaling_to_the_same_size_changes_nothing(self) -> None:
         """inputs/tyres/p235_75r15.yaml from its section, tread and diameter: the same stiffnesses."""
         known = Catalogue(
             read_size("235/75R15"), 241e3, 6.5 * INCH, 0.737, 0.229, 0.157, 0.021, mass=None
@@ -185,7 +185,7 @@ class EstimateTest(unittest.TestCase):
             made["sidewall"]["bending"], tyre["sidewall"]["bending"], rtol=1e-3
         )
 
-    def test_the_sidewall_is_an_arc_of_the_section_width(self) -> None:
+    def test_sidewall_is_an_arc_of_the_section_width(self) -> None:
         values = {name: guess.value for name, guess in guesses(KNOWN).items()}
         text = tyre_text("x", [], KNOWN, values, {name: "" for name in values})
         tyre = yaml.safe_load(text)
@@ -198,7 +198,7 @@ class EstimateTest(unittest.TestCase):
         self.assertAlmostEqual(float(radius[-1]), tyre["tread"]["radius"], delta=3e-4)
         self.assertAlmostEqual(2.0 * float(axial.max()), 0.235, delta=5e-4)
 
-    def test_mass_is_that_of_tread_and_hub(self) -> None:
+    def test_mass_is_the_sum_of_tread_and_hub(self) -> None:
         known = Catalogue(read_size("235/75R15"), 241e3, mass=14.0)
         values = {name: guess.value for name, guess in guesses(known).items()}
         tyre = yaml.safe_load(
@@ -210,7 +210,7 @@ class EstimateTest(unittest.TestCase):
             tread["areal_mass"] * area + (hub_mass(known) or 0.0), 14.0, delta=0.02
         )
 
-    def test_a_rim_wider_than_the_section_is_refused(self) -> None:
+    def test_rim_wider_than_the_section_is_refused(self) -> None:
         known = Catalogue(read_size("235/75R15"), 241e3, rim_width=10 * INCH)
         values = {name: guess.value for name, guess in guesses(known).items()}
         with self.assertRaisesRegex(ResultsError, "a section is wider than both"):
@@ -224,7 +224,7 @@ class ReadTest(unittest.TestCase):
             path.write_text(text, encoding="utf-8")
             return read_tests(path)
 
-    def test_the_output_of_furrow_tyre_is_a_test(self) -> None:
+    def test_output_of_furrow_tyre_is_read_as_a_test(self) -> None:
         tests = self.read(
             "pressure_kPa,load_N,deflection_cm,perimeter_area_cm2\n241,0,0,0\n241,6227,3.1,\n"
         )

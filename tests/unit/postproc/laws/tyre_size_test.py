@@ -14,7 +14,7 @@ TOLERANCES = {"x": (0.05, 0.09), "/": (0.03, 0.07), "": (0.03, 0.09)}
 
 
 class SizeTest(unittest.TestCase):
-    def test_dimensions_are_those_of_catalogues(self) -> None:
+    def test_dimensions_agree_with_catalogues(self) -> None:
         for row in read_rows(CATALOGUE):
             size = read_size(row["size"])
             form = next(mark for mark in TOLERANCES if mark in row["size"].lower())
@@ -23,7 +23,7 @@ class SizeTest(unittest.TestCase):
                 self.assertLess(abs(1e3 * size.diameter / diameter - 1.0), TOLERANCES[form][0])
                 self.assertLess(abs(1e3 * size.width / width - 1.0), TOLERANCES[form][1])
 
-    def test_rules_for_missing_aspect_ratios_state_an_error_that_holds(self) -> None:
+    def test_missing_aspect_ratio_is_estimated_within_the_stated_error(self) -> None:
         rows = [row for row in read_rows(CATALOGUE) if read_size(row["size"]).diameter_error > 0.0]
         self.assertGreater(len(rows), 1)
         for row in rows:
@@ -31,7 +31,7 @@ class SizeTest(unittest.TestCase):
             off = abs(size.diameter - 1e-3 * float(row["diameter_mm"]))
             self.assertLess(off, 2.0 * size.diameter_error, row["size"])
 
-    def test_one_tyre_of_each_form(self) -> None:
+    def test_every_form_of_designation_is_read(self) -> None:
         for text, width, diameter, rim in (
             ("235/75R15", 0.235, 15 * 0.0254 + 2 * 0.75 * 0.235, 0.381),
             ("P235/75 R15", 0.235, 15 * 0.0254 + 2 * 0.75 * 0.235, 0.381),
@@ -48,7 +48,7 @@ class SizeTest(unittest.TestCase):
                 self.assertAlmostEqual(size.rim_diameter, rim)
                 self.assertAlmostEqual(size.height, 0.5 * (diameter - rim))
 
-    def test_other_texts_are_refused(self) -> None:
+    def test_other_designations_are_refused(self) -> None:
         for text in ("", "15", "235", "235/75", "tyre", "235/75R15.55", "-5", "235/75R15 98H x"):
             with self.subTest(text=text), self.assertRaisesRegex(
                 ResultsError, "no size designation"

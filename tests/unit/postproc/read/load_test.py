@@ -30,7 +30,7 @@ class LoadTest(FolderTest):
             self.assertTrue((channels[name].to_numpy() == values).all(), name)
         self.assertEqual(channels.attrs["units"], run.units)
 
-    def test_unknown_channel_is_refused_with_the_names_that_there_are(self) -> None:
+    def test_unknown_channel_is_refused_with_the_existing_names(self) -> None:
         run = furrow_post.load(self.folder)
         tables: list[Mapping[str, Any]] = [run.columns, run.units, run.meanings]
         for values in tables:
@@ -46,14 +46,14 @@ class LoadTest(FolderTest):
         run.channels["hub_drop"] = 0.0  # a data frame is a copy
         self.assertGreater(run.columns["hub_drop"].max(), 0)
 
-    def test_without_pandas_it_says_what_to_do(self) -> None:
+    def test_missing_pandas_is_reported_with_the_remedy(self) -> None:
         run = furrow_post.load(self.folder / "history.h5")
         with mock.patch.dict(sys.modules, {"pandas": None}):
             with self.assertRaisesRegex(ResultsError, "install Debian's python3-pandas, or use .col"):
                 run.channels
         self.assertEqual(len(run.columns["time"]), 2000)
 
-    def test_the_package_is_installed_by_pip_with_its_files(self) -> None:
+    def test_package_is_installed_by_pip_with_its_files(self) -> None:
         source, target = self.folder / "source", self.folder / "target"
         shutil.copytree(SOURCE / "postproc", source)  # setuptools builds in the source
         pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index"]

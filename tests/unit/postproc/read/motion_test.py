@@ -24,7 +24,7 @@ from support.runs import write_run
 
 
 class MotionTest(FolderTest):
-    def test_a_file_of_vtk_has_its_points_triangles_and_fields(self) -> None:
+    def test_vtk_file_has_points_triangles_and_fields(self) -> None:
         random = np.random.default_rng(5)
         for count in (1, 7, 9000):  # the last in several blocks of zlib
             with self.subTest(count=count):
@@ -38,7 +38,7 @@ class MotionTest(FolderTest):
                 np.testing.assert_array_equal(found.fields["id"], number)
                 np.testing.assert_array_equal(found.fields["force"], force)
 
-    def test_frames_are_those_of_the_run(self) -> None:
+    def test_frames_equal_those_of_the_run(self) -> None:
         for kind in ("grains", "continuum"):
             motion = read_motion(write_moving_run(self.folder / kind, kind))
             np.testing.assert_allclose(motion.times, INTERVAL * np.arange(FRAMES))
@@ -70,7 +70,7 @@ class MotionTest(FolderTest):
             for body, behind in zip(motion.bodies, (0.0, 1.5)):
                 np.testing.assert_allclose(body.at(time).x, wheel(time)[0] - [behind, 0, 0])
 
-    def test_a_run_without_frames_has_its_end(self) -> None:
+    def test_run_without_frames_shows_its_end(self) -> None:
         write_run(self.folder / "still")
         with self.assertRaisesRegex(ResultsError, "has nothing to look at; .*'vtk N'"):
             read_motion(self.folder / "still")

@@ -17,13 +17,13 @@ TYRE = style("wheel", "tyre/modal", "wheel", pressure=2.4e5, modes=12, half=True
 
 
 class WheelRunTest(FolderTest):
-    def test_slip_in_both_definitions(self) -> None:
+    def test_slip_has_both_definitions(self) -> None:
         write_run(self.folder)
         run = read_wheel_run(self.folder)
         self.assertAlmostEqual(run.number("slip"), 0.2, places=12)
         self.assertAlmostEqual(run.number("slip_by_vehicle_speed"), 0.25, places=12)  # s/(1 - s)
 
-    def test_radius_of_a_mesh_is_without_its_grousers(self) -> None:
+    def test_radius_of_a_mesh_excludes_grousers(self) -> None:
         mesh = style("wheel", "wheel/mesh", "wheel", radius=RADIUS)
         write_run(self.folder, styles=[mesh, rig()])
         tip = 1.08 * RADIUS
@@ -35,7 +35,7 @@ class WheelRunTest(FolderTest):
         self.assertAlmostEqual(run.number("slip_by_vehicle_speed"), 0.25, places=12)
         self.assertAlmostEqual(run.rolling_radius, 0.8 * RADIUS)
 
-    def test_a_fix_may_be_called_like_a_keyword(self) -> None:
+    def test_fix_can_have_the_name_of_a_keyword(self) -> None:
         write_run(self.folder, styles=[rigid_wheel("speed"), rig(identity="load_force")])
         run = read_wheel_run(self.folder)
         self.assertEqual((run.number("speed"), run.number("load")), (1.0, 1000.0))
@@ -47,7 +47,7 @@ class WheelRunTest(FolderTest):
         write_run(self.folder, styles=[rigid_wheel(), entry])
         self.assertEqual(read_wheel_run(self.folder).number("load"), 1000.0)
 
-    def test_any_style_of_the_kind_wheel_is_one(self) -> None:
+    def test_any_style_of_kind_wheel_is_a_wheel(self) -> None:
         """A tyre that nobody here knows: its sizes are those of its surface, a half is mirrored."""
         write_run(self.folder, styles=[TYRE, rig()])
         with h5py.File(self.folder / "history.h5", "a") as content:
@@ -65,7 +65,7 @@ class WheelRunTest(FolderTest):
         self.assertEqual((run.wheel, run.deformable), ("rigid wheel", False))
         self.assertEqual(run.radius, RADIUS)
 
-    def test_a_wheel_of_a_mesh_is_rigid_and_has_the_width_of_its_surface(self) -> None:
+    def test_wheel_of_a_mesh_is_rigid_and_has_the_width_of_its_surface(self) -> None:
         wheel = style("wheel", "wheel/mesh", "wheel", file="wheel.stl", radius=0.3)
         write_run(self.folder, styles=[wheel, rig()])
         with h5py.File(self.folder / "history.h5", "a") as content:
@@ -76,12 +76,12 @@ class WheelRunTest(FolderTest):
         self.assertAlmostEqual(run.number("wheel_diameter"), 0.6)
         self.assertAlmostEqual(run.number("wheel_width"), 0.2)
 
-    def test_without_a_wheel_it_is_no_wheel_run(self) -> None:
+    def test_run_without_a_wheel_is_refused(self) -> None:
         write_run(self.folder, styles=[rig()])
         with self.assertRaisesRegex(ResultsError, "is not the run of a wheel on a rig"):
             read_wheel_run(self.folder)
 
-    def test_bed_of_grains_and_datum(self) -> None:
+    def test_bed_of_grains_has_its_datum(self) -> None:
         """Grains that fill a box of 0.4 x 0.2 x 0.1 m to one half; the rig counts from 0.12 m."""
         bed = style("command", "bed", "", length=0.5, density=2000, seed=86028121)
         write_run(self.folder, styles=[bed, rigid_wheel(), rig(datum=0.12)])
@@ -104,7 +104,7 @@ class WheelRunTest(FolderTest):
         self.assertAlmostEqual(run.values["hub_drop"].mean, 0.05 - 0.02)
         self.assertAlmostEqual(run.number("datum_shift"), -0.02)
 
-    def test_a_hybrid_is_a_bed_whose_floor_is_a_continuum(self) -> None:
+    def test_hybrid_is_a_bed_on_a_continuum(self) -> None:
         """Two grains on 0.1 m of continuum, in a box that reaches below it."""
         bed = style("command", "bed", "", length=0.04, density=300, seed=86028121)
         soil = style("terrain", "terrain/continuum", depth=0.1, surface=0.02, cell=0.05)
@@ -123,7 +123,7 @@ class WheelRunTest(FolderTest):
         self.assertAlmostEqual(run.values["hub_drop"].mean, 0.05 + 0.01)
         self.assertAlmostEqual(ground_points(run).mass.sum(), 300 * solid)
 
-    def test_the_frozen_base_of_a_bed_is_no_ground(self) -> None:
+    def test_frozen_base_of_a_bed_is_not_ground(self) -> None:
         """Two grains of the bed on one that is frozen below z = 0."""
         bed = style("command", "bed", "", length=0.04, density=300, base=0.03)
         write_run(self.folder, styles=[bed, rigid_wheel(), rig(datum=0.06)])
@@ -138,7 +138,7 @@ class WheelRunTest(FolderTest):
         solid = 2 * 4 / 3 * np.pi * 0.02**3 + cap
         self.assertAlmostEqual(run.number("density"), 300 * solid / (0.04 * 0.24 * 0.06))
 
-    def test_a_wheel_that_went_round_is_among_the_grains(self) -> None:
+    def test_wheel_across_a_periodic_face_is_among_the_grains(self) -> None:
         """Twice round a box of 2 m along x, whose middle is at 0.5 m."""
         x = np.array([[-0.4, 0, 0.1], [1.4, 0, 0.1]])
         bed = Grains(np.arange(2), x, np.full(2, 0.1), np.array([2.0, 0, 0]), 0.2)
@@ -146,7 +146,7 @@ class WheelRunTest(FolderTest):
         np.testing.assert_allclose(bed.image_of(wheel).x, wheel.x - [4, 0, 0])
         np.testing.assert_allclose(bed.image_of(bed.image_of(wheel)).x, wheel.x - [4, 0, 0])
 
-    def test_a_height_field_is_ground_of_cells_without_density(self) -> None:
+    def test_height_field_has_cells_and_no_density(self) -> None:
         scm = style("scm", "terrain/scm", length=3.0, width=1.0, cell=0.02)
         write_run(self.folder, styles=[rigid_wheel(), rig(), scm])
         run = read_wheel_run(self.folder)
@@ -191,7 +191,7 @@ class WheelRunTest(FolderTest):
 
 
 class StylesTest(unittest.TestCase):
-    def test_options_are_typed(self) -> None:
+    def test_options_have_types(self) -> None:
         styles = Styles.from_json(
             '[{"id": "a", "group": "all", "style": "terrain/continuum", "kind": "terrain",'
             ' "options": {"cell": [0.02], "symmetry": [true], "centre": [0, 0.5],'

@@ -34,7 +34,7 @@ class ExecutorTest(FolderTest):
         assert run
         return run.record
 
-    def test_what_is_there_is_not_made_again(self) -> None:
+    def test_finished_run_is_not_repeated(self) -> None:
         cases = [self.tree.case("a", value=2), self.tree.case("b/c")]
         self.executor.run(cases)
         self.executor.run(cases)
@@ -53,7 +53,7 @@ class ExecutorTest(FolderTest):
         record = self.record(changed)
         self.assertEqual(record.facts["value"], 3.0)
 
-    def test_a_folder_that_another_run_writes_to(self) -> None:
+    def test_folder_in_use_is_refused(self) -> None:
         case = self.tree.case("a")
         self.executor.folder(case).mkdir(parents=True)
         handle = os.open(self.executor.folder(case), os.O_RDONLY)
@@ -66,7 +66,7 @@ class ExecutorTest(FolderTest):
         self.executor.run([case])
         self.assertEqual(self.executor.state(case), State.DONE)
 
-    def test_two_executors_with_one_folder(self) -> None:
+    def test_two_executors_share_one_folder(self) -> None:
         """Each run is made once: the second executor waits for it and takes it."""
         cases = [self.tree.case(name, sleep=0.3) for name in ("a", "b", "c")]
         other = Executor(self.results, self.tree.tools, jobs=2)
@@ -87,7 +87,7 @@ class ExecutorTest(FolderTest):
         self.assertEqual(sorted(self.tree.starts()), ["a", "b", "c"])
         self.assertEqual({self.executor.state(case) for case in cases}, {State.DONE})
 
-    def test_who_waits_for_another_program_can_be_stopped(self) -> None:
+    def test_waiting_executor_can_be_stopped(self) -> None:
         folder, stop = self.results / "a", threading.Event()
         with claimed(folder, stop):
             stop.set()
@@ -97,7 +97,7 @@ class ExecutorTest(FolderTest):
         with claimed(folder, stop):  # free again
             pass
 
-    def test_a_link_in_the_place_of_the_claim_is_not_followed(self) -> None:
+    def test_link_at_the_name_of_the_claim_is_not_followed(self) -> None:
         folder, elsewhere = self.results / "a", self.results / "elsewhere"
         folder.mkdir(parents=True)
         (folder / CLAIM).symlink_to(elsewhere)
@@ -106,14 +106,14 @@ class ExecutorTest(FolderTest):
                 self.fail("was claimed through a link")
         self.assertFalse(elsewhere.exists())
 
-    def test_a_moved_tree_keeps_its_runs(self) -> None:
+    def test_moved_tree_keeps_its_runs(self) -> None:
         """Paths below the project count relative to it."""
         first = self.tree.case("a", material=self.tree.root / "inputs" / "snow.yaml")
         identity = first.identity(self.tree.root)
         self.assertIn("inputs/snow.yaml", json.dumps(identity))
         self.assertNotIn(str(self.tree.root), json.dumps(identity))
 
-    def test_a_failure_is_kept_apart_and_stops_no_other_run(self) -> None:
+    def test_failure_is_recorded_and_other_runs_continue(self) -> None:
         cases = [self.tree.case("bad", fail="it broke"), self.tree.case("good")]
         self.executor.run(cases)
         self.assertEqual([self.executor.state(c) for c in cases], [State.FAILED, State.DONE])
@@ -121,7 +121,7 @@ class ExecutorTest(FolderTest):
         self.assertEqual(failure.error, "ERROR: it broke (made.cpp:1)")
         self.assertFalse((self.results / "bad" / "run.json").exists())
 
-    def test_a_failure_is_made_again_only_when_asked(self) -> None:
+    def test_failed_run_is_repeated_on_request_alone(self) -> None:
         case = self.tree.case("bad", fail="it broke")
         self.executor.run([case])
         self.executor.run([case])
@@ -129,7 +129,7 @@ class ExecutorTest(FolderTest):
         Executor(self.results, self.tree.tools, again=True).run([case])
         self.assertEqual(len(self.tree.starts()), 2)
 
-    def test_a_run_that_succeeds_forgets_its_failure(self) -> None:
+    def test_run_that_succeeds_forgets_its_failure(self) -> None:
         self.executor.run([self.tree.case("a", fail="it broke")])
         self.executor.run([self.tree.case("a")])
         self.assertFalse((self.results / "a" / "failed.json").exists())
@@ -141,7 +141,7 @@ class ExecutorTest(FolderTest):
         failure = self.record(case)
         self.assertEqual(failure.error, f"furrow: {self.results / 'a'} is bad")
 
-    def test_a_list_that_must_be_complete_ends_with_its_first_failure(self) -> None:
+    def test_complete_list_ends_with_its_first_failure(self) -> None:
         cases = [self.tree.case("good"), self.tree.case("bad", status=3), self.tree.case("other")]
         with self.assertRaisesRegex(Failed, "results/bad failed: .*is bad; its output is in") as end:
             self.executor.completed(cases)
@@ -149,14 +149,14 @@ class ExecutorTest(FolderTest):
         runs = self.executor.completed([cases[0], replace(cases[1], may_fail=True)])
         self.assertEqual([bool(run.error) for run in runs], [False, True])
 
-    def test_repeat_makes_all_runs(self) -> None:
+    def test_repeat_starts_all_runs(self) -> None:
         cases = [self.tree.case("a"), self.tree.case("b")]
         ended: list[str] = []
         for _ in range(2):
             self.executor.repeat(cases, lambda case: ended.append(case.name))
         self.assertEqual((self.tree.starts(), ended), (["a", "b"] * 2, ["a", "b"] * 2))
 
-    def test_second_attempt_with_other_variables(self) -> None:
+    def test_second_attempt_has_other_variables(self) -> None:
         """The record keeps what stopped the first attempt."""
         case = replace(self.tree.case("a", status=1), fallback={"status": 0})
         self.executor.run([case])
@@ -164,7 +164,7 @@ class ExecutorTest(FolderTest):
         self.assertEqual(record.stopped, (f"furrow: {self.results / 'a'} is bad",))
         self.assertEqual(record.variable("status"), "0")
 
-    def test_failure_of_the_second_attempt(self) -> None:
+    def test_failure_of_the_second_attempt_is_recorded(self) -> None:
         case = replace(self.tree.case("a", fail="it broke"), fallback={"fail": "again"})
         self.executor.run([case])
         failure = self.record(case)
@@ -172,14 +172,14 @@ class ExecutorTest(FolderTest):
         self.assertEqual(failure.error, "ERROR: again (made.cpp:1)")
         self.assertEqual(len(self.tree.starts()), 2)
 
-    def test_time_limit(self) -> None:
+    def test_time_limit_stops_a_run(self) -> None:
         case = replace(self.tree.case("a", sleep=30), time_limit=2.0, fallback={"sleep": 0})
         self.executor.run([case])
         failure = self.record(case)
         self.assertEqual(failure.error, "time limit of 2 s")
         self.assertEqual(len(self.tree.starts()), 1)  # no second attempt: it would take as long
 
-    def test_an_interrupted_run_leaves_nothing(self) -> None:
+    def test_interrupted_run_leaves_no_folder(self) -> None:
         for variables in ({"signal": int(signal.SIGTERM)}, {"checkpoint": 1, "status": 1}):
             case = self.tree.case("a", **variables)
             with self.assertRaisesRegex(Interrupted, "was interrupted; start again"):
@@ -189,19 +189,19 @@ class ExecutorTest(FolderTest):
         self.executor.run([after])  # an old checkpoint is no interruption
         self.assertEqual(self.executor.state(after), State.DONE)
 
-    def test_a_run_to_the_end_beside_a_late_checkpoint_is_done(self) -> None:
+    def test_finished_run_with_a_late_checkpoint_is_complete(self) -> None:
         """A run that was killed before may write its checkpoint while the next one runs."""
         case = self.tree.case("a", checkpoint=1)
         self.executor.run([case])
         self.assertEqual(self.executor.state(case), State.DONE)
 
-    def test_a_crash_is_a_failure(self) -> None:
+    def test_crash_is_a_failure(self) -> None:
         case = self.tree.case("a", signal=int(signal.SIGSEGV))
         self.executor.run([case])
         failure = self.record(case)
         self.assertEqual(failure.error, "stopped with status -11")
 
-    def test_what_is_shared_is_made_by_one(self) -> None:
+    def test_shared_input_is_made_once(self) -> None:
         cases = [
             replace(self.tree.case(name), shares=key)
             for name, key in (("a1", "a"), ("a2", "a"), ("b1", "b"), ("b2", "b"))
@@ -210,7 +210,7 @@ class ExecutorTest(FolderTest):
         starts = self.tree.starts()
         self.assertEqual((sorted(starts[:2]), sorted(starts[2:])), (["a1", "b1"], ["a2", "b2"]))
 
-    def test_run_counts_while_all_that_it_was_made_from_is_the_same(self) -> None:
+    def test_stored_run_is_valid_while_its_inputs_are_unchanged(self) -> None:
         """Each change repeats the run once: script, bed, material, base, contact, layer, mesh, and program."""
         study = self.tree.study
         texts = {
@@ -244,7 +244,7 @@ class ExecutorTest(FolderTest):
         self.executor.run([case])
         self.assertEqual((self.executor.state(case), len(self.tree.starts())), (State.DONE, len(texts) + 1))
 
-    def test_run_whose_inputs_change_meanwhile_does_not_count(self) -> None:
+    def test_run_with_inputs_changed_meanwhile_is_invalid(self) -> None:
         """The record has the files as they were when the program started."""
         case = self.tree.case("a", sleep=0.5)
 
@@ -266,12 +266,12 @@ class ExecutorTest(FolderTest):
         text = (self.results / "a" / "path.yaml").read_text()
         self.assertEqual(text, f"output: {self.results / 'a'}/x\n")
 
-    def test_missing_program_says_what_to_do(self) -> None:
+    def test_missing_program_is_reported_with_the_remedy(self) -> None:
         self.tree.program.unlink()
         with self.assertRaisesRegex(ResultsError, "there is no program .*--build"):
             self.executor.run([self.tree.case("a")])
 
-    def test_old_evaluation_is_not_taken_for_the_new_one(self) -> None:
+    def test_old_evaluation_is_not_reused(self) -> None:
         folder = self.results / "a"
         folder.mkdir(parents=True)
         (folder / "facts.txt").write_text("test triaxial")

@@ -16,7 +16,7 @@ from support.runs import write_run
 
 
 class KeepCheckpointTest(unittest.TestCase):
-    def test_link_in_the_place_of_the_part_is_not_followed(self) -> None:
+    def test_link_at_the_temporary_name_is_not_followed(self) -> None:
         """From another disk the checkpoint is copied."""
         with tempfile.TemporaryDirectory() as name:
             start, results, notes = Path(name) / "start", Path(name) / "results", Path(name) / "notes"
@@ -33,7 +33,7 @@ class KeepCheckpointTest(unittest.TestCase):
 
 
 class ProcessesTest(FolderTest):
-    def test_a_program_that_draws_while_runs_are_made_ends(self) -> None:
+    def test_program_that_draws_during_runs_ends(self) -> None:
         """Files are read by a copy of the program, which must not take the signals of runs."""
         write_run(self.folder)
         code = (

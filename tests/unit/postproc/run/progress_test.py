@@ -15,7 +15,7 @@ def record(wall_time: float, error: str = "") -> Record:
 
 
 class ProgressTest(unittest.TestCase):
-    def test_time_left_from_shares_until_a_run_has_ended(self) -> None:
+    def test_time_left_follows_shares_until_a_run_ends(self) -> None:
         progress = Progress(5, 2)
         self.assertEqual(progress.line([(1.0, 0.0)]), "0 of 5 done, 1 running (0 %)")
         # 40 s each: 30 + 20 of those running, three more, two at a time
@@ -24,7 +24,7 @@ class ProgressTest(unittest.TestCase):
             "0 of 5 done, 2 running (25 %, 50 %), about 85 s left",
         )
 
-    def test_time_left_from_runs_before(self) -> None:
+    def test_time_left_follows_earlier_runs(self) -> None:
         progress = Progress(4, 1)
         progress.report("a", Path("a"), record(100.0))
         progress.report("b", Path("b"), record(60.0, "it broke"))
@@ -33,7 +33,7 @@ class ProgressTest(unittest.TestCase):
             "2 of 4 done, 1 failed, 1 running (90 %), about 2.2 min left",  # 50 s and 80 s
         )
 
-    def test_share_done_is_that_of_the_last_line(self) -> None:
+    def test_share_done_is_read_from_the_last_line(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder)
             self.assertEqual(share_done(path), 0.0)

@@ -37,7 +37,7 @@ class ReaderTest(FolderTest):
         self.assertEqual(row.cells["hub_drop_steady"], stored["steady"])
         self.assertEqual((row.units["hub_drop"], row.units["hub_drop_error"]), (stored["unit"],) * 2)
 
-    def test_facts_of_a_laboratory_test(self) -> None:
+    def test_row_has_the_facts_of_a_laboratory_test(self) -> None:
         (self.folder / "facts.txt").write_text("test plate ground sand bulk 1330\n")
         cells = read_row(self.folder).cells
         self.assertEqual((cells["test"], cells["bulk"]), ("plate", 1330.0))
@@ -45,7 +45,7 @@ class ReaderTest(FolderTest):
         with self.assertRaisesRegex(ResultsError, "facts.txt: cannot be used .*repeat the run"):
             read_row(self.folder)
 
-    def test_folder_without_a_run(self) -> None:
+    def test_folder_without_a_run_is_refused(self) -> None:
         with self.assertRaisesRegex(ResultsError, "has no run that came to its end"):
             read_row(self.folder)
 

@@ -39,7 +39,7 @@ class ScriptTest(FolderTest):
             (self.folder / name).write_text(text)
         self.here = {"here": str(self.folder)}
 
-    def test_declared_and_read_names(self) -> None:
+    def test_declared_and_read_variables_are_found(self) -> None:
         found = script_variables(self.script, self.here)
         self.assertEqual(found.not_found, ())
         expected = "dt empty here inner onlyhere pouring q seen size stiffness time"
@@ -47,7 +47,7 @@ class ScriptTest(FolderTest):
         self.assertEqual(found.defaults["size"], '"0.1 0.2"')
         self.assertTrue({"steps", "kind", "contact"} <= found.computed)
 
-    def test_a_default_without_a_condition_comes_before_one_with(self) -> None:
+    def test_unconditional_default_has_priority(self) -> None:
         self.script.write_text(
             """if "1 > 0" then "variable cell index 0.075" 'variable bed index a.lig'\n"""
             'variable cell index 0.05\nprint "${cell} ${bed}"\n'
@@ -55,13 +55,13 @@ class ScriptTest(FolderTest):
         found = script_variables(self.script, self.here)
         self.assertEqual(found.defaults, {"cell": "0.05", "bed": "a.lig"})
 
-    def test_a_value_of_the_command_line_chooses_the_file(self) -> None:
+    def test_command_line_value_selects_the_file(self) -> None:
         self.script.write_text("variable kind index soft\ninclude ${here}/parts/${kind}.part\n")
         found = script_variables(self.script, {**self.here, "kind": "hard"})
         self.assertIn("strength", found.settable)
         self.assertNotIn("stiffness", found.settable)
 
-    def test_refusals(self) -> None:
+    def test_faults_are_refused(self) -> None:
         for given, message in (
             ([("sise", "1")], "no line reads 'sise'; did you mean size"),
             ([("commented", "1")], "no line reads 'commented'"),
@@ -76,11 +76,11 @@ class ScriptTest(FolderTest):
             with self.subTest(given=given), self.assertRaisesRegex(ResultsError, message):
                 check_variables(self.script, given, {"results": "-o"}, self.here)
 
-    def test_what_is_read_passes(self) -> None:
+    def test_variables_that_are_read_pass(self) -> None:
         given = [("size", "1"), ("stiffness", "2"), ("dt", "1e-3"), ("q", "x"), ("empty", "")]
         self.assertEqual(check_variables(self.script, given, {}, self.here), [])
 
-    def test_every_layer_of_a_ground_is_a_file(self) -> None:
+    def test_every_layer_of_a_ground_adds_a_file(self) -> None:
         (self.folder / "snow.yaml").write_text("")
         (self.folder / "sand.yaml").write_text("")
         self.script.write_text('variable material index snow.yaml\nprint "${material}"\n')
@@ -89,12 +89,12 @@ class ScriptTest(FolderTest):
             with self.subTest(value), self.assertRaisesRegex(ResultsError, "there is no file ice.yaml; a path"):
                 check_variables(self.script, [("material", value)], {})
 
-    def test_a_file_that_is_not_there_is_a_warning(self) -> None:
+    def test_missing_file_gives_a_warning(self) -> None:
         (self.folder / "parts" / "soft.part").unlink()
         warnings = check_variables(self.script, [("unknown", "1")], {}, self.here)
         self.assertRegex(warnings[0], "soft.part, which was not found")
 
-    def test_every_script_of_the_project_is_read_whole(self) -> None:
+    def test_every_script_of_the_project_is_read_completely(self) -> None:
         inputs = SOURCE / "inputs"
         for script in sorted(inputs.rglob("*.lig")):
             # a user's own script names files from where it is run, and no results folder; nor does a

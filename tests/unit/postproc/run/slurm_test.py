@@ -70,7 +70,7 @@ class SlurmTest(FolderTest):
         text = slurm.batch_text(self.results, names, command, {"FURROW_BUILD": "a b"}, 2, 3)
         return slurm.submit(self.results / slurm.FOLDER, text, names)
 
-    def test_points_are_gathered_as_they_end(self) -> None:
+    def test_points_are_collected_as_they_end(self) -> None:
         cases = [self.tree.case("good"), self.tree.case("bad", fail="it broke")]
         with mock.patch.dict(os.environ, self.path):
             job = self.submitted(cases)
@@ -79,7 +79,7 @@ class SlurmTest(FolderTest):
         self.assertEqual(slurm.lost(job, self.executor, cases), [])
         self.assertEqual(slurm.read_job(self.results / slurm.FOLDER), job)
 
-    def test_a_task_that_left_nothing_is_told_with_its_last_words(self) -> None:
+    def test_task_without_results_is_reported_with_its_last_output(self) -> None:
         cases = [self.tree.case("a"), self.tree.case("b")]
         with mock.patch.dict(os.environ, self.path):
             job = self.submitted(cases, lost="b")
@@ -87,7 +87,7 @@ class SlurmTest(FolderTest):
         (sentence,) = slurm.lost(job, self.executor, cases)
         self.assertIn("b: its task ended without a result: the node went down (", sentence)
 
-    def test_the_batch_script(self) -> None:
+    def test_batch_script_has_the_command(self) -> None:
         text = slurm.batch_text(self.results, ["a", "b"], ["run", "-o", "x y"], {"F": "1 2"}, 2, 3)
         for line in (
             "#SBATCH --array=0-1%3",
@@ -105,7 +105,7 @@ class SlurmTest(FolderTest):
             with self.assertRaisesRegex(ResultsError, "has a line break or another control"):
                 slurm.batch_text(self.folder / name, ["a"], ["run"], {}, 1, None)
 
-    def test_refusals(self) -> None:
+    def test_faults_are_refused(self) -> None:
         with mock.patch.dict(os.environ, {**self.path, "REFUSES": "Invalid account"}):
             with self.assertRaisesRegex(ResultsError, "sbatch refuses .*Invalid account"):
                 self.submitted([self.tree.case("a")])
@@ -113,7 +113,7 @@ class SlurmTest(FolderTest):
             with self.assertRaisesRegex(ResultsError, "there is no sbatch on this machine"):
                 self.submitted([self.tree.case("a")])
 
-    def test_a_job_that_the_queue_has_forgotten_has_ended(self) -> None:
+    def test_job_missing_in_the_queue_has_ended(self) -> None:
         with mock.patch.dict(os.environ, self.path):
             self.assertFalse(slurm.is_queued(slurm.ArrayJob("12", ("a",))))
 

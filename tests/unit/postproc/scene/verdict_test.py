@@ -21,7 +21,7 @@ class VerdictTest(FolderTest):
         content["quantities"]["net_traction_coefficient"] = {**content["quantities"]["resistance_coefficient"], "mean": -0.2}
         file.write_text(json.dumps(content))
 
-    def test_last_line_has_the_whole_error(self) -> None:
+    def test_last_line_has_the_total_error(self) -> None:
         self.write()
         last = result_lines(self.folder, quick=False)[-1]
         self.assertRegex(last, r"^Verdict: steady, net traction coefficient -0\.\d+ ± 0\.\d+, hub drop \d+ ± \d+ mm$")
@@ -41,11 +41,11 @@ class VerdictTest(FolderTest):
         self.assertIn("Not steady: slip: it drifts", lines)
         self.assertIn("WARNING: the ground is narrow", lines)
 
-    def test_a_quick_run_is_too_short(self) -> None:
+    def test_quick_run_is_too_short(self) -> None:
         self.write()
         self.assertEqual(verdict_line(self.folder, quick=True), "Verdict: quick run, too short for steady values")
 
-    def test_a_run_without_values_has_the_verdict_of_the_program(self) -> None:
+    def test_run_without_values_prints_the_verdict_of_the_program(self) -> None:
         (self.folder / "summary.json").write_text(json.dumps({"verdict": "no steady values, the wheel digs in"}))
         self.assertEqual(result_lines(self.folder, quick=False)[-1], "Verdict: no steady values, the wheel digs in")
 

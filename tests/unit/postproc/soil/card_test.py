@@ -81,7 +81,7 @@ class SoilCardTest(FolderTest):
         self.path = self.folder / "card.yaml"
         write_card(CARD, self.path)
 
-    def test_a_card_has_the_contact_of_its_ground(self) -> None:
+    def test_card_has_the_contact_of_its_ground(self) -> None:
         contact = read_contact(SOURCE / "inputs/materials/norsand_dense.yaml")
         assert contact
         self.assertEqual(contact["rubber"]["friction"], 0.41)
@@ -90,7 +90,7 @@ class SoilCardTest(FolderTest):
         self.path.write_text(self.path.read_text().split("contact:")[0] + f"contact: {SOURCE}/inputs/materials/contact/sand.yaml\n")
         self.assertEqual(read_card(self.path).contact, contact)
 
-    def test_a_card_is_read_as_it_was_written(self) -> None:
+    def test_written_card_is_read_back(self) -> None:
         self.assertEqual(read_card(self.path), CARD)
         self.assertEqual(set(CARD.parameters()), set(UNITS))
 
@@ -108,7 +108,7 @@ class SoilCardTest(FolderTest):
         short = replace(CARD, cone=replace(CARD.cone, depth=Range(0.0, 0.04)))
         self.assertIn("formulas need the mean over 0 to 150 mm: push the cone deeper", short.report())
 
-    def test_chrono_has_the_card_in_its_own_keys(self) -> None:
+    def test_export_to_chrono_has_the_keys_of_chrono(self) -> None:
         target = self.folder / "scm.json"
         write_chrono(CARD, target)
         soil = json.loads(target.read_text())["Soil parameters"]
@@ -129,7 +129,7 @@ class SoilCardTest(FolderTest):
         write_card(card, target)
         self.assertEqual(read_card(target).gravity, 1.62)
 
-    def test_a_card_of_a_person_has_values_alone_in_other_units(self) -> None:
+    def test_hand_written_card_has_plain_values_in_other_units(self) -> None:
         self.path.write_text(
             "gravity: 9.80665\npressure_sinkage: {k_c: 0, k_phi: {value: 3200, unit: kN/m^(n+2)}, n: 1.4}\n"
             "shear: {c: {value: 0.14, unit: kPa}, phi: 35, K: {value: 1, unit: cm}}\nc1: 0.43\nc2: 0.32\n",
@@ -152,7 +152,7 @@ class SoilCardTest(FolderTest):
             with self.assertRaisesRegex(ResultsError, re.escape(message)):
                 read_card(self.path)
 
-    def test_chronos_file_comes_back_as_a_card(self) -> None:
+    def test_chrono_file_is_read_back_as_a_card(self) -> None:
         target = self.folder / "scm.json"
         write_chrono(CARD, target)
         target.write_text("// a comment of Chrono\n" + target.read_text(), encoding="utf-8")
@@ -165,7 +165,7 @@ class SoilCardTest(FolderTest):
         with self.assertRaisesRegex(ResultsError, '"Soil parameters" have no "Bekker Kphi"'):
             read_card(target)
 
-    def test_an_unusable_parameter_is_in_no_export(self) -> None:
+    def test_unusable_parameters_are_not_exported(self) -> None:
         small = replace(CARD, shear=replace(SHEAR, K=Fitted(4e-5, 9e-6)))
         target = self.folder / "export"
         for write in (write_chrono, write_altair):
@@ -176,17 +176,17 @@ class SoilCardTest(FolderTest):
         self.assertNotIn("K", [row["name"] for row in read_rows(target)])
         self.assertIn("# K left out: ", target.read_text())
 
-    def test_a_negative_k_c_says_below_which_width_nothing_is_carried(self) -> None:
+    def test_negative_k_c_states_the_width_without_bearing_capacity(self) -> None:
         """k_c/b + k_phi is zero there."""
 
-        def doubts(k_c: float) -> list[str]:
-            return replace(CARD, pressure_sinkage=replace(PLATE, k_c=Fitted(k_c, 1.0))).doubts()
+        def warnings(k_c: float) -> list[str]:
+            return replace(CARD, pressure_sinkage=replace(PLATE, k_c=Fitted(k_c, 1.0))).warnings()
 
-        self.assertEqual(doubts(1.0), [])
-        (doubt,) = doubts(-0.02 * PLATE.k_phi.value)
-        self.assertIn("a contact of b = 0.02 m or less carries nothing", doubt)
+        self.assertEqual(warnings(1.0), [])
+        (warning,) = warnings(-0.02 * PLATE.k_phi.value)
+        self.assertIn("a contact of b = 0.02 m or less carries nothing", warning)
 
-    def test_altair_has_the_card_with_the_angle_in_radians(self) -> None:
+    def test_export_to_altair_has_the_angle_in_radians(self) -> None:
         target = self.folder / "road.rdf"
         write_altair(CARD, target)
         text = target.read_text()
@@ -204,7 +204,7 @@ class SoilCardTest(FolderTest):
         ):
             self.assertEqual(found[key], value, key)
 
-    def test_the_table_has_every_parameter_with_error_and_unit(self) -> None:
+    def test_table_has_every_parameter_with_error_and_unit(self) -> None:
         target = self.folder / "card.csv"
         write_table(CARD, target)
         rows = {row["name"]: row for row in read_rows(target)}
@@ -213,7 +213,7 @@ class SoilCardTest(FolderTest):
             self.assertEqual(float(rows[name]["error"]), fitted.error)
             self.assertEqual(rows[name]["unit"], UNITS[name])
 
-    def test_bekkers_formula_takes_a_card_as_terrain(self) -> None:
+    def test_bekker_formula_reads_a_card_as_terrain(self) -> None:
         ground = terrain(str(self.path))
         plate, shear = PLATE, SHEAR
         found = (ground.k_1, ground.k_2, ground.n, ground.c, ground.phi, ground.K)
@@ -225,7 +225,7 @@ class SoilCardTest(FolderTest):
         k, n = plate.k_c.value / 0.2 + plate.k_phi.value, plate.n.value
         self.assertAlmostEqual(0.2 * k * math.sqrt(0.6) * z ** (n + 0.5) * (3 - n) / 3000, 1, places=9)
 
-    def test_a_failed_instrument_gives_a_reason_and_no_number(self) -> None:
+    def test_failed_instrument_gives_a_reason_and_no_number(self) -> None:
         write_card(WITHOUT_RING, self.path)
         self.assertEqual(read_card(self.path), WITHOUT_RING)
         self.assertEqual(WITHOUT_RING.failures(), {"ring": "the ring sank through"})

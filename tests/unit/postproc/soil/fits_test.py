@@ -56,7 +56,7 @@ def shear(random: np.random.Generator, memory: float = 0.8) -> Shear:
 
 
 class ExactCurvesTest(unittest.TestCase):
-    def test_parameters_come_back(self) -> None:
+    def test_parameters_are_recovered(self) -> None:
         plate = plates(np.random.default_rng(1), memory=0.0)
         z = np.linspace(1e-3, 0.03, 50)
         exact = fit_plates([PlateCurve(b, z, (K_C / b + K_PHI) * z**N) for b in (0.05, 0.1)])
@@ -67,7 +67,7 @@ class ExactCurvesTest(unittest.TestCase):
         self.assertEqual((exact.radii.low, exact.radii.high), (0.05, 0.1))
         np.testing.assert_allclose(exact.at(z, 0.05), (K_C / 0.05 + K_PHI) * z**N, rtol=1e-5)
 
-    def test_shear_with_a_load_that_varies(self) -> None:
+    def test_varying_load_gives_the_shear_parameters(self) -> None:
         j = np.linspace(0, 0.05, 80)
         curves = []
         for normal in (5e3, 2e4):
@@ -78,7 +78,7 @@ class ExactCurvesTest(unittest.TestCase):
         for value, truth in ((found.c, C), (found.phi, PHI), (found.K, K)):
             self.assertAlmostEqual(value.value / truth, 1, delta=1e-5)
 
-    def test_a_stress_by_the_root_of_the_speed_is_subtracted(self) -> None:
+    def test_stress_by_the_root_of_the_speed_is_subtracted(self) -> None:
         j = np.linspace(0, 0.05, 80)
 
         def ring(normal: float, speed: float) -> ShearCurve:
@@ -104,7 +104,7 @@ class CoverageTest(unittest.TestCase):
 
     DRAWS = 150
 
-    def test_errors_cover_the_truth(self) -> None:
+    def test_errors_cover_the_true_value(self) -> None:
         random = np.random.default_rng(7)
         deviations: dict[str, list[float]] = {}
         for _ in range(self.DRAWS):
@@ -130,7 +130,7 @@ class CoverageTest(unittest.TestCase):
 
 
 class SinkingTest(unittest.TestCase):
-    def test_a_ring_that_sinks_has_the_friction_of_one_that_does_not(self) -> None:
+    def test_sinking_ring_has_the_friction_of_a_level_one(self) -> None:
         """Closed form of Davis: the principal axes of stress and of strain rate coincide."""
         cohesion, sine, j = 150.0, 0.5, np.linspace(0, 0.03, 200)
         curves = []
@@ -146,7 +146,7 @@ class SinkingTest(unittest.TestCase):
 
 
 class RefusalTest(unittest.TestCase):
-    def test_curves_that_do_not_determine_the_parameters(self) -> None:
+    def test_curves_that_do_not_determine_the_parameters_are_refused(self) -> None:
         z = np.linspace(1e-3, 0.03, 30)
         one = PlateCurve(0.05, z, 1e6 * z)
         with self.assertRaisesRegex(ResultsError, "plates of two sizes or more"):
@@ -182,12 +182,12 @@ class RingOnSnowTest(unittest.TestCase):
         self.assertAlmostEqual(ring_scale(13.79e6, 3900), 100 * 3900 / 13.79e6)  # field_snow
         self.assertEqual(ring_scale(1e10, 1e3), 0.01)  # least modulus_scale of terrain/continuum
 
-    def test_growth_of_the_shear_stress_without_a_steady_state(self) -> None:
+    def test_growing_shear_stress_is_reported_as_unsteady(self) -> None:
         j = np.linspace(0, 0.04, 401)
         for shear, growth in ((1e5 * j, 2 / 3), (np.full(j.size, 500.0), 0.0)):
             self.assertAlmostEqual(ShearCurve(j, np.full(j.size, 1e3), shear).growth(), growth, delta=0.01)
 
-    def test_the_correction_for_sinking_needs_constant_strength(self) -> None:
+    def test_correction_for_sinking_needs_constant_strength(self) -> None:
         j = np.linspace(0, 0.04, 11)
         ring = ShearCurve(j, 1e3 + 0 * j, 500 + 0 * j, sinking=0.3)
         psi = math.atan(0.3)

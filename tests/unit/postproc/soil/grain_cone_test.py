@@ -31,7 +31,7 @@ class GrainConeTest(unittest.TestCase):
         self.assertEqual(cone.size, max(run.curve.size for run in runs))
         return cone
 
-    def test_a_series_of_second_order_has_its_limit_within_the_error(self) -> None:
+    def test_limit_of_a_second_order_series_is_within_the_error(self) -> None:
         runs = cones({grains: 1 + 6 / grains**2 for grains in (4.0, 6.0, 8.0)})
         cone, weight = self.fitted(runs), runs[2].weight
         self.assertAlmostEqual(cone.index.value / weight, LIMIT * (1 + 6 / 64), places=9)
@@ -39,13 +39,13 @@ class GrainConeTest(unittest.TestCase):
         self.assertAlmostEqual(cone.gradient.value * cone.size / weight, SLOPE, places=9)
         self.assertIn(f"extrapolated to zero grain size {LIMIT:.3g} ± ", cone_notes(runs)[1])
 
-    def test_a_series_that_does_not_settle_is_not_extrapolated(self) -> None:
+    def test_unsettled_series_is_not_extrapolated(self) -> None:
         runs = cones({4.0: 1.0, 6.0: 1.4, 8.0: 1.1})
         cone, weight = self.fitted(runs), runs[2].weight
         self.assertGreater(cone.index.error, 0.4 * LIMIT * weight)
         self.assertIn("not extrapolated to zero grain size: the series is not monotonic", cone_notes(runs)[1])
 
-    def test_the_scatter_of_packings_is_in_the_error(self) -> None:
+    def test_error_includes_the_scatter_of_packings(self) -> None:
         effect = {grains: 1.0 + 1e-9 / grains for grains in (4.0, 6.0, 8.0)}
         runs = cones(effect, (0.95, 1.05))
         cone, weight = self.fitted(runs), runs[2].weight

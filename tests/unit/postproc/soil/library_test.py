@@ -86,7 +86,7 @@ class LibraryTest(unittest.TestCase):
                 self.assertRegex(page, f"{path.stem}`[^|]*{instrument}")
         self.assertIn(markdown(cards), (SOILS / "README.md").read_text(encoding="utf-8"))
 
-    def test_the_ring_on_snow_lies_between_the_closed_forms(self) -> None:
+    def test_ring_on_snow_lies_between_the_closed_forms(self) -> None:
         """The closed forms are those of fresh snow at constant volume and of the steady state; c is of fresh snow."""
         page = (SOILS / "README.md").read_text(encoding="utf-8")
         for name in ("field_snow", "fresh_snow_cam_clay", "snow"):
@@ -100,7 +100,7 @@ class LibraryTest(unittest.TestCase):
                 self.assertTrue(fresh < found < steady, f"{name}: {fresh:.0f} {found:.0f} {steady:.0f} Pa")
                 self.assertIn(f"| `{name}` | {normal:.0f} | {fresh:.0f} | {found:.0f} | {steady:.0f} |", page)
 
-    def test_the_card_of_grains_agrees_with_other_tests_of_them(self) -> None:
+    def test_card_of_grains_agrees_with_other_tests_of_the_grains(self) -> None:
         """The angle with the law of their triaxial, extension and plane strain tests, a plate with the
         measured one within the misfit of the calibration."""
         study = SOURCE / "inputs" / "validation" / "cmu_sand"
@@ -132,7 +132,7 @@ class LibraryTest(unittest.TestCase):
             self.assertLess(abs(row[1] / row[0] - 1), 0.06)
             self.assertIn(f"| {millimetres} | " + " | ".join(f"{1e-3 * pressure:.1f}" for pressure in row) + " |", page)
 
-    def test_the_width_of_the_ring_on_a_cohesive_sand(self) -> None:
+    def test_ring_width_on_a_cohesive_sand_has_its_effect(self) -> None:
         """The cohesion of the fit is that of the law within its error. With the angle of the law, two speeds give
         the width that shears."""
         page = (SOILS / "README.md").read_text(encoding="utf-8")
@@ -163,7 +163,7 @@ class LibraryTest(unittest.TestCase):
             self.assertIn(f"| {cells} | {fit:.0f} ± {error:.0f} | {round(found, -1):.0f} | {width:.2f} |", page)
             self.assertIn(f"{found / cohesion - 1:.0%}".replace("%", " %"), page)
 
-    def test_the_cone_on_grains_agrees_with_the_cone_in_their_law(self) -> None:
+    def test_cone_on_grains_agrees_with_the_cone_in_the_fitted_law(self) -> None:
         """Both extrapolated to zero size of grains or cells, within twice the errors; the page and the card have them."""
         page = (SOILS / "README.md").read_text(encoding="utf-8")
         limits = []
@@ -191,7 +191,7 @@ class LibraryTest(unittest.TestCase):
         self.assertAlmostEqual(cone.index.value / weight, grains.values[0], delta=0.01)
         self.assertAlmostEqual(cone.index.error / weight, grains.size_error(1 / 8), delta=0.05)
 
-    def test_bekker_wong_with_a_card_against_the_wheel(self) -> None:
+    def test_bekker_wong_with_a_card_is_compared_with_the_wheel(self) -> None:
         ground = terrain(str(SOILS / "dry_sand_smooth.yaml"))
         text = TUTORIAL.read_text(encoding="utf-8")
         rows = read_rows(SOILS / "wheel_on_dry_sand.csv")
@@ -209,7 +209,7 @@ class LibraryTest(unittest.TestCase):
             )
             self.assertIn(line, text)
 
-    def test_bekker_wong_with_the_card_of_grc1_against_the_wheel(self) -> None:
+    def test_bekker_wong_with_the_card_of_grc1_is_compared_with_the_wheel(self) -> None:
         """The page has each load and slip, and the sinkage deviates by less than twice the wheel's error."""
         ground = replace(terrain(str(SOILS / "grc1.yaml")), K=0.01)
         text = TUTORIAL.read_text(encoding="utf-8")

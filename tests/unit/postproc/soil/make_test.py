@@ -33,7 +33,7 @@ class MakeTest(FolderTest):
         self.table.write_text(OEDOMETER, encoding="utf-8")
         self.file = self.folder / "mine.yaml"
 
-    def test_the_law_has_the_strength_of_mohr_coulomb(self) -> None:
+    def test_law_has_the_strength_of_mohr_coulomb(self) -> None:
         # triaxial compression at s3: s1 = s3 N + 2 c sqrt(N); extension with s1 on two sides
         c, phi, s3 = 2e3, 30.0, 1e4
         strength = Strength(c, phi)
@@ -44,7 +44,7 @@ class MakeTest(FolderTest):
         p = (2 * s1 + s3) / 3
         self.assertAlmostEqual(q / (strength.K * (strength.d + p * strength.tangent)), 1, places=12)
 
-    def test_an_oedometer_comes_back_from_the_law(self) -> None:
+    def test_law_has_the_oedometer_of_its_data(self) -> None:
         oedometer = read_oedometer(self.table)
         made = from_strength("mine", 500.0, 33.0, 1600.0, oedometer, None)
         self.file.write_text(made.text(), encoding="utf-8")
@@ -53,14 +53,14 @@ class MakeTest(FolderTest):
         self.assertTrue(0.03 < between < 0.045)
         self.assertEqual(read_material(self.file).density, 1600)
 
-    def test_norsand_has_its_own_elasticity(self) -> None:
+    def test_norsand_has_pressure_dependent_elasticity(self) -> None:
         material = read_material(SOURCE / "inputs" / "materials" / "norsand_dry.yaml")
         # by hand: 2 G (1 + nu) at a tenth of the pressure of G, to which the law adds pt
         young = 2 * 1.686e6 * (1 + 0.227) * ((1e4 + 20) / 1e5) ** 0.3320
         self.assertAlmostEqual(material.young / young, 1, places=9)
         self.assertAlmostEqual(material.wave_speed, 38.3, places=1)
 
-    def test_a_modulus_gives_janbus_curve(self) -> None:
+    def test_modulus_gives_the_curve_of_janbu(self) -> None:
         made = from_strength("mine", 0.0, 33.0, 1600.0, None, 1.2e7)
         self.file.write_text(made.text(), encoding="utf-8")
         low, high = confined_strain(self.file, (9.9e4, 1.01e5))
@@ -75,7 +75,7 @@ class MakeTest(FolderTest):
         np.testing.assert_allclose(strain, np.array(z) / (0.96 * 0.15), rtol=0.08)
         self.assertIn("K = 0.025 m is not used", self.file.read_text())
 
-    def test_a_cone_index_gives_strength_by_vesic(self) -> None:
+    def test_cone_index_gives_strength_by_vesic(self) -> None:
         # without friction, with the rigidity index G/c
         c, shear, depth = 2e4, 2e6, 0.1
         weight = 1800 * 9.80665 * depth
@@ -91,13 +91,13 @@ class MakeTest(FolderTest):
             self.assertEqual(law["density"], float(f"{CLASSES[soil_class].density:.6g}"))
             self.assertGreaterEqual(len(made.guesses()), 6)
 
-    def test_a_firmer_cone_gives_a_stronger_soil(self) -> None:
+    def test_firmer_cone_gives_a_stronger_soil(self) -> None:
         betas = [float(from_cone("s", q, "SP", None).law["beta"].value) for q in (1e5, 2e5, 4e5)]
         cohesions = [float(from_cone("c", q, "CL", None).law["d"].value) for q in (1e5, 2e5, 4e5)]
         self.assertEqual(betas, sorted(betas))
         self.assertEqual(cohesions, sorted(cohesions))
 
-    def test_the_virtual_cone_shows_the_index_of_an_estimated_sand(self) -> None:
+    def test_virtual_cone_in_an_estimated_sand_has_the_given_index(self) -> None:
         inputs = SOURCE / "inputs"
         for row in read_rows(inputs / "soils" / "cone_on_estimated_sand.csv"):
             asked = float(row["asked_Pa"])
@@ -106,7 +106,7 @@ class MakeTest(FolderTest):
             self.assertAlmostEqual(float(made.law["beta"].value), stored["beta"], delta=1e-3)
             self.assertAlmostEqual(float(row["index_Pa"]) / asked, 1, delta=0.15)
 
-    def test_every_guess_is_marked_in_the_file(self) -> None:
+    def test_every_estimate_is_marked_in_the_file(self) -> None:
         done = run_card("material", self.file, "--c", 500, "--phi", 33, "--density", 1600,
                         "--oedometer", self.table, folder=self.folder)  # fmt: skip
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -190,7 +190,7 @@ class MakeTest(FolderTest):
         self.assertAlmostEqual(float(made.elasticity["E"].value) / (75e3 / 0.002 * 1.25 * 0.5 / 0.75), 1, places=9)
         self.assertNotIn("E", [guess.split(":")[0] for guess in made.guesses()])
 
-    def test_strengths_that_no_soil_of_the_class_has(self) -> None:
+    def test_impossible_strengths_are_refused(self) -> None:
         with self.assertRaisesRegex(ResultsError, "no friction angle of 5 to 48 gives a cone index"):
             from_cone("mine", 1.5e7, "SP", None)
         with self.assertRaisesRegex(ResultsError, "there is no soil class 'XX'; allowed: GW, "):

@@ -60,7 +60,7 @@ class DefinitionTest(unittest.TestCase):
         self.assertEqual(hard.variables["material"], self.root / "inputs" / "materials" / "ice.yaml")
         self.assertEqual(hard.files, {})
 
-    def test_programs_and_paths(self) -> None:
+    def test_programs_and_paths_are_resolved(self) -> None:
         made = self.cases(
             "runs:\n  all:\n"
             "    snow: {point: {title: '{run}', material: '{materials}/{run}.yaml', path: '{type: a}'}}\n"
@@ -70,7 +70,7 @@ class DefinitionTest(unittest.TestCase):
         self.assertEqual(made["tyre"].arguments[1:], ("--load", 6227))
         self.assertEqual(made["tyre"].arguments[0], self.root / "inputs" / "tyres" / "t.yaml")
 
-    def test_an_entry_may_be_a_run_for_each_combination_of_values(self) -> None:
+    def test_entry_expands_to_all_combinations_of_values(self) -> None:
         (self.folder / "evaluate.py").write_text("def column(height: float) -> str:\n    return f'{height:.1f}'\n")
         made = self.cases(
             "texts: {soil: 'e: {e}'}\n"
@@ -85,7 +85,7 @@ class DefinitionTest(unittest.TestCase):
         self.assertEqual(made["plate_0.2/cap"].variables["size"], "0.2")
         self.assertEqual(made["plate_0.2/cap"].files, {"material.yaml": "e: 1", "column.txt": "2.0"})
 
-    def test_a_function_may_give_the_keys_of_each_run(self) -> None:
+    def test_function_gives_the_keys_of_each_run(self) -> None:
         text = "def rows() -> list:\n    return [{'load': load, 'cell': load / 100} for load in (10, 20)]\n"
         (self.folder / "evaluate.py").write_text(text)
         made = self.cases("runs: {all: {'load_{load}': {for: = rows(), script: a.lig, variables: {cell: '{cell}'}}}}")
@@ -103,7 +103,7 @@ class DefinitionTest(unittest.TestCase):
 
 
 class StoredTest(unittest.TestCase):
-    def test_files_of_all_runs_are_there(self) -> None:
+    def test_files_of_all_runs_exist(self) -> None:
         for folder in study_folders(SOURCE):
             study = load_study(folder)
             with self.subTest(study=folder.name):

@@ -9,7 +9,7 @@ from pathlib import Path
 from furrow_post.cli.study_command import study_folders
 from furrow_post.errors import ResultsError
 from furrow_post.study.repeat import difference, known_cost
-from furrow_post.study.values import TABLE, Part, Registry, Stored, Value, values_of
+from furrow_post.study.values import TABLE, Part, Registry, Stored, StudyValue, values_of
 from support.command import SOURCE, run_post
 from support.folder import FolderTest
 
@@ -35,26 +35,26 @@ class GuardTest(FolderTest):
                 self.assertIn(value.study, made)
                 self.assertTrue((value.stored.table.parent / "README.md").is_file())
 
-    def test_every_study_but_those_beyond_the_report_has_a_value(self) -> None:
+    def test_studies_within_the_report_have_values(self) -> None:
         named = {value.study for value in Registry.of(SOURCE) if value.stored}
         made = {folder.name for folder in study_folders(SOURCE) if folder.parent == VALIDATION}
         self.assertEqual(named | {"cmu_sand", "free_travel", "grains", "predictions", "pull_slip", "tyre_formulas"}, made)
 
-    def test_cheap_values_cost_seconds(self) -> None:
+    def test_cheap_values_take_seconds(self) -> None:
         for folder in study_folders(SOURCE):
             costs = [v.cost.read() for v in values_of(folder) if v.cheap and v.cost]
             self.assertLessEqual(sum(costs), 30.0, folder.name)
 
-    def test_what_is_no_longer_stored_is_found(self) -> None:
+    def test_missing_stored_files_are_reported(self) -> None:
         stored, made = self.folder / "stored", self.folder / "made"
         for folder, text in ((stored, "run,z,e,f\na,1.0,0.1,0.01\n"), (made, "")):
             folder.mkdir()
             (folder / "results.csv").write_text(text, encoding="utf-8")
         ours = Stored(stored / "results.csv", {"run": "a"}, "z")
-        value = Value("study.z", ours, reference=1.1)
+        value = StudyValue("study.z", ours, reference=1.1)
         known = Stored(ours.table, ours.row, "f")
-        limit = Value("study.z", ours, error=(Part(TABLE, known),), reference=1.1, limit="upper")
-        noisy = Value("study.z", ours, error=(Part(TABLE, Stored(ours.table, ours.row, "e")),), reference=1.1)
+        limit = StudyValue("study.z", ours, error=(Part(TABLE, known),), reference=1.1, limit="upper")
+        noisy = StudyValue("study.z", ours, error=(Part(TABLE, Stored(ours.table, ours.row, "e")),), reference=1.1)
         for number, (again, given, expected) in enumerate((
             ("1.02", value, ""),
             ("1.04", value, "1.04, not 1 ± 0.03"),
@@ -82,7 +82,7 @@ class CostTest(unittest.TestCase):
                 (Path(temporary) / name).write_text(text, encoding="utf-8")
             return known_cost(Path(temporary))
 
-    def test_each_run_counts_once(self) -> None:
+    def test_cost_counts_each_run_once(self) -> None:
         results = "run,user_s\na,10\nb,5\n"
         for what, tables, expected in (
             ("a run of two tables", {"results.csv": results, "error.csv": "run,cpu_s\na,10\n"}, 15),

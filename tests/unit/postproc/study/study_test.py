@@ -46,13 +46,13 @@ class StudyTest(FolderTest):
             status = run_study(study, [*words, *options])
         return status, printed.getvalue()
 
-    def test_list_makes_nothing(self) -> None:
+    def test_list_starts_no_run(self) -> None:
         status, printed = self.run_study("--list", a1=1, b1=2)
         self.assertEqual(status, 0)
         self.assertRegex(printed, r"missing +a1 +value 1\nmissing +b1 +value 2")
         self.assertEqual(self.tree.starts(), [])
 
-    def test_run_of_changed_script_base_or_program_is_repeated_and_never_in_the_table(self) -> None:
+    def test_run_of_changed_inputs_is_repeated_before_it_is_tabulated(self) -> None:
         base, stored = self.tree.study / "base.yaml", self.tree.study / "results.csv"
         base.write_text("{law: {density: 300}}\n")
         (self.tree.study / "snow.yaml").write_text("{base: base.yaml}\n")
@@ -77,7 +77,7 @@ class StudyTest(FolderTest):
             self.assertEqual(self.tree.starts()[started:], ["a1", "a2"])
             self.assertNotIn("Repeating", self.run_study(a1=1, a2=2)[1])
 
-    def test_selection_by_stage_and_pattern(self) -> None:
+    def test_stage_and_pattern_select_runs(self) -> None:
         self.run_study("a", a1=1, a2=1, b1=2)
         self.assertEqual(self.tree.starts(), ["a1", "a2"])
         self.run_study("?1", a1=1, a2=1, b1=2)
@@ -117,7 +117,7 @@ class StudyTest(FolderTest):
             text = (self.tree.study / "results.csv").read_text()
             self.assertEqual(text, old if kept else "new", name)
 
-    def test_an_evaluation_that_breaks_off_replaces_nothing(self) -> None:
+    def test_interrupted_evaluation_replaces_nothing(self) -> None:
         old = "run,value\na1,0.5\n"
         (self.tree.study / "results.csv").write_text(old)
         options = ["--results", str(self.results), "--build", str(self.tree.build)]
@@ -131,7 +131,7 @@ class StudyTest(FolderTest):
             self.assertEqual(run_study(study, options), 1)
         self.assertEqual((self.tree.study / "results.csv").read_text(), old)
 
-    def test_complete_tables_and_page_come_with_their_provenance(self) -> None:
+    def test_complete_tables_have_their_provenance(self) -> None:
         status, _ = self.run_study(a1=1, b1=2)
         self.assertEqual(status, 0)
         page = self.page.read_text()
@@ -143,7 +143,7 @@ class StudyTest(FolderTest):
         self.assertRegex(origin["runs"], r"^\d{4}-\d\d-\d\d")
         self.assertNotIn(str(self.tree.root), origin["command"])
 
-    def test_provenance_of_other_files_stays(self) -> None:
+    def test_provenance_of_other_files_is_kept(self) -> None:
         path = self.tree.study / "provenance.csv"
         head = "file,program,commit,runs,written,command,note"
         path.write_text(f"# ours\n{head}\nphoto.png,camera,,,2020-01-01,,by hand\n")
@@ -184,19 +184,19 @@ class StudyTest(FolderTest):
         found = [row["value"] for row in merged(table, [{"change": "cells", "run": "b1", "value": 3}])]
         self.assertEqual(found, ["1", 3])
 
-    def test_a_table_without_new_rows_stays(self) -> None:
+    def test_table_without_new_rows_is_kept(self) -> None:
         table = self.tree.study / "meshes.csv"
         table.write_text("mesh,value\nfine,1\n")
         self.assertEqual(merged(table, []), [{"mesh": "fine", "value": "1"}])
 
-    def test_a_table_by_run_that_is_not_stored_yet_joins_the_others(self) -> None:
+    def test_new_table_by_run_joins_the_others(self) -> None:
         page = self.page.read_text()
         self.run_study("a1", "--merge", a1=1, b1=2)
         stored = read_rows(self.tree.study / "results.csv")
         self.assertEqual(stored, [{"run": "a1", "value": "1.0"}])
         self.assertEqual(self.page.read_text(), page)
 
-    def test_a_file_of_all_runs_is_written_whole(self) -> None:
+    def test_file_of_all_runs_is_written_completely(self) -> None:
         stored = self.tree.study / "sums.csv"
         stored.write_text("case,value\nall,1\nold,2\n")
         with Output(self.tree.study, page=False, merge=True) as output:
@@ -204,7 +204,7 @@ class StudyTest(FolderTest):
             output.publish([], self.tree.study)
         self.assertEqual(read_rows(stored), [{"case": "all", "value": "3"}])
 
-    def test_missed_limit_counts_in_a_check_only(self) -> None:
+    def test_missed_limit_fails_in_a_check_alone(self) -> None:
         status, printed = self.run_study(low=0.5)
         self.assertEqual(status, 0)
         self.assertIn("MISSED: low is below 1", printed)
@@ -222,7 +222,7 @@ class StudyTest(FolderTest):
         self.assertEqual(status, 1)
         self.assertIn("MISSED: a1 was not run", printed)
 
-    def test_failed_run_counts_unless_it_is_a_result(self) -> None:
+    def test_failed_run_is_an_error_unless_it_is_a_result(self) -> None:
         bad = self.tree.case("bad", fail="it broke")
         options = ["--results", str(self.results), "--build", str(self.tree.build)]
         for may_fail, expected in ((False, 1), (True, 0)):

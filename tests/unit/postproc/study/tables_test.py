@@ -12,17 +12,17 @@ ROWS: list[dict[str, object]] = [{"run": "a", "value": 1 / 3}, {"run": "long", "
 
 
 class TablesTest(unittest.TestCase):
-    def test_columns_are_those_of_all_rows(self) -> None:
+    def test_table_has_the_columns_of_all_rows(self) -> None:
         lines = aligned(ROWS).splitlines()
         self.assertEqual(lines[0].split(), ["run", "value", "error"])
         self.assertEqual(lines[1].split(), ["a", "0.333333"])
         self.assertEqual(len({len(line) for line in lines}), 1)
 
-    def test_markdown(self) -> None:
+    def test_table_is_written_as_markdown(self) -> None:
         lines = markdown(["a", "b"], [["1", "2"]])
         self.assertEqual(lines, ["| a | b |", "|---|---|", "| 1 | 2 |"])
 
-    def test_file_with_comments_comes_back(self) -> None:
+    def test_file_with_comments_is_read_back(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "t.csv"
             write_rows(path, ROWS, ["# made"])

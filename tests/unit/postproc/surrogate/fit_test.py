@@ -51,7 +51,7 @@ class FitTest(unittest.TestCase):
     def tearDownClass(cls) -> None:
         cls.temporary.cleanup()
 
-    def test_file_describes_itself(self) -> None:
+    def test_file_states_inputs_and_outputs(self) -> None:
         self.assertEqual(self.done.returncode, 0, self.done.stderr)
         content = json.loads((self.folder / "surrogate.json").read_text())
         self.assertEqual([one["name"] for one in content["inputs"]], list(RANGES))
@@ -62,7 +62,7 @@ class FitTest(unittest.TestCase):
             self.assertIn("rms_error", one)
         self.assertTrue((self.folder / "surrogate.png").stat().st_size > 10_000)
 
-    def test_new_points_lie_in_the_band_as_often_as_it_states(self) -> None:
+    def test_band_has_its_stated_coverage_of_new_points(self) -> None:
         surrogate = read_surrogate(self.folder / "surrogate.json")
         random = np.random.default_rng(5)
         new = {
@@ -87,7 +87,7 @@ class FitTest(unittest.TestCase):
             require_calibrated(name, held)
             self.assertLess(held.rms_error, error * held.spread)
 
-    def test_predictions_on_the_screen_are_those_of_the_file(self) -> None:
+    def test_printed_predictions_equal_those_of_the_file(self) -> None:
         shown = re.search(r"drawbar_pull \[N\] +(\S+) ± (\S+)", self.done.stdout)
         assert shown
         exact = float(wheel(np.array(0.2), np.array(600.0), np.array(30.0))[PULL]) * 600
@@ -108,7 +108,7 @@ class FitTest(unittest.TestCase):
             self.assertEqual(done.returncode, 1)
             self.assertIn(message, done.stderr)
 
-    def test_process_is_that_of_scikit_learn(self) -> None:
+    def test_process_equals_that_of_scikit_learn(self) -> None:
         random = np.random.default_rng(0)
         x, y, new = random.random((30, 2)), random.normal(size=30), random.random((5, 2))
         kernel = 1.7 * kernels.Matern([0.4, 0.9], nu=2.5) + kernels.WhiteKernel(0.02)
@@ -142,7 +142,7 @@ class FitTest(unittest.TestCase):
         with self.assertRaisesRegex(ResultsError, "pull: the error of held-out runs is"):
             require_calibrated("pull", held)
 
-    def test_tables_that_are_no_training_data(self) -> None:
+    def test_unsuitable_training_tables_are_refused(self) -> None:
         words = self.folder / "words"
         words.mkdir()
         write_sweep_table(words / "sweep.csv", 4, set_material="sand.yaml", set_phi="30")

@@ -35,7 +35,7 @@ def tests_of(phi: float, k: float, random: np.random.Generator, names: tuple[str
 
 
 class IdentifyTest(unittest.TestCase):
-    def test_intervals_hold_the_hidden_soil_as_often_as_they_state(self) -> None:
+    def test_intervals_have_their_stated_coverage_of_the_hidden_soil(self) -> None:
         random = np.random.default_rng(7)
         inside: dict[str, list[bool]] = {name: [] for name in SOIL}
         ratios: list[Floats] = []
@@ -51,7 +51,7 @@ class IdentifyTest(unittest.TestCase):
         self.assertTrue(24 <= sum(map(sum, inside.values())) <= 39, inside)
         self.assertLess(np.mean(ratios), 0.3)
 
-    def test_width_is_that_of_linear_theory(self) -> None:
+    def test_width_equals_linear_theory(self) -> None:
         exact = tests_of(31.0, 1.0, np.random.default_rng(0), tuple(ERRORS))
         posterior = identify(SURROGATE, exact, steps=300)
         step = {"phi": 0.1, "k": 0.01}
@@ -74,7 +74,7 @@ class IdentifyTest(unittest.TestCase):
         expected = np.sqrt(np.diag(np.linalg.inv(np.array(columns) @ np.array(columns).T)))
         np.testing.assert_allclose(np.std(posterior.samples, axis=0), expected, rtol=0.25)
 
-    def test_what_torque_cannot_identify_is_stated(self) -> None:
+    def test_parameters_that_torque_cannot_identify_are_stated(self) -> None:
         posterior = identify(
             SURROGATE, tests_of(31.0, 1.0, np.random.default_rng(1), (TORQUE,)), steps=100
         )
@@ -90,7 +90,7 @@ class IdentifyTest(unittest.TestCase):
         )
         self.assertIn("contradict the surrogate: chi squared is 80 for 10", remarks[-1])
 
-    def test_command_and_its_faults(self) -> None:
+    def test_command_identifies_and_refuses_faults(self) -> None:
         with tempfile.TemporaryDirectory() as temporary:
             folder = Path(temporary)
             SURROGATE.write(folder / "wheel.json")

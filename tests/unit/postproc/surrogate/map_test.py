@@ -70,7 +70,7 @@ class MapTest(FolderTest):
         )
         return done.stdout if done.returncode == 0 else done.stderr
 
-    def test_operating_point_is_that_of_the_closed_form(self) -> None:
+    def test_operating_point_has_the_closed_form(self) -> None:
         vehicle = Vehicle(LOAD, SPEED)
         slopes = np.array([0.0, 5.0, 10.0, 15.0, 25.0])
         for phi in PHI.values():

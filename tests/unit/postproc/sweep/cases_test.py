@@ -8,7 +8,7 @@ from pathlib import Path
 from furrow_post.errors import ResultsError
 from furrow_post.run.executor import Executor, State
 from furrow_post.sweep.cases import SweepRequest, case_of, plan_of
-from furrow_post.sweep.sweep_plan import Plan, read_plan
+from furrow_post.sweep.sweep_plan import SweepPlan, read_plan
 from support.fake import FakeTree
 from support.folder import FolderTest
 
@@ -45,13 +45,13 @@ class CasesTest(FolderTest):
         self.sand.write_text("loose")
         self.results = self.folder / "results"
 
-    def plan(self, *sweep: str, **more: object) -> Plan:
+    def plan(self, *sweep: str, **more: object) -> SweepPlan:
         return plan_of(replace(SweepRequest(self.tree.script, sweep), **more))[0]
 
     def executor(self) -> Executor:
         return Executor(self.results, self.tree.tools)
 
-    def test_link_in_the_place_of_the_part_of_a_plan_is_not_followed(self) -> None:
+    def test_link_at_the_temporary_name_of_a_plan_is_not_followed(self) -> None:
         notes = self.results / "notes"
         self.results.mkdir()
         notes.write_text("of the user")
@@ -61,13 +61,13 @@ class CasesTest(FolderTest):
         self.assertEqual(notes.read_text(), "of the user")
         self.assertEqual(read_plan(self.results), plan)
 
-    def test_refusals(self) -> None:
+    def test_faults_are_refused(self) -> None:
         for words, message in REFUSED:
             with self.subTest(words), self.assertRaises(ResultsError) as refused:
                 plan_of(replace(SweepRequest(self.tree.script, ()), **words))
             self.assertIn(message, str(refused.exception))
 
-    def test_a_script_without_seed_or_results(self) -> None:
+    def test_script_without_seed_or_results_is_refused(self) -> None:
         self.tree.script.write_text(SCRIPT.replace("seed", "other"))
         with self.assertRaisesRegex(ResultsError, "--packings 3: no line of .* reads 'seed'"):
             self.plan("value=1,2", packings=3)
@@ -75,7 +75,7 @@ class CasesTest(FolderTest):
         with self.assertRaisesRegex(ResultsError, "all points would write to one folder"):
             self.plan("value=1,2")
 
-    def test_what_is_run(self) -> None:
+    def test_list_shows_the_runs(self) -> None:
         plan = self.plan(
             "slip=-0.1,0.2",
             packings=2,
@@ -92,7 +92,7 @@ class CasesTest(FolderTest):
         self.assertEqual(variables["material"], "other.yaml")
         self.assertNotIn("seed", case_of(plan, plan.points[0]).variables)
 
-    def test_failures_are_kept_until_they_are_forgotten(self) -> None:
+    def test_failures_are_kept_until_retry(self) -> None:
         plan = self.plan("value=1,2", "fail=none", given=[("seed", "10009")])
         cases = [case_of(plan, point) for point in plan.points]
         self.executor().run(cases[:1])
@@ -102,7 +102,7 @@ class CasesTest(FolderTest):
         self.executor().forget(cases)
         self.assertEqual(self.executor().missing(cases), cases)
 
-    def test_a_point_of_another_script_material_or_program_is_made_again(self) -> None:
+    def test_point_of_another_script_material_or_program_is_repeated(self) -> None:
         plan = self.plan("value=1,2")
         cases = [case_of(plan, point) for point in plan.points]
         self.executor().run(cases)
@@ -118,7 +118,7 @@ class CasesTest(FolderTest):
         self.tree.script.write_text(SCRIPT + "run 1\n")
         self.assertEqual(len(self.executor().missing(again)), 2)
 
-    def test_a_point_is_made_again_when_the_base_of_its_material_changes(self) -> None:
+    def test_point_is_repeated_when_the_base_of_its_material_changes(self) -> None:
         """Also a base of a base, and one with the name of the material."""
         (self.sand.parent / "variants").mkdir()
         first, second = self.sand.parent / "variants" / "sand.yaml", self.sand.with_name("dry.yaml")
@@ -132,7 +132,7 @@ class CasesTest(FolderTest):
             file.write_text(file.read_text() + "# changed\n")
             self.assertEqual(self.executor().missing([case]), [case], file)
 
-    def test_a_later_command_adds_points_of_the_same_scene(self) -> None:
+    def test_later_command_adds_points_of_the_same_scene(self) -> None:
         first = self.plan("value=1,2")
         first.write(self.results)
         former = read_plan(self.results)
@@ -143,7 +143,7 @@ class CasesTest(FolderTest):
         other = self.plan("value=3", given=[("seed", "10009")]).joined(former)
         self.assertEqual([p.folder for p in other.points], ["value_3"])
 
-    def test_until_steady_runs_a_script_of_its_own(self) -> None:
+    def test_until_steady_runs_a_separate_script(self) -> None:
         plan = self.plan("value=1", until_steady=0.03, time_limit=60.0)
         case = case_of(plan, plan.points[0])
         (text,) = case.files.values()
@@ -153,7 +153,7 @@ class CasesTest(FolderTest):
         )
         self.assertIn(self.tree.script.resolve(), case.input_files())
 
-    def test_ranks(self) -> None:
+    def test_ranks_are_passed_to_the_runs(self) -> None:
         plan = self.plan("value=1", ranks=2)
         command = case_of(plan, plan.points[0]).command(Path("/x/furrow"), Path("/y"), {})
         self.assertEqual(command[:4], ["mpirun", "-n", "2", "/x/furrow"])

@@ -13,8 +13,8 @@ from furrow_post.laws.cone_formulas import formulas_for
 from furrow_post.errors import ResultsError
 from furrow_post.run.record import Record
 from furrow_post.sweep.sweep_curves import HUB_DROP, PULL, RESISTANCE, TORQUE
-from furrow_post.sweep.sweep_files import Named, Result, Wanted, evaluate, write_sweep
-from furrow_post.sweep.sweep_plan import Plan, Point
+from furrow_post.sweep.sweep_files import Named, SweepResult, Wanted, evaluate, write_sweep
+from furrow_post.sweep.sweep_plan import PlannedRun, SweepPlan
 from support.command import SOURCE
 from support.folder import FolderTest
 from support.runs import rig, rigid_wheel, style, write_run
@@ -40,15 +40,15 @@ def write_tyre_run(folder: Path, material: str, slip: float, pull: float, mode: 
 
 
 class ConeBandTest(FolderTest):
-    def sweep(self, material: str, pulls: dict[float, float], tyre: bool = True) -> Result:
+    def sweep(self, material: str, pulls: dict[float, float], tyre: bool = True) -> SweepResult:
         points = []
         for slip, pull in pulls.items():
             write_tyre_run(self.folder / f"slip_{slip:g}", material, slip, pull, tyre=tyre)
-            points.append(Point(f"slip_{slip:g}", {"motion": f"mode slip slip {slip:g}"}))
-        Plan("scene.lig", ("motion",), points=tuple(points)).write(self.folder)
+            points.append(PlannedRun(f"slip_{slip:g}", {"motion": f"mode slip slip {slip:g}"}))
+        SweepPlan("scene.lig", ("motion",), points=tuple(points)).write(self.folder)
         return evaluate([Named(self.folder)], Wanted(against="slip"))
 
-    def test_a_variable_that_sets_the_slip_splits_no_curve(self) -> None:
+    def test_variable_that_sets_the_slip_does_not_split_a_curve(self) -> None:
         self.assertEqual([line.x for line in self.sweep("fresh_snow", {0.1: 0.2, 0.3: 0.2}).figure.lines], [(0.1, 0.3)])
 
     def test_clay_has_a_band_and_values_outside_are_named(self) -> None:
@@ -65,34 +65,34 @@ class ConeBandTest(FolderTest):
         self.assertRegex(named[0], r"slip_0.2: net traction coefficient -0.50 ± \S+ is outside of the formulas, 0\.\d+ to 0\.\d+")
         self.assertIn("sweep.png", write_sweep(result, self.folder / "drawn"))
 
-    def test_a_line_over_several_soils_has_no_band(self) -> None:
+    def test_line_over_several_soils_has_no_band(self) -> None:
         for name in ("sand_firm", "clay_stiff"):
             write_tyre_run(self.folder / name, name, 0.2, 0.1)
-        points = tuple(Point(name, {"material": name}) for name in ("sand_firm", "clay_stiff"))
-        Plan("scene.lig", ("material",), points=points).write(self.folder)
+        points = tuple(PlannedRun(name, {"material": name}) for name in ("sand_firm", "clay_stiff"))
+        SweepPlan("scene.lig", ("material",), points=points).write(self.folder)
         self.assertEqual(list(evaluate([Named(self.folder)], Wanted()).bands), [])
 
-    def test_a_material_that_cannot_be_read_is_a_note(self) -> None:
+    def test_unreadable_material_gives_a_note(self) -> None:
         with patch("furrow_post.laws.cone_files.answer", side_effect=ResultsError("sand.yaml: no such law")):
             soil_of.cache_clear()
             result = self.sweep("sand_firm", {0.1: 0.2, 0.3: 0.2})
         self.assertIn("no formulas of a cone index: sand.yaml: no such law", " ".join(result.remarks()))
         self.assertIn("sweep.png", write_sweep(result, self.folder / "drawn"))
 
-    def test_samples_of_several_numbers_stay_apart(self) -> None:
+    def test_samples_of_different_size_stay_separate(self) -> None:
         points = []
         for slip, load in ((0.1, "5000"), (0.3, "7000")):
             write_tyre_run(self.folder / load, "fresh_snow", slip, 0.1)
-            points.append(Point(load, {"slip": f"{slip:g}", "load": load}))
-        Plan("scene.lig", ("slip", "load"), points=tuple(points)).write(self.folder)
+            points.append(PlannedRun(load, {"slip": f"{slip:g}", "load": load}))
+        SweepPlan("scene.lig", ("slip", "load"), points=tuple(points)).write(self.folder)
         lines = evaluate([Named(self.folder)], Wanted(against="slip")).figure.lines
         self.assertEqual([line.label for line in lines], ["load 5000", "load 7000"])
 
-    def test_a_towed_tyre_on_sand_has_the_formula_of_towed_resistance(self) -> None:
+    def test_towed_tyre_on_sand_has_the_formula_of_towed_resistance(self) -> None:
         for load in (5000, 6000):
             write_tyre_run(self.folder / f"load_{load}", "sand_firm", -0.05, -0.1, mode="towed")
-        points = tuple(Point(f"load_{load}", {"load": str(load)}) for load in (5000, 6000))
-        Plan("scene.lig", ("load",), points=points).write(self.folder)
+        points = tuple(PlannedRun(f"load_{load}", {"load": str(load)}) for load in (5000, 6000))
+        SweepPlan("scene.lig", ("load",), points=points).write(self.folder)
         (band,) = evaluate([Named(self.folder)], Wanted()).bands
         expected = formulas_for("sand", 217e3, formula_tyre(TYRE, PRESSURE, LOAD), 1e-6).answers[0].towed_resistance
         self.assertEqual({mean for _, mean, *_ in band.values(RESISTANCE)}, {expected})

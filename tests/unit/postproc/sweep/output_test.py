@@ -22,7 +22,7 @@ from furrow_post.run.record import Record
 from furrow_post.sweep.sweep_curves import EFFICIENCY, PULL, HUB_DROP, TORQUE
 from furrow_post.sweep.drawing import draw_sweep
 from furrow_post.sweep.sweep_files import Named, Wanted, evaluate, report_lines, write_sweep
-from furrow_post.sweep.sweep_plan import Plan, Point
+from furrow_post.sweep.sweep_plan import PlannedRun, SweepPlan
 from furrow_post.sweep.series import read_series
 from support.command import SOURCE
 from support.folder import FolderTest
@@ -53,12 +53,12 @@ def write_pulling(folder: Path, sinkage: float = 0.05) -> None:
         name = f"slip_{slip:g}"
         write_run(folder / name, LOAD, sinkage, slip=slip, pull=pull, torque=torque)
         finished(folder / name)
-        points.append(Point(name, {"slip": f"{slip:g}"}))
-    Plan("scene.lig", ("slip",), points=tuple(points)).write(folder)
+        points.append(PlannedRun(name, {"slip": f"{slip:g}"}))
+    SweepPlan("scene.lig", ("slip",), points=tuple(points)).write(folder)
 
 
 class OutputTest(FolderTest):
-    def test_pull_slip_has_its_coefficients(self) -> None:
+    def test_pull_slip_curve_has_coefficients(self) -> None:
         write_pulling(self.folder / "a")
         result = evaluate([Named(self.folder / "a")], Wanted())
         self.assertEqual(
@@ -77,7 +77,7 @@ class OutputTest(FolderTest):
         expected = [p * LOAD * (1 - s) * RADIUS / t for s, p, t in PULLING[1:]]
         self.assertEqual([round(e, 9) for e in efficiency], [round(e, 9) for e in expected])
 
-    def test_efficiency_is_that_of_speed_and_spin_whatever_radius_the_slip_has(self) -> None:
+    def test_efficiency_is_independent_of_the_slip_radius(self) -> None:
         write_pulling(self.folder / "a")
         tips = 1.08  # over the radius without grousers: the slip is by the tips
         for file in (self.folder / "a").glob("*/history.h5"):
@@ -88,7 +88,7 @@ class OutputTest(FolderTest):
         expected = [p * LOAD * (1 - s) * tips * RADIUS / t for s, p, t in PULLING[1:]]
         self.assertEqual([round(e, 9) for e in efficiency], [round(e, 9) for e in expected])
 
-    def test_of_wheels_that_are_free_the_slip_is_an_answer(self) -> None:
+    def test_slip_of_free_wheels_is_a_result(self) -> None:
         for slope in (0.0, 5.0, 10.0):
             free = rig(LOAD)
             free["options"].update(travel=["free"], slope=[slope])
@@ -125,8 +125,8 @@ class OutputTest(FolderTest):
             name = f"load_2000_{k}"
             write_run(self.folder / name, LOAD, sinkage)
             finished(self.folder / name)
-            points.append(Point(name, {"load": "2000"}, str(k) if k else ""))
-        Plan("scene.lig", ("load",), points=tuple(points)).write(self.folder)
+            points.append(PlannedRun(name, {"load": "2000"}, str(k) if k else ""))
+        SweepPlan("scene.lig", ("load",), points=tuple(points)).write(self.folder)
         result = evaluate([Named(self.folder)], Wanted())
         (point,) = result.series[0].points
         value = point.quantities["hub_drop"]
@@ -135,7 +135,7 @@ class OutputTest(FolderTest):
         self.assertAlmostEqual(math.hypot(value.parts.time, value.parts.packing), 3e-3 / math.sqrt(3), 9)  # of the three means
         self.assertEqual(len(point.runs), 3)
 
-    def test_two_grounds_measurements_and_formulas_lie_in_one_figure(self) -> None:
+    def test_figure_has_two_grounds_measurements_and_formulas(self) -> None:
         write_pulling(self.folder / "a")
         write_pulling(self.folder / "b", 0.06)
         measured = self.folder / "test.csv"
@@ -168,22 +168,22 @@ class OutputTest(FolderTest):
             self.assertTrue((self.folder / "out" / name).is_file(), name)
         self.assertEqual(len(list((self.folder / "out").iterdir())), 4)
 
-    def test_a_formula_follows_each_line(self) -> None:
+    def test_formula_is_drawn_for_each_line(self) -> None:
         points = []
         for load in (1000.0, 2000.0):
             for slip in (0.1, 0.2):
                 name = f"slip_{slip:g}_load_{load:g}"
                 write_run(self.folder / name, load, slip=slip)
                 finished(self.folder / name)
-                points.append(Point(name, {"slip": f"{slip:g}", "load": f"{load:g}"}))
-        Plan("scene.lig", ("slip", "load"), points=tuple(points)).write(self.folder)
+                points.append(PlannedRun(name, {"slip": f"{slip:g}", "load": f"{load:g}"}))
+        SweepPlan("scene.lig", ("slip", "load"), points=tuple(points)).write(self.folder)
         result = evaluate([Named(self.folder)], Wanted(formulas=["bekker:LETE sand"]))
         light, heavy = result.formulas
         self.assertEqual(light.label, "Bekker, LETE sand (load 1000)")
         self.assertLess(light.predictions[0].sinkage, heavy.predictions[0].sinkage)
         self.assertEqual(heavy.values(PULL), [])  # Bekker's wheel is towed
 
-    def test_the_table_has_units_and_can_be_read_as_measured(self) -> None:
+    def test_table_has_units_and_can_be_read_as_measured(self) -> None:
         write_pulling(self.folder / "a")
         write_sweep(evaluate([Named(self.folder / "a")], Wanted()), self.folder / "a")
         rows = read_rows(self.folder / "a" / "sweep.csv")
@@ -236,7 +236,7 @@ class OutputTest(FolderTest):
         drawn = (self.folder / "sweep.svg").read_text(encoding="utf-8")
         self.assertIn("bars: 2 standard errors (thick: time average alone", drawn)
 
-    def test_what_the_resistance_is_made_of_is_averaged_and_drawn(self) -> None:
+    def test_parts_of_the_resistance_are_averaged_and_drawn(self) -> None:
         points = []
         for load in (1000.0, 2000.0):
             for seed, friction in (("", 10.0), ("7", 30.0)):
@@ -244,8 +244,8 @@ class OutputTest(FolderTest):
                 write_run(self.folder / name, load)
                 add_parts(self.folder / name, {"compaction": 0.1 * load, "friction": friction}, 1.0)
                 finished(self.folder / name)
-                points.append(Point(name, {"load": f"{load:g}"}, seed))
-        Plan("scene.lig", ("load",), points=tuple(points)).write(self.folder)
+                points.append(PlannedRun(name, {"load": f"{load:g}"}, seed))
+        SweepPlan("scene.lig", ("load",), points=tuple(points)).write(self.folder)
         result = evaluate([Named(self.folder)], Wanted())
         parts = result.series[0].points[1].parts
         assert parts is not None
@@ -260,13 +260,13 @@ class OutputTest(FolderTest):
         page = (self.folder / "out" / "report.html").read_text(encoding="utf-8")
         self.assertEqual(page.count("<figure>"), 2)
 
-    def test_the_stacked_picture_knows_every_part_of_the_summary(self) -> None:
+    def test_stacked_figure_has_every_part_of_the_summary(self) -> None:
         program = SOURCE / "src" / "statistics" / "resistance_parts.cpp"
         named = set(re.findall(r'\{"([a-z, ]+)",\s*\{"', program.read_text(encoding="utf-8")))
         self.assertGreaterEqual(len(named), 17)
         self.assertEqual(named - set(COLOURS), set())
 
-    def test_rounding_is_shown_in_powers_of_ten(self) -> None:
+    def test_axis_offsets_are_powers_of_ten(self) -> None:
         self.assertEqual(with_error(6.1e-13, 2e-13), "6.1e-13 ± 2e-13")
         self.assertEqual(with_error(10.0, 1.1e-15), "10")
         self.assertEqual(with_error(101.14, 0.17), "101.14 ± 0.17")
@@ -275,7 +275,7 @@ class OutputTest(FolderTest):
         self.assertEqual(with_error(-471.3, 14.6, short=True), "-471 ± 15")  # not 10
         self.assertEqual(with_error(0.00012, 0.00003), "0.00012 ± 0.00003")
 
-    def test_failures_and_what_is_missing_are_told_apart(self) -> None:
+    def test_failed_and_missing_runs_are_distinguished(self) -> None:
         write_pulling(self.folder)
         (self.folder / "slip_0.1" / "run.json").unlink()
         finished(self.folder / "slip_0.1", "ERROR: it broke")
@@ -286,21 +286,21 @@ class OutputTest(FolderTest):
         self.assertIn("1 points were not run: slip_0.3", text)
         self.assertEqual(len(result.series[0].points), 1)
 
-    def test_points_of_two_programs_are_reported(self) -> None:
+    def test_points_of_two_program_versions_are_reported(self) -> None:
         write_pulling(self.folder / "a")
         remark = "its points are of different programs or scripts"
         self.assertNotIn(remark, "\n".join(evaluate([Named(self.folder / "a")], Wanted()).remarks()))
         Record({}, "other", {}, "", "2026-01-01T00:00:00Z", 1.0, 1.5, 0.1).write(self.folder / "a" / "slip_0.1")
         self.assertIn(remark, "\n".join(evaluate([Named(self.folder / "a")], Wanted()).remarks()))
 
-    def test_what_ran_on_and_is_not_steady_is_told(self) -> None:
+    def test_unsteady_extended_runs_are_reported(self) -> None:
         write_pulling(self.folder)
         told = "WARNING: run_until_steady: not steady within 3 %: the ground ends\n"
         (self.folder / "slip_0.1" / "screen.txt").write_text(f"x\n{told}y\n")
         text = "\n".join(report_lines(evaluate([Named(self.folder)], Wanted())))
         self.assertIn("slip_0.1: not steady within 3 %: the ground ends", text)
 
-    def test_folders_that_no_sweep_made(self) -> None:
+    def test_folders_without_a_sweep_are_refused(self) -> None:
         for load in (1000.0, 2000.0):
             write_run(self.folder / f"run_{load:g}", load)
         result = evaluate([Named(self.folder)], Wanted())
@@ -311,18 +311,18 @@ class OutputTest(FolderTest):
             ["resistance against load", "hub drop against load"],
         )
 
-    def test_words_are_categories(self) -> None:
+    def test_texts_are_categories(self) -> None:
         points = []
         for k, name in enumerate(("loose.yaml", "dense.yaml")):
             write_run(self.folder / name, LOAD, 0.05 + 0.01 * k)
             finished(self.folder / name)
-            points.append(Point(name, {"material": name}))
-        Plan("scene.lig", ("material",), points=tuple(points)).write(self.folder)
+            points.append(PlannedRun(name, {"material": name}))
+        SweepPlan("scene.lig", ("material",), points=tuple(points)).write(self.folder)
         result = evaluate([Named(self.folder)], Wanted())
         self.assertEqual(result.figure.categories, ("loose.yaml", "dense.yaml"))
         write_sweep(result, self.folder)
 
-    def test_the_page_is_sound(self) -> None:
+    def test_page_is_valid_html(self) -> None:
         write_pulling(self.folder)
         write_sweep(evaluate([Named(self.folder)], Wanted()), self.folder)
         text = (self.folder / "report.html").read_text()
@@ -330,7 +330,7 @@ class OutputTest(FolderTest):
             self.assertIn(word, text)
         HTMLParser().feed(text)
 
-    def test_refusals(self) -> None:
+    def test_faults_are_refused(self) -> None:
         write_pulling(self.folder / "a")
         (self.folder / "empty").mkdir()
         write_run(self.folder / "same" / "x")

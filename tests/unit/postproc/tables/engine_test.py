@@ -47,11 +47,11 @@ class EngineTest(unittest.TestCase):
         runs_of: Any = SomeRuns(*runs)
         return engine.rows(runs_of, "t.csv", Tables(engine))
 
-    def test_a_measure_of_several_rows_has_a_row_for_each(self) -> None:
+    def test_measure_of_several_rows_has_a_row_for_each(self) -> None:
         text = "tables: {t.csv: {measure: loads, where: 'load > 10', columns: {run: name, kN: load / 1e3, cell: v.cell}}}"
         self.assertEqual(self.rows(text, run_of("a", cell=0.02)), [{"run": "a", "kN": 0.02, "cell": 0.02}])
 
-    def test_failed_runs_have_the_columns_that_are_named(self) -> None:
+    def test_failed_runs_have_the_named_columns(self) -> None:
         text = "tables: {t.csv: {failed: [run, error], measure: loads, columns: {run: name, load: , error: }}}"
         found = self.rows(text, run_of("a"), run_of("b", "too long"))
         self.assertEqual(found[0], {"run": "a", "load": 10.0, "error": ""})
@@ -61,7 +61,7 @@ class EngineTest(unittest.TestCase):
         text = "tables: {t.csv: {columns: {run: name}, blocks: [{expand: '[{\"k\": 1}]', columns: {k: }}]}}"
         self.assertEqual(self.rows(text, run_of("a")), [{"run": "a", "k": 1}])
 
-    def test_a_name_that_is_not_there_is_refused_with_those_that_are(self) -> None:
+    def test_unknown_name_is_refused_with_the_existing_ones(self) -> None:
         with self.assertRaisesRegex(ResultsError, "column x: name 'lod' is not defined; known names are .*load"):
             self.rows("tables: {t.csv: {measure: loads, columns: {x: lod}}}", run_of("a"))
         with self.assertRaisesRegex(ResultsError, "there is no lods; known are "):
@@ -69,7 +69,7 @@ class EngineTest(unittest.TestCase):
         with self.assertRaisesRegex(ResultsError, r"unknown keys \['colums'\]; allowed are"):
             self.engine("tables: {t.csv: {colums: {}}}")
 
-    def test_limits_look_at_stored_rows_where_no_run_is_there(self) -> None:
+    def test_limits_use_stored_rows_without_a_run(self) -> None:
         text = """
             tables: {t.csv: {measure: loads, columns: {run: name, load: }}}
             limits:
@@ -84,7 +84,7 @@ class EngineTest(unittest.TestCase):
         tables["t.csv"] = frame_of([{"run": "a", "load": 20.0}])
         self.assertEqual(list(engine.missed(tables)), ["a: 20.0", "no large load"])
 
-    def test_a_limit_of_repetition_names_what_changed(self) -> None:
+    def test_limit_of_repetition_lists_the_changes(self) -> None:
         (self.folder / "t.csv").write_text("run,load\na,60\n", encoding="utf-8")
         engine = self.engine("limits: [{table: t.csv, key: run, repeats: [load], within: 0.01}]")
         tables = Tables(engine)
@@ -93,7 +93,7 @@ class EngineTest(unittest.TestCase):
             list(engine.missed(tables)), ["a: load 61.0 was 60; the table is of another program"]
         )
 
-    def test_a_table_of_runs_that_are_not_stored_is_not_made_of_stored_ones(self) -> None:
+    def test_table_of_unstored_runs_ignores_stored_ones(self) -> None:
         engine = self.engine("tables: {runs: {measure: loads}, a.csv: {of: runs}, b.csv: {of: a.csv}, c.csv: {of: reference.csv}}")
         self.assertEqual([engine.is_of_stored(name) for name in ("a.csv", "b.csv", "c.csv")], [False, False, True])
 

@@ -42,7 +42,7 @@ class ZonesTest(FolderTest):
         with h5py.File(self.folder / "history.h5", "w") as content:
             content["surface/triangles"], content["surface/x"] = triangles, surface
 
-    def test_places_of_stress(self) -> None:
+    def test_zones_of_stress_are_located(self) -> None:
         for row in stress_layers(self.folder, **ZONES):
             self.assertAlmostEqual(float(str(row["compression_ahead_mm"])), 50, delta=7)
             self.assertAlmostEqual(float(str(row["largest_beside_kPa"])), 2.0)
@@ -51,7 +51,7 @@ class ZonesTest(FolderTest):
             depth = 1e-3 * float(str(row["depth_mm"]))
             self.assertAlmostEqual(away, 0.15 / np.hypot(0.15, depth), delta=0.12)
 
-    def test_zones_of_flow(self) -> None:
+    def test_zones_of_flow_are_located(self) -> None:
         run = run_in(self.folder)
         row = flow_zones(run, 2.0, 0.3, 0.02, 0.05)
         self.assertAlmostEqual(float(str(row["forward_share"])), 0.75, 2)

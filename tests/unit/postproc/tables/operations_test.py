@@ -17,20 +17,20 @@ def done(name: str, rows: list[dict[str, Any]], others: dict[str, Any] | None = 
 
 
 class FramesTest(unittest.TestCase):
-    def test_cells_come_back_as_they_were_stored(self) -> None:
+    def test_cells_are_read_back_unchanged(self) -> None:
         rows = [{"run": "a", "n": "3", "x": "0.50", "text": "10"}, {"run": "b", "n": "", "x": "1e-3", "text": "k"}]
         frame = frame_of(rows)
         self.assertEqual(list(frame["text"]), ["10", "k"])
         self.assertEqual(rows_of(frame)[1], {"run": "b", "n": "", "x": 0.001, "text": "k"})
 
-    def test_an_empty_column_is_text(self) -> None:
+    def test_empty_column_is_text(self) -> None:
         self.assertEqual(list(frame_of([{"failure": ""}, {"failure": ""}])["failure"]), ["", ""])
 
 
 class PackingsTest(unittest.TestCase):
     ROWS = [{"change": "base", "value": 28.0}, {"change": "half", "value": 30.0}, {"change": "base", "value": 30.0}]
 
-    def test_means_and_scatter(self) -> None:
+    def test_packings_give_mean_and_scatter(self) -> None:
         base, half = done("packings", self.ROWS, by="change")
         self.assertEqual((base["packings"], base["mean"], half["scatter"]), (2, 29.0, ""))
         self.assertAlmostEqual(base["scatter"], math.sqrt(2))
@@ -41,7 +41,7 @@ class PackingsTest(unittest.TestCase):
         self.assertEqual(done("against", self.ROWS, base='change == "none"'), [])
 
 
-    def test_the_finest_grains_have_their_scatter_and_the_step_from_the_next(self) -> None:
+    def test_error_of_the_finest_grains_is_scatter_and_last_difference(self) -> None:
         rows = [{"d": d, "value": value} for d, value in ((0.05, 90.0), (0.05, 110.0), (0.07, 70.0))]
         (row,) = done("finest", rows, by=[], size="d")
         self.assertEqual(row["mean"], 100.0)
@@ -58,7 +58,7 @@ class PackingsTest(unittest.TestCase):
 
 
 class SeriesTest(unittest.TestCase):
-    def test_a_power_law_is_extrapolated_to_its_value_at_zero_size(self) -> None:
+    def test_power_law_is_extrapolated_to_zero_size(self) -> None:
         rows = [{"law": law, "h": h, "z": z + 0.1 * h, "z_error": 1e-4} for law, z in (("a", 1.0), ("b", 2.0)) for h in (8.0, 4.0, 2.0)]
         first, second = done("size_series", rows, by="law", size="h", values={"z": "z_error"})
         self.assertAlmostEqual(first["value"], 1.0, delta=2e-3)
@@ -75,27 +75,27 @@ class SeriesTest(unittest.TestCase):
 
 
 class TablesTest(unittest.TestCase):
-    def test_columns_of_another_table(self) -> None:
+    def test_columns_of_another_table_are_joined(self) -> None:
         (row,) = done("join", [{"p": 3, "z": 1.1}], {"reference.csv": [{"at": 3, "z": 1.0}]}, table="reference.csv", keys={"p": "at"}, prefix="measured_")
         self.assertEqual((row["z"], row["measured_z"]), (1.1, 1.0))
 
-    def test_groups_in_the_order_of_their_rows(self) -> None:
+    def test_groups_keep_the_order_of_their_rows(self) -> None:
         rows = [{"law": "b", "off": 3.0}, {"law": "a", "off": 1.0}, {"law": "b", "off": -4.0}]
         found = done("summary", rows, by="law", columns={"n": "count", "rms": "round(rms(off), 3)"})
         self.assertEqual(found, [{"law": "b", "n": 2, "rms": 3.536}, {"law": "a", "n": 1, "rms": 1.0}])
 
-    def test_columns_below_each_other_and_back(self) -> None:
+    def test_columns_are_stacked_and_unstacked(self) -> None:
         rows = [{"run": "a", "first": 1, "second": 2}]
         long = done("stack", rows, keep="run", quantity=["first", "second"], value=["first", "second"])
         self.assertEqual([row["value"] for row in long], [1, 2])
         long = [{"run": "a", "law": "x", "value": 1}, {"run": "a", "law": "y", "value": 2}]
         self.assertEqual(done("pivot", long, keep="run", columns="law"), [{"run": "a", "x": 1, "y": 2}])
 
-    def test_transposed(self) -> None:
+    def test_table_is_transposed(self) -> None:
         found = done("transpose", [{"case": "a", "z": 1.5}, {"case": "b", "z": 2.5}], key="case")
         self.assertEqual(found, [{"quantity": "z", "a": 1.5, "b": 2.5}])
 
-    def test_a_name_that_is_not_there_is_refused_with_those_that_are(self) -> None:
+    def test_unknown_name_is_refused_with_the_existing_ones(self) -> None:
         with self.assertRaisesRegex(ResultsError, "column c: name 'speed' is not defined; known names are slip"):
             done("select", [{"slip": 1}], c="speed")
         with self.assertRaisesRegex(ResultsError, "'slip / 0' fails \\(division by zero\\)"):

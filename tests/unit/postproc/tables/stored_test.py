@@ -14,7 +14,7 @@ from support.command import SOURCE
 
 
 class StoredTablesTest(unittest.TestCase):
-    def test_stored_tables_are_those_of_their_sources(self) -> None:
+    def test_stored_tables_equal_those_of_their_sources(self) -> None:
         made = 0
         for folder in study_folders(SOURCE):
             engine = Engine(folder, load_yaml(folder / DEFINITION), evaluation_of(folder))
@@ -39,7 +39,7 @@ class StoredTablesTest(unittest.TestCase):
                         seen += 1
         self.assertGreater(seen, 20)
 
-    def test_closed_forms_are_those_that_are_stored(self) -> None:
+    def test_stored_closed_forms_are_recomputed(self) -> None:
         folder = SOURCE / "inputs" / "validation" / "report_wheel"
         engine = Engine(folder, load_yaml(folder / DEFINITION), evaluation_of(folder))
         nothing: Any = None  # they need no runs
@@ -48,7 +48,7 @@ class StoredTablesTest(unittest.TestCase):
             made = [{column: str(value) for column, value in row.items()} for row in rows]
             self.assertEqual(made, read_rows(folder / name), name)
 
-    def test_plates_whose_error_is_not_estimated_are_no_tests(self) -> None:
+    def test_plates_without_an_error_are_excluded_from_tests(self) -> None:
         folder = SOURCE / "inputs" / "validation"
         engine = Engine(folder, load_yaml(folder / DEFINITION), evaluation_of(folder))
         stored = [row["error"] for row in rows_of(engine.derived("plates", Tables(engine)))]

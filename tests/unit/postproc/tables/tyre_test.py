@@ -25,7 +25,7 @@ class ShiftTest(FolderTest):
         self.ring = np.stack([0.35 * np.sin(self.angle), across, -0.35 * np.cos(self.angle)], 1)
         self.axle = np.array([2.0, 0.0, 0.3])
 
-    def test_waves_other_than_one_do_not_move_the_whole(self) -> None:
+    def test_only_the_first_harmonic_moves_the_centre(self) -> None:
         """Translation by (-1, 0, 4) mm and three radial waves of which none translates."""
         moved = self.ring + self.axle + [-1e-3, 0, 4e-3]
         radial = self.ring * [1, 0, 1] / 0.35
@@ -54,7 +54,7 @@ class ShiftTest(FolderTest):
 
 
 class LiftTest(FolderTest):
-    def test_alternation_of_known_lines(self) -> None:
+    def test_lift_of_known_lines_alternates(self) -> None:
         for what, line, expected in (
             ("even", [7e4] * 9, 0.0),
             ("straight", list(np.linspace(5e4, 9e4, 9)), 0.0),
@@ -63,14 +63,14 @@ class LiftTest(FolderTest):
             with self.subTest(what):
                 self.assertAlmostEqual(tyre.unevenness([np.array(line)], INFLATION)["alternation"], expected)
 
-    def test_places_that_bear_nothing_are_counted_over_all_lines(self) -> None:
+    def test_unloaded_places_are_counted_over_all_lines(self) -> None:
         lines = [np.array([7e4, 0.0, 7e4, 7e4, 7e4]), np.array([7e4, 7e4, 0.0, 0.0, 7e4])]
         self.assertAlmostEqual(tyre.unevenness(lines, INFLATION)["lifted"], 0.3)
 
     def nodes(self, rows: list[tuple[float, float, float]]) -> dict[str, np.ndarray]:  # type: ignore[type-arg]
         return dict(zip(("x", "y", "p"), np.array(rows).T))
 
-    def test_a_node_that_does_not_touch_bears_nothing(self) -> None:
+    def test_node_without_contact_has_no_load(self) -> None:
         """Two lines; the second node of the second one is not in the file."""
         rows = [(k * STEP, 0.0, 1e4 * (k + 1)) for k in range(3)]
         rows += [(k * STEP, HALF_TREAD / ACROSS, 5e4) for k in (-1, 1)]
@@ -78,13 +78,13 @@ class LiftTest(FolderTest):
         np.testing.assert_allclose(first, [1e4, 2e4, 3e4])
         np.testing.assert_allclose(second, [5e4, 0.0, 5e4])
 
-    def test_a_finer_line_gives_lines_of_the_same_step(self) -> None:
+    def test_finer_line_gives_lines_of_the_same_step(self) -> None:
         rows = [(k * STEP / 2, 0.0, 1e4 * (k + 1)) for k in range(6)]
         even, odd = tyre.lines_of_plane(self.nodes(rows), STEP, HALF_TREAD, ACROSS, 2)
         np.testing.assert_allclose(even, [1e4, 3e4, 5e4])
         np.testing.assert_allclose(odd, [2e4, 4e4, 6e4])
 
-    def test_the_ground_is_read_in_its_uppermost_layer_at_the_tread_s_steps(self) -> None:
+    def test_ground_is_read_in_its_top_layer_at_the_steps_of_the_tread(self) -> None:
         """Two layers; the upper one bears 80 kPa within 20 cm, and none elsewhere."""
         axes = np.arange(-0.4, 0.4, 0.0125), (0.006, 0.05, 0.1), (0.18, 0.19)
         initial = np.stack([axis.ravel() for axis in np.meshgrid(*axes)], axis=1)
@@ -110,7 +110,7 @@ class SectionTest(unittest.TestCase):
 
     UNLOADED = [(0.0, -0.37), (0.0115, -0.37), (0.0117, -0.365), (0.0279, -0.365), (0.0281, -0.37)]
 
-    def test_the_sidewall_begins_beside_the_tread(self) -> None:
+    def test_sidewall_begins_beside_the_tread(self) -> None:
         points = [(0.0, -0.37), (0.075, -0.368), (0.1, -0.3), (0.09, -0.31), (0.082, -0.2)]
         with mock.patch.object(tyre, "below_axle", return_value=points):
             (row,) = tyre.sidewalls(run_in(Path()), [241], 6227, 0.08)
@@ -118,7 +118,7 @@ class SectionTest(unittest.TestCase):
         self.assertAlmostEqual(row["loaded_height"], 0.07)
         self.assertAlmostEqual(row["inflated_bead"], 0.17)
 
-    def test_a_wall_leans_by_the_way_of_its_top(self) -> None:
+    def test_inclination_of_a_wall_is_the_shift_of_its_top(self) -> None:
         inner, outer = tyre.walls(self.UNLOADED, (4e-3, 6.5e-3), 2.5e-3)
         self.assertEqual((inner, outer), ((2, 1), (3, 4)))  # foot, top
         self.assertAlmostEqual(tyre.wall_lean(self.UNLOADED, inner), -math.degrees(math.atan2(2, 50)))
@@ -128,7 +128,7 @@ class SectionTest(unittest.TestCase):
 
 
 class StatesTest(FolderTest):
-    def test_loaded_states_stand_beside_the_measurement_of_their_pressure(self) -> None:
+    def test_loaded_states_are_matched_by_pressure(self) -> None:
         (self.folder / "measured.csv").write_text("pressure_kPa,area_cm2\n103,500\n138,400\n")
         (self.folder / "screen.txt").write_text("pressure_kPa,load_N,area\n103,0,0\n103.2,6227,450\n179,6227,300\n")
         run = run_in(self.folder)

@@ -13,7 +13,7 @@ from support.tables import CONTINUUM, GRAINS, made_runs, row
 
 
 class TableTest(unittest.TestCase):
-    def test_components_are_those_of_the_series(self) -> None:
+    def test_components_equal_those_of_the_series(self) -> None:
         families = cost_table.families(made_runs())
         series = families[CONTINUUM].convergence("sinkage")
         assert series
@@ -31,7 +31,7 @@ class TableTest(unittest.TestCase):
         squares = 1e-8 + expected**2 + 0.002**2 / 2 + 0.006**2
         self.assertAlmostEqual(parts.total, math.sqrt(squares), places=9)
 
-    def test_the_domain_s_error_is_the_mean_difference_from_all_packings_of_the_size(self) -> None:
+    def test_error_of_the_domain_is_the_mean_difference_of_packings(self) -> None:
         mean = 0.12 * 1.12 + 0.001  # of the two packings of 40 mm
         wider = row("wider", "grains", 0.04, mean + 0.002, 0.26, 1.0, domain="2x2", seed="2")
         longer = row("longer", "grains", 0.04, mean + 0.003, 0.26, 1.0, domain="3x1")
@@ -47,7 +47,7 @@ class TableTest(unittest.TestCase):
         squares = 2 * 0.002**2 + 2 * 0.003**2  # about the means of three and of two
         self.assertAlmostEqual(family.packing("sinkage"), math.sqrt(squares / 3), places=9)
 
-    def test_a_run_of_the_table_comes_to_the_value_of_all_its_runs(self) -> None:
+    def test_corrected_run_has_the_value_of_all_runs(self) -> None:
         family = cost_table.families(made_runs())[GRAINS]
         value, parts = family.best_estimate("sinkage", 0.04, 0.12 * 1.12, 1e-4) or self.fail()
         zero, error = family.reference("sinkage")
@@ -55,7 +55,7 @@ class TableTest(unittest.TestCase):
         self.assertEqual((value, numerical), (zero, [0.0, error, family.domain_error("sinkage"), 0.0]))
         self.assertEqual(parts.label("size"), "grains")
 
-    def test_a_run_of_another_load_moves_as_its_family_does(self) -> None:
+    def test_run_of_another_load_is_corrected_as_its_family(self) -> None:
         family = cost_table.families(made_runs())[CONTINUUM]
         value, parts = family.best_estimate("sinkage", 0.03, 0.5, 1e-4) or self.fail()
         self.assertAlmostEqual(value, 0.5 - 0.2 * 0.03, places=5)
@@ -63,7 +63,7 @@ class TableTest(unittest.TestCase):
         self.assertEqual((parts.time, parts.size), (1e-4, series.error))
         self.assertEqual(parts.label("size"), "cells")
 
-    def test_a_series_without_order_errs_by_its_range(self) -> None:
+    def test_series_without_order_has_its_range_as_error(self) -> None:
         values = {0.05: 0.190, 0.04: 0.184, 0.03: 0.184, 0.02: 0.183}  # no curve
         rows = [
             row(f"{h}", "continuum", h, 0.1, c, 1.0, seed="", error=1e-3) for h, c in values.items()
@@ -92,14 +92,14 @@ class TableTest(unittest.TestCase):
             family = cost_table.families(made_runs())[one.family]
             self.assertEqual(errors["sinkage"], family.components("sinkage", one.size, one.sinkage_error))
 
-    def test_written_errors_have_their_parts(self) -> None:
+    def test_written_errors_list_their_parts(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             cost_table.write_errors(Path(folder) / "t.csv", made_runs())
             row = read_rows(Path(folder) / "t.csv")[0]
         parts = [float(row[f"sinkage_error_{part}"] or 0) for part in ("time", "size", "domain", "packing")]
         self.assertAlmostEqual(float(row["sinkage_error"]), math.hypot(*parts), 6)
 
-    def test_written_table_comes_back(self) -> None:
+    def test_written_table_is_read_back(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "t.csv"
             cost_table.write_table(path, made_runs(), ["# made"])

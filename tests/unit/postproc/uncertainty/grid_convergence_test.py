@@ -32,7 +32,7 @@ class PowerLawTest(unittest.TestCase):
                     self.assertAlmostEqual(found.value, 2.0, delta=2e-4)
                     self.assertAlmostEqual(found.at(0.03), 2.0 + 3.0 * 0.03**order, delta=1e-4)
 
-    def test_the_index_is_the_safety_factor_times_the_distance_of_the_finest(self) -> None:
+    def test_index_is_safety_factor_times_distance_of_the_finest(self) -> None:
         found = grid_convergence(SIZES, power(1.0))
         # Roache: 1.25 |f2 - f1|/(r - 1), which covers 95 %; a standard error is half of it
         f1, f2 = power(1.0)[:2]
@@ -40,7 +40,7 @@ class PowerLawTest(unittest.TestCase):
         self.assertAlmostEqual(found.index_error, index / 2, delta=1e-4 * index)
         self.assertEqual(found.noise, 0.0)
 
-    def test_a_series_outside_the_asymptotic_range_takes_the_second_order(self) -> None:
+    def test_series_outside_the_asymptotic_range_uses_second_order(self) -> None:
         found = grid_convergence(SIZES, power(4.0, slope=1e4))
         f1, f2 = power(4.0, slope=1e4)[:2]
         distance = (f2 - f1) / ((SIZES[1] / SIZES[0]) ** 2 - 1.0)
@@ -67,7 +67,7 @@ class NoExtrapolationTest(unittest.TestCase):
         self.assertAlmostEqual(found.error, error, places=9)
         self.assertTrue(math.isnan(found.used_order))
 
-    def test_fewer_than_three_sizes(self) -> None:
+    def test_fewer_than_three_sizes_are_not_extrapolated(self) -> None:
         found = grid_convergence([0.02, 0.01], [1.2, 1.1])
         self.check(found, "fewer than three", 1.1, 3.0 * 0.1 / 2)  # Roache's bound of first order
 
@@ -76,26 +76,26 @@ class NoExtrapolationTest(unittest.TestCase):
         self.assertAlmostEqual(found.value, 1.1)
         self.assertTrue(math.isnan(found.error))
 
-    def test_a_series_that_is_not_monotonic(self) -> None:
+    def test_non_monotonic_series_is_not_extrapolated(self) -> None:
         self.check(grid_convergence(SIZES[:3], [1.0, 0.9, 1.3]), "monotonic", 1.0, 3.0 * 0.4 / 2)
 
-    def test_an_order_below_one_half(self) -> None:
+    def test_order_below_one_half_is_not_extrapolated(self) -> None:
         for values in ([2.0 + 3.0 * h**0.3 for h in SIZES], [math.log(h) for h in SIZES]):
             span = max(values) - min(values)
             self.check(grid_convergence(SIZES, values), "below 0.5", values[0], 3.0 * span / 2)
 
-    def test_a_series_that_grows_faster_as_cells_shrink(self) -> None:
+    def test_diverging_series_is_not_extrapolated(self) -> None:
         """The sinkage on the law of sand of crosscheck: 50, 40, 33 mm."""
         found = grid_convergence([0.05, 0.04, 1 / 30], [0.0685661, 0.0728122, 0.0774177])
         self.check(found, "below 0.5", 0.0774177, 3.0 * (0.0774177 - 0.0685661) / 2)
 
-    def test_differences_within_the_scatter(self) -> None:
+    def test_differences_within_the_scatter_are_not_extrapolated(self) -> None:
         found = grid_convergence(SIZES[:3], [1.00, 1.01, 1.03], [0.05] * 3)
         self.check(found, "scatter", 1.0, math.hypot(3.0 * 0.03 / 2, 0.05))
 
 
 class NoiseTest(unittest.TestCase):
-    def test_two_standard_errors_hold_the_value_of_scattered_series(self) -> None:
+    def test_two_standard_errors_cover_the_value_of_scattered_series(self) -> None:
         random, scatter, held, extrapolated = np.random.default_rng(3), 2e-3, 0, 0
         for _ in range(400):
             values = np.array(power(1.0)) + random.normal(0.0, scatter, len(SIZES))
@@ -105,13 +105,13 @@ class NoiseTest(unittest.TestCase):
         self.assertGreaterEqual(held / 400, 0.95)
         self.assertGreater(extrapolated, 200)
 
-    def test_packings_of_a_size_count_as_their_mean(self) -> None:
+    def test_packings_of_a_size_enter_by_their_mean(self) -> None:
         sizes = (0.01, 0.0101, 0.02, 0.04)
         found = grid_convergence(sizes, [1.02, 1.00, 1.02, 1.04], [1e-3, 1e-3, 1e-3, 1e-3])
         self.assertEqual(len(found.sizes), 3)
         self.assertAlmostEqual(found.values[0], 1.01)
 
-    def test_scatter_and_shift(self) -> None:
+    def test_scatter_and_shift_enter_the_error(self) -> None:
         self.assertAlmostEqual(pooled_scatter([[1.0, 1.2], [5.0], [2.0, 2.2]]), 0.1 * math.sqrt(2))
         self.assertTrue(math.isnan(pooled_scatter([[1.0], [2.0]])))
         self.assertAlmostEqual(mean_shift([(1.0, [0.5, 0.7]), (2.0, [2.2])]), 0.1)

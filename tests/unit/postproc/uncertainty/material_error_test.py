@@ -22,7 +22,7 @@ SAND = SOURCE / "inputs" / "materials" / "dry_sand_smooth.yaml"
 
 
 class FileTest(FolderTest):
-    def test_a_card_has_its_errors_and_one_value_is_varied(self) -> None:
+    def test_card_has_errors_and_one_value_is_varied(self) -> None:
         known = {one.name: one for one in intervals(CARD)}
         self.assertEqual(list(known), [f"pressure_sinkage.{k}" for k in ("k_c", "k_phi", "n")] + [f"shear.{k}" for k in ("c", "phi", "K")])
         phi = known["shear.phi"]
@@ -31,7 +31,7 @@ class FileTest(FolderTest):
         after["shear"]["phi"]["value"], after["contact"] = before["shear"]["phi"]["value"], before["contact"]
         self.assertEqual(after, before)
 
-    def test_a_material_has_the_errors_of_the_file_beside_it_and_of_its_bases(self) -> None:
+    def test_errors_of_a_material_include_those_of_its_bases(self) -> None:
         mine = self.folder / "mine.yaml"
         mine.write_text(f"base: {SAND}\nlaw: {{beta: 40}}\nhardening: {{type: table, p: [1, 2e3], eps_vol_pl: [0, 0.1]}}\n")
         mine.with_suffix(".errors.csv").write_text("parameter,error\nhardening.p[2],300\n")
@@ -41,11 +41,11 @@ class FileTest(FolderTest):
         self.assertEqual((list(text), text["base"], text["hardening"]["p"]), (["base", "hardening"], str(mine), [1, 2300.0]))
         self.assertEqual(yaml.safe_load(varied_text(mine, known["law.K"]))["law"]["K"], 0.793)
 
-    def test_errors_of_the_sand_are_those_of_its_tests(self) -> None:
+    def test_errors_of_the_sand_follow_from_its_tests(self) -> None:
         beta = next(one for one in intervals(SAND) if one.name == "law.beta")
         self.assertAlmostEqual(math.tan(math.radians(beta.value + beta.error)) - math.tan(math.radians(beta.value)), 0.024, 3)
 
-    def test_a_scene_needs_one_file_with_errors(self) -> None:
+    def test_scene_needs_one_file_with_errors(self) -> None:
         plain = self.folder / "plain.yaml"
         plain.write_text("law: {M: 1}\n")
         self.assertEqual(require_intervals({"contact": plain, "card": CARD})[0], "card")
@@ -58,7 +58,7 @@ class FileTest(FolderTest):
 
 
 class RunTest(FolderTest):
-    def test_later_runs_of_the_scene_with_this_file_have_its_part(self) -> None:
+    def test_later_runs_of_the_scene_include_the_material_error(self) -> None:
         script, soil = self.folder / "scene.lig", self.folder / "soil.yaml"
         script.write_text("# a scene\n")
         soil.write_text("law: {M: 1}\n")

@@ -31,14 +31,14 @@ DRIVEN = Case("sand", "rigid wheel", "driven", "no", 0.2, 0.0, 0.0, 0.4, 0.3)
 
 
 class BudgetTest(unittest.TestCase):
-    def test_known_parts_add_in_squares_and_unknown_ones_are_shown(self) -> None:
+    def test_known_parts_add_in_squares_and_unknown_parts_are_listed(self) -> None:
         budget = Budget(0.4e-3, 2e-3, packing=0.0, step=0.0, contact=0.0, held=0.0, model=11e-3)
         self.assertAlmostEqual(budget.total, math.sqrt(0.4**2 + 2**2 + 11**2) * 1e-3)
         self.assertEqual(
             budget.scaled(1e3).text(94.2, "mm"), "94 ± 11 mm (time 0.4, cells 2, model 11; ground, material unknown)"
         )
 
-    def test_a_value_without_any_known_part_has_no_error(self) -> None:
+    def test_value_without_any_known_part_has_no_error(self) -> None:
         self.assertTrue(math.isnan(Budget().total))
         self.assertEqual(Budget().value_text(0.12345), "0.123")
 
@@ -57,18 +57,18 @@ def tests(study: str, differences: list[float], case: Case = DRIVEN, error: floa
 
 
 class ModelErrorTest(unittest.TestCase):
-    def test_tests_of_a_study_that_are_alike_count_once(self) -> None:
+    def test_similar_tests_of_a_study_count_once(self) -> None:
         (regime,) = regimes_of([*tests("many", [0.1] * 9), *tests("one", [0.3])])
         self.assertAlmostEqual(regime.independent, 2.0)
         self.assertAlmostEqual(regime.model, few(2) * math.sqrt((0.01 + 0.09) / 2))
         self.assertAlmostEqual(regime.bias, 0.12)
         self.assertEqual((regime.tests, regime.studies), (10, ("many", "one")))
 
-    def test_errors_of_the_tests_are_taken_off_down_to_a_quarter(self) -> None:
+    def test_errors_of_tests_are_subtracted_down_to_a_quarter(self) -> None:
         self.assertAlmostEqual(regimes_of(tests("a", [0.1, -0.1], error=0.05))[0].model, few(2) * math.sqrt(0.0075))
         self.assertAlmostEqual(regimes_of(tests("a", [0.1, -0.1], error=0.2))[0].model, few(2) * 0.05)
 
-    def test_correlation_of_tests_of_a_study_is_that_of_made_studies(self) -> None:
+    def test_correlation_within_studies_is_recovered(self) -> None:
         random = np.random.default_rng(5)
         bias, scatter = 0.3, 0.4  # share of the bias in the mean square: 0.36
         made = [tests(f"{k}", list(random.normal(0, bias) + random.normal(0, scatter, 8))) for k in range(400)]
@@ -77,7 +77,7 @@ class ModelErrorTest(unittest.TestCase):
         alike = model_error.correlation([made[:3]])
         self.assertAlmostEqual(regime.independent, 3 / (alike**2 + (1 - alike**2) / 8))
 
-    def test_two_errors_hold_95_percent_however_few_studies_there_are(self) -> None:
+    def test_two_errors_cover_95_percent_for_few_studies(self) -> None:
         """A new study of the same population lies within two errors from two others, for biases that rule and for scatter."""
         random = np.random.default_rng(7)
         for bias, scatter in ((1.0, 0.01), (0.01, 1.0)):
@@ -105,14 +105,14 @@ class ModelErrorTest(unittest.TestCase):
         self.assertIsNone(model_error.model_error(regimes, "torque", DRIVEN))
         self.assertIsNone(model_error.model_error(regimes, "coefficient", replace(DRIVEN, slip=0.81)))  # 3.05 steps
 
-    def test_stored_regimes_give_what_their_tests_give(self) -> None:
+    def test_stored_regimes_equal_those_of_their_tests(self) -> None:
         made = regimes_of(TESTS.stored())
         stored = REGIMES.stored()
         for one, other in zip(made, stored, strict=True):
             self.assertEqual((one.words, one.tests, one.studies), (other.words, other.tests, other.studies))
             self.assertAlmostEqual(other.model / one.model, 1.0, 3)
 
-    def test_a_study_is_scored_by_the_others(self) -> None:
+    def test_study_is_predicted_by_the_others(self) -> None:
         scored = leave_one_study_out([*tests("a", [0.1]), *tests("b", [0.3])])
         self.assertEqual([round(one.normalised, 6) for one in scored], [round(1 / 3 / few(1), 6), round(3 / few(1), 6)])
         self.assertEqual(leave_one_study_out(tests("alone", [0.1, 0.2])), [])
@@ -142,7 +142,7 @@ class RunTest(FolderTest):
         run.conditions["density"] = Condition(1600.0, "kg/m3")
         return run
 
-    def test_cells_count_over_the_width_of_the_wheel(self) -> None:
+    def test_error_of_cells_depends_on_cells_in_the_wheel_width(self) -> None:
         """The series of convergence on sand, wheel of 272 mm: 60 mm are 44 mm under one of 200 mm."""
         run = self.on_sand(0.06 * WIDTH / 0.272)
         case = case_of(run)
@@ -157,7 +157,7 @@ class RunTest(FolderTest):
         errors = [of_like_wheels(run, case_of(run), "sinkage").size for run in map(self.on_sand, (0.0588, 0.12))]
         self.assertGreater(errors[1], 1.5 * errors[0])
 
-    def test_every_part_has_a_source_and_the_whole_is_no_smaller(self) -> None:
+    def test_parts_have_sources_and_the_total_is_no_smaller(self) -> None:
         for name, budget in RunErrors(self.on_sand()).all().items():
             for part in budget.known:
                 self.assertGreaterEqual(budget.total * (1 + 1e-12), budget.part(part), (name, part))
@@ -167,7 +167,7 @@ class RunTest(FolderTest):
         self.assertIn("cmu_sand predictions".replace(" ", ", "), coefficient.sources["model"])
         self.assertIn("convergence: sand, slip 0", coefficient.sources["size"])
 
-    def test_a_table_of_runs_counts_where_it_shows_more_than_like_wheels(self) -> None:
+    def test_larger_error_of_a_table_has_priority_over_similar_wheels(self) -> None:
         run = self.on_sand()
         usual = RunErrors(run).all()["hub_drop"].size
         key = FamilyKey(run.ground, run.model, run.wheel)
@@ -177,7 +177,7 @@ class RunTest(FolderTest):
             self.assertEqual(found.size > usual, larger)
             self.assertEqual(found.sources["size"] == "table of runs of the scene", larger)
 
-    def test_width_of_the_ground_counts_by_the_rule_of_its_study(self) -> None:
+    def test_error_of_the_ground_width_follows_its_study(self) -> None:
         effects = self.folder / "effects.csv"
         effects.write_text(
             "kind,body,edge,quantity,a,c,residual,runs\nsand,wheel,width,hub_drop_m,-0.8,0.5,0.01,9\n"
@@ -195,17 +195,17 @@ class RunTest(FolderTest):
         found = RunErrors(self.on_sand()).all()
         self.assertAlmostEqual(found["drawbar_pull"].model, 1000.0 * found["resistance_coefficient"].model)
 
-    def test_the_model_of_a_height_field_is_unknown(self) -> None:
+    def test_model_of_a_height_field_is_unknown(self) -> None:
         self.assertIn("model", RunErrors(self.read(ground="scm", size=0.01)).all()["hub_drop"].unknown)
 
-    def test_load_that_is_not_held_counts(self) -> None:
+    def test_varying_load_enters_the_error(self) -> None:
         run = self.on_sand()
         run.conditions["load"] = Condition(980.0, "N")
         found = RunErrors(run).all()
         self.assertAlmostEqual(found["hub_drop"].held, 0.05 * (1000 / 980 - 1))
         self.assertEqual(found["slip"].held, 0.0)
 
-    def test_convergence_of_the_scene_counts_before_like_wheels(self) -> None:
+    def test_convergence_of_the_scene_has_priority_over_similar_wheels(self) -> None:
         script = self.folder / "scene.lig"
         script.write_text("# a scene\n")
         runs = [self.on_sand(size) for size in (0.08, 0.04, 0.02)]
@@ -225,14 +225,14 @@ class RunTest(FolderTest):
         with self.assertRaisesRegex(ResultsError, "furrow-post converge SCENE"):
             scene_errors.read_convergence(place)
 
-    def test_texts_have_whole_errors_parts_and_nearest_tests(self) -> None:
+    def test_texts_have_total_errors_parts_and_nearest_tests(self) -> None:
         write_run(self.folder / "run", styles=[rigid_wheel(), rig()], torque=50.0)
         text, title = report(self.folder / "run"), headline(self.folder / "run")
         self.assertRegex(text, r"hub drop +50 ± \d+ mm \(time 1\.0, model \d+; mesh, step, contact, material unknown\)")
         self.assertRegex(text, r"nearest tests of hub drop: \d+ tests: ")
         self.assertRegex(title, r"^hub drop 50 ± \d+ mm.*\(\+ mesh, step, contact, material unknown\).*; torque 50.0 ± 0.5 N m.* \(over time only\)")
 
-    def test_the_first_picture_has_the_whole_bar_over_the_nearest_tests(self) -> None:
+    def test_first_figure_has_the_total_error_over_the_nearest_tests(self) -> None:
         write_run(self.folder / "run", styles=[rigid_wheel(), rig()])
         run = read_wheel_run(self.folder / "run")
         run.ground, run.size = "continuum", 0.05
@@ -251,20 +251,20 @@ class RunTest(FolderTest):
         for text in ("measured hub drop over radius", "this run, 1 and 2 standard errors", "known tests"):
             self.assertIn(text, drawn)
 
-    def test_stored_tests_give_back_what_was_measured(self) -> None:
+    def test_stored_tests_have_the_measured_values(self) -> None:
         rows = [row for row in read_rows(VALIDATION / "snow_wheel" / "rows.csv") if row["used"] == "prediction" and row["refit_rut_depth_m"]]
         tests = [test for test in TESTS.stored() if test.study == "snow_wheel"]
         for quantity, column, scale in (("depth", "sinkage_m", 0.38), ("coefficient", "resistance", 1.0)):
             found = [scale * test.measured for test in tests if test.quantity == quantity]
             np.testing.assert_allclose(found, [float(row[column]) for row in rows], atol=1e-3)
 
-    def test_grousers_and_slopes_are_of_the_case(self) -> None:
+    def test_case_has_grousers_and_slope(self) -> None:
         wheel = style("wheel", "wheel/rigid", "wheel", diameter=2 * RADIUS, width=WIDTH, mass=50, grousers=12)
         write_run(self.folder / "bars", styles=[wheel, rig()], torque=50.0, slip=-0.3)
         case = case_of(read_wheel_run(self.folder / "bars"))
         self.assertEqual((case.grousers, case.motion), ("yes", "braked"))
 
-    def test_an_incomplete_run_has_its_error_over_time(self) -> None:
+    def test_incomplete_run_has_its_error_over_time(self) -> None:
         write_run(self.folder / "part")
         (self.folder / "part" / "history.h5").unlink()
         found = whole_error.budgets_of(Path(self.folder / "part"))["hub_drop"]

@@ -39,7 +39,7 @@ def write_wheel_on_terrain(folder: Path) -> None:
 
 
 class ComparisonFigureTest(FolderTest):
-    def test_five_grounds_have_panels_too(self) -> None:
+    def test_five_grounds_have_panels(self) -> None:
         runs = []
         for name in "abcde":
             write_wheel_on_terrain(self.folder / name)
@@ -49,7 +49,7 @@ class ComparisonFigureTest(FolderTest):
         draw_comparison(compare(runs), target)
         self.assertGreater(target.stat().st_size, 50000)
 
-    def test_letters_do_not_end(self) -> None:
+    def test_panel_letters_continue_after_z(self) -> None:
         letters = list(itertools.islice(panel_letters(), 30))
         self.assertEqual(letters[:2] + letters[25:28], ["a", "b", "z", "aa", "ab"])
         self.assertEqual(len(set(letters)), 30)

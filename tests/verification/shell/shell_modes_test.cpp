@@ -15,7 +15,7 @@
 #include "shell_model.h"
 #include "tests/support/error_of.h"
 
-namespace furrow::test::natural_modes_test {
+namespace furrow::test::shell_modes_test {
 namespace {
 
 constexpr double E = 1e10;           // [Pa]
@@ -79,7 +79,7 @@ struct Cantilever {
   Structure structure;
 };
 
-TEST(NaturalModes, ACantilever) {
+TEST(NaturalModes, CantileverHasEulerBernoulliFrequencies) {
   double coarse_error[3];
   for (const int elements : {40, 80}) {
     Cantilever beam(elements);
@@ -161,7 +161,7 @@ struct Ring {
   double inflated = 1.0;
 };
 
-TEST(NaturalModes, AnInflatedRingOnAnElasticFoundation) {
+TEST(NaturalModes, InflatedRingOnAnElasticFoundationHasTheClosedForm) {
   const double p = 20e3, k_w = 3e5, k_v = 1e5;
   Ring tyre(p, k_w, k_v);
   const NaturalModes modes = modes_of(tyre.structure, tyre.model, 10);
@@ -175,7 +175,7 @@ TEST(NaturalModes, AnInflatedRingOnAnElasticFoundation) {
     EXPECT_NEAR(modes.frequency[i] / expected[static_cast<std::size_t>(i)], 1.0, 0.01) << i;
 }
 
-TEST(NaturalModes, ARingNearItsCriticalPressure) {
+TEST(NaturalModes, RingNearItsCriticalPressureHasTheClosedForm) {
   const double D = E * std::pow(thickness, 3) / 12.0;
   const double critical = -3.0 * D / std::pow(Ring::radius, 3);
   // enough to hold it, not enough to stiffen it
@@ -191,7 +191,7 @@ TEST(NaturalModes, ARingNearItsCriticalPressure) {
 
 // ---- what is refused ---------------------------------------------------------------------------
 
-TEST(NaturalModes, ForcesBetweenNodesThatAreNoNeighboursAreFound) {
+TEST(NaturalModes, ForcesBetweenDistantNodesAreIncluded) {
   Cantilever beam(10);
   const Matrix3X rest = beam.model.nodes.x;
   beam.structure.add([rest](ShellNodes& nodes) {
@@ -205,11 +205,11 @@ TEST(NaturalModes, ForcesBetweenNodesThatAreNoNeighboursAreFound) {
               testing::HasSubstr("between nodes that are not neighbours"));
 }
 
-TEST(NaturalModes, MoreThanThereAreIsRefused) {
+TEST(NaturalModes, TooManyModesAreRefused) {
   Cantilever beam(4);
   EXPECT_THAT(error_of([&] { modes_of(beam.structure, beam.model, 1000); }),
               testing::HasSubstr("is 1000; allowed: 1 to"));
 }
 
 }  // namespace
-}  // namespace furrow::test::natural_modes_test
+}  // namespace furrow::test::shell_modes_test

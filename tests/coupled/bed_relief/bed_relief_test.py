@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Beds of grains with a relief.
 
-    run.py <furrow> <inputs/beds> <mpirun -n>
+    bed_relief_test.py <furrow> <inputs/beds> <mpirun -n>
 
 The tops of the grains follow the relief: mean and rms of their distance are below one diameter, and
 their wave has the amplitude of the relief. This holds for a washboard on one and on two ranks and

@@ -15,7 +15,7 @@
 #include "furrow/tyre/darnell/darnell_tyre.h"
 #include "furrow/tyre/mode_kind.h"
 
-namespace furrow::test::natural_modes_test {
+namespace furrow::test::tyre_modes_test {
 namespace {
 
 // little air, so that the belt has no wrinkles
@@ -34,7 +34,7 @@ DarnellTyre inflated(bool half = false) {
 
 /// Turning about the axle, moving along it, shaking along it and across, each of the last two in
 /// two directions: the order that measured tyres have as well.
-TEST(TyreModes, OfABodyOfRevolutionComeInPairs) {
+TEST(TyreModes, BodyOfRevolutionHasPairedModes) {
   DarnellTyre tyre = inflated();
   const NaturalModes modes = tyre.natural_modes(nullptr, 10);
   EXPECT_LT(modes.asymmetry, 1e-5);
@@ -52,7 +52,7 @@ TEST(TyreModes, OfABodyOfRevolutionComeInPairs) {
   EXPECT_GT(kind_of(tyre, modes.shape[2]).axial, 0.9);
 }
 
-TEST(TyreModes, OfATyreWithATreadOfBricksToo) {
+TEST(TyreModes, TyreOfBricksHasPairedModes) {
   BrickTyreParameters parameters =
       read_brick_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15_smooth.yaml");
   parameters.pressure = 100e3;
@@ -74,7 +74,7 @@ TEST(TyreModes, OfATyreWithATreadOfBricksToo) {
 
 /// The tyre is hit in the shape of a mode and left alone; the period is the time between crossings
 /// of the rest position.
-TEST(TyreModes, TheTyreVibratesWithTheirFrequencies) {
+TEST(TyreModes, FreeVibrationHasTheModalFrequencies) {
   for (const std::size_t mode : {0u, 4u}) {  // turning; shaking in the wheel's plane
     DarnellTyre tyre = inflated();
     const NaturalModes modes = tyre.natural_modes(nullptr, 5);
@@ -102,7 +102,7 @@ TEST(TyreModes, TheTyreVibratesWithTheirFrequencies) {
   }
 }
 
-TEST(TyreModes, StandingTheTreadIsHeldWhereItTouches) {
+TEST(TyreModes, StandingTyreIsFixedAtTheContact) {
   DarnellTyre tyre = inflated();
   const double free = tyre.natural_modes(nullptr, 1).frequency[0];
   RigidPlaneParameters floor;
@@ -124,11 +124,11 @@ TEST(TyreModes, StandingTheTreadIsHeldWhereItTouches) {
   EXPECT_GE(held, 4);
 }
 
-TEST(TyreModes, AHalfModelIsRefused) {
+TEST(TyreModes, HalfModelIsRefused) {
   DarnellTyre tyre = inflated(true);
   EXPECT_THAT(error_of([&] { tyre.natural_modes(nullptr, 3); }),
               testing::HasSubstr("is a half model"));
 }
 
 }  // namespace
-}  // namespace furrow::test::natural_modes_test
+}  // namespace furrow::test::tyre_modes_test

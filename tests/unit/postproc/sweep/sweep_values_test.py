@@ -47,12 +47,12 @@ WRONG = (
 
 
 class ValuesTest(unittest.TestCase):
-    def test_values(self) -> None:
+    def test_values_are_expanded(self) -> None:
         for text, values in RIGHT:
             with self.subTest(text):
                 self.assertEqual(" ".join(parse_variable(text).values), values)
 
-    def test_refusals(self) -> None:
+    def test_faults_are_refused(self) -> None:
         for text, message in WRONG:
             with self.subTest(text), self.assertRaises(ResultsError) as refused:
                 parse_variable(text)
@@ -67,7 +67,7 @@ class ValuesTest(unittest.TestCase):
         with self.assertRaisesRegex(ResultsError, "asks for 1000000 points"):
             parse_variables(["a=1:1000:1000", "b=1:1000:1000"])
 
-    def test_folders_can_be_made_and_differ(self) -> None:
+    def test_folder_names_are_valid_and_unique(self) -> None:
         self.assertEqual(folder_name({"slip": "-0.1", "load": "2e3"}), "slip_-0.1_load_2e3")
         strange = ("mode towed", "mode/towed", "../a.yaml", "a.yaml", "..", "x" * 300 + "/")
         names = [folder_name({"v": value}) for value in strange]
@@ -75,17 +75,17 @@ class ValuesTest(unittest.TestCase):
         for name in names:
             self.assertRegex(name, r"^v_[A-Za-z0-9.+-]{1,60}$")
 
-    def test_seeds_are_the_next_primes(self) -> None:
+    def test_seeds_are_successive_primes(self) -> None:
         self.assertEqual(further_seeds(10000, 3), [10007, 10009, 10037])
         self.assertEqual(further_seeds(10007, 1), [10009])
 
-    def test_a_variable_keeps_its_words(self) -> None:
+    def test_variable_keeps_its_texts(self) -> None:
         self.assertEqual(
             parse_variable("motion=mode towed,mode slip slip 0"),
             Variable("motion", ("mode towed", "mode slip slip 0")),
         )
 
-    def test_samples_fill_the_box_and_a_larger_count_keeps_the_first(self) -> None:
+    def test_samples_fill_the_box_and_extend_smaller_samples(self) -> None:
         words = ("slip=-0.2:0.6", "load=300:900")
         points = sampled(words, 60)
         self.assertEqual(sampled(words, 20), points[:20])

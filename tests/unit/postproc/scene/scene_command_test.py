@@ -84,7 +84,7 @@ class CommandTest(FolderTest):
         self.assertIn("[run] begins", done.stdout)
         self.assertNotIn("started with", done.stdout)
 
-    def test_backslash_in_the_name_of_a_script(self) -> None:
+    def test_script_name_with_a_backslash_is_run(self) -> None:
         self.script("a\\b.lig", SCRIPT)
         done = self.run_it("a\\b.lig", "-o", "out")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -96,14 +96,14 @@ class CommandTest(FolderTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("'results', '.'", self.started("a folder"))
 
-    def test_value_of_the_command_line_comes_before_that_of_quick(self) -> None:
+    def test_command_line_has_priority_over_quick(self) -> None:
         self.run_it("mine.lig", "--quick", "-o", "out")
         self.assertIn("'speed', '3'", self.started())
         self.run_it("mine.lig", "--quick", "-o", "out", "-v", "speed", "5")
         self.assertIn("'speed', '5'", self.started())
         self.assertNotIn("'speed', '3'", self.started())
 
-    def test_lines_quick_with_missing_words(self) -> None:
+    def test_incomplete_quick_lines_are_refused(self) -> None:
         for line in ("-v speed", "-v", "speed 3", "-v speed 3 -v", "-v speed 3 4", "-x speed 3", ""):
             with self.subTest(line=line):
                 self.script("bad.lig", SCRIPT.replace("-v speed 3", line))
@@ -164,7 +164,7 @@ class CommandTest(FolderTest):
         self.run_it("mine.lig", "-o", "out")
         self.assertFalse(particles.exists())
 
-    def test_what_cannot_be_continued(self) -> None:
+    def test_runs_that_cannot_be_continued_are_refused(self) -> None:
         self.script("other.lig", SCRIPT)
         for name, message in (("mine.lig", "has no variable 'from'"), ("other.lig", "has the results of")):
             begun, _ = self.begin()
@@ -197,7 +197,7 @@ class CommandTest(FolderTest):
         self.assertFalse((self.folder / "out").exists())
         self.assertIn("results in the folder that the script names", self.run_it("fixed.lig").stdout)
 
-    def test_remark_on_ranks(self) -> None:
+    def test_too_many_ranks_give_a_remark(self) -> None:
         with mock.patch("os.sched_getaffinity", return_value={0, 1}):
             for load, words in ((0.1, "continua of more than 30,000 particles"), (1.5, "expect no gain")):
                 with mock.patch("os.getloadavg", return_value=(load, 0, 0)):

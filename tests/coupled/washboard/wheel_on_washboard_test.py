@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The sprung wheel of wheel_on_washboard.lig on a continuum with a corrugated surface, in plane strain.
 
-    run.py <furrow> <scene>
+    wheel_on_washboard_test.py <furrow> <scene>
 
 At the frequency of the washboard the sprung mass follows the axle by the closed form of spring and
 damper, and the contact force is what moves both masses, on any ground. On stiff elastic ground the

@@ -8,7 +8,7 @@
 #include "furrow/bodies/rigid_plate.h"
 #include "tests/support/bar.h"
 
-namespace furrow::thin_parts_test {
+namespace furrow::thin_blade_test {
 namespace {
 
 using namespace testing_terrain;
@@ -83,7 +83,7 @@ Pushed push(const Blade& blade) {
 /// W. J. M. Rankine (1857): the passive pressure of weightless cohesive ground on a smooth upright
 /// wall is 2 c. The rear carries nothing. The answer comes from above, with the cell, wherever the
 /// blade is in it.
-TEST(ThinBlade, PushesAsRankineInBothPlaces) {
+TEST(ThinBlade, BladeForceConvergesToRankineAnywhereInACell) {
   for (const double place : {0.0, 0.5}) {
     const Pushed coarse = push({3, place, true}), fine = push({6, place, true});
     RecordProperty(fmt::format("force_at_{}", place),
@@ -99,11 +99,11 @@ TEST(ThinBlade, PushesAsRankineInBothPlaces) {
 
 /// Through the grid the blade pulls the ground behind it, and the springs of both faces press on
 /// each other.
-TEST(ThinBlade, PullsGroundOfOnePiece) {
+TEST(ThinBlade, UndividedGroundIsPulledBehindTheBlade) {
   const Pushed pushed = push({3, 0.5, false});
   RecordProperty("force", fmt::format("front {:.3f}, rear {:.3f}", pushed.front, pushed.rear));
   EXPECT_GT(pushed.net(), 2.0);
 }
 
 }  // namespace
-}  // namespace furrow::thin_parts_test
+}  // namespace furrow::thin_blade_test

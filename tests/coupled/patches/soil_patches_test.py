@@ -2,8 +2,8 @@
 """Two soils side by side: each of two wheels rolls as on its soil alone, and a wheel that comes from one soil
 rolls on the next as on this one alone.
 
-    run.py field <furrow>       height field, soils across and along the travel
-    run.py continuum <furrow>   continuum, soils across the travel
+    soil_patches_test.py field <furrow>       height field, soils across and along the travel
+    soil_patches_test.py continuum <furrow>   continuum, soils across the travel
 """
 
 import sys

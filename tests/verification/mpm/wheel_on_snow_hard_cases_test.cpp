@@ -11,7 +11,7 @@
 #include "furrow/core/error.h"
 #include "tests/support/error_of.h"
 
-namespace furrow::hard_cases_test {
+namespace furrow::wheel_on_snow_hard_cases_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -101,14 +101,14 @@ struct Scene {
   double time = 0.0;
 };
 
-TEST(HardCase, WheelDroppedFrom30Centimetres) {
+TEST(HardCase, WheelDroppedFrom30CentimetresRunsSoundly) {
   Scene scene(Bed{});
   scene.wheel.set_velocity({0, 0, -std::sqrt(2 * standard_gravity * 0.3)}, Vector3::Zero());
   scene.run(0.12);
   scene.expect_sound("drop");
 }
 
-TEST(HardCase, LoadDoubledInAStep) {
+TEST(HardCase, LoadDoubledInAStepRunsSoundly) {
   Scene scene(Bed{});
   scene.run(0.12);
   const double before = scene.sinkage();
@@ -118,7 +118,7 @@ TEST(HardCase, LoadDoubledInAStep) {
   scene.expect_sound("doubled");
 }
 
-TEST(HardCase, LockedWheelDragged) {
+TEST(HardCase, DraggedLockedWheelRunsSoundly) {
   Scene scene(Bed{});
   scene.run(0.1);
   scene.roll(2.2, 0.0, 0.12);
@@ -126,7 +126,7 @@ TEST(HardCase, LockedWheelDragged) {
   scene.expect_sound("locked");
 }
 
-TEST(HardCase, SnowOf47PascalInitialStrength) {
+TEST(HardCase, SnowOf47PascalStrengthRunsSoundly) {
   Bed bed;
   bed.material = snow();
   bed.material.replace(bed.material.find("113.76"), 6, "47.0");
@@ -138,7 +138,7 @@ TEST(HardCase, SnowOf47PascalInitialStrength) {
   scene.expect_sound("weak");
 }
 
-TEST(HardCase, GridFourTimesCoarser) {
+TEST(HardCase, GridOf4TimesTheCellRunsSoundly) {
   Bed bed;
   bed.cell = 0.1;  // two cells of snow
   Scene scene(bed);
@@ -147,7 +147,7 @@ TEST(HardCase, GridFourTimesCoarser) {
   scene.expect_sound("coarse");
 }
 
-TEST(HardCase, NoFrictionAndMuchFriction) {
+TEST(HardCase, ZeroAndHighFrictionRunSoundly) {
   for (const double friction : {0.0, 0.9}) {
     Bed bed;
     bed.friction = friction;
@@ -180,7 +180,7 @@ TEST(HardCase, SecondPassInTheSameRutAddsLittle) {
 
 /// Snow with cohesion that grows with density: the wheel spins at 90 % slip, tears itself out of
 /// its rut and rolls through it again.
-TEST(HardCase, CohesiveSnowSpunTornAndRolledAgain) {
+TEST(HardCase, SpinningWheelInCohesiveSnowRunsSoundly) {
   Bed bed;
   bed.material = crushing_snow();
   Scene scene(bed);
@@ -196,7 +196,7 @@ TEST(HardCase, CohesiveSnowSpunTornAndRolledAgain) {
   scene.expect_sound("rolled_again");
 }
 
-TEST(HardCase, StiffCrustOnSoftSnow) {
+TEST(HardCase, StiffCrustOnSoftSnowRunsSoundly) {
   Bed bed;
   bed.crust =
       "drucker_prager_cap density 400 d 1e5 beta 40 R 0.02 eps_vol_pl_0 0.001 elasticity linear E "
@@ -252,15 +252,15 @@ void expect_sound_at_90_percent(double stiffness) {
   });
 }
 
-TEST(HardCase, CompactionBy90Percent) { expect_sound_at_90_percent(3.6); }
+TEST(HardCase, CompactionBy90PercentRunsSoundly) { expect_sound_at_90_percent(3.6); }
 
 /// The contact's springs are made for the snow's elasticity; ice at tens of megapascals presses
 /// through them.
-TEST(HardCase, CompactionBy90PercentUnderASoftLidStopsWithItsCause) {
+TEST(HardCase, CompactionUnderASoftLidStopsTheRun) {
   EXPECT_THAT(test::error_of<StateError>([&] { expect_sound_at_90_percent(0.1); }),
               ::testing::AllOf(HasSubstr("contact 'foot': the surface is 0.01"),
                                HasSubstr("raise 'stiffness'")));
 }
 
 }  // namespace
-}  // namespace furrow::hard_cases_test
+}  // namespace furrow::wheel_on_snow_hard_cases_test

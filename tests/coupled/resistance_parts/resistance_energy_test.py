@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Resistance of which one part is known.
 
-    run.py strip <furrow> <furrow-point>
-    run.py road <results of inputs/scenes/tyre_on_plane.lig>
-    run.py bed <results of inputs/scenes/wheel_on_sand.lig>
+    resistance_energy_test.py strip <furrow> <furrow-point>
+    resistance_energy_test.py road <results of inputs/scenes/tyre_on_plane.lig>
+    resistance_energy_test.py bed <results of inputs/scenes/wheel_on_sand.lig>
 
 strip: ground that is only compacted, by a wheel without friction. Compaction takes per metre what
 confined compression of a column of the same law takes to the depth of the rut and does not give

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A plain LIGGGHTS script must give the same numbers with furrow as with liggghts.
 
-    run.py same <liggghts> <furrow> <script> [<launcher> ...]
+    plain_liggghts_test.py same <liggghts> <furrow> <script> [<launcher> ...]
         thermo lines and the final grains, every digit
-    run.py clear <furrow>
+    plain_liggghts_test.py clear <furrow>
         Furrow's styles after clear: as in a fresh process
-    run.py silent <furrow>
+    plain_liggghts_test.py silent <furrow>
         a script with a mesh without a screen, where liggghts itself breaks down
 """
 

@@ -12,14 +12,14 @@
 #include "tests/coupled/support/scene.h"
 #include "tests/support/meshes.h"
 
-namespace furrow::test::mesh_bodies_test {
+namespace furrow::test::mesh_body_forces_test {
 namespace {
 
 constexpr double load = 40.0;  // [N]
 
 /// A file that all ranks read.
 std::string stl_of(Scene& scene, const Surface& surface) {
-  const std::string path = fmt::format("mesh_bodies_test_{}.stl", scene.ranks());
+  const std::string path = fmt::format("mesh_body_forces_test_{}.stl", scene.ranks());
   if (scene.rank() == 0) write_stl(path, surface);
   scene.sum(0.0);  // a barrier
   return path;
@@ -75,7 +75,7 @@ void expect_equal(const Outcome& one, const Outcome& other, double tolerance) {
 class WheelMesh : public ::testing::TestWithParam<int> {};
 
 // The same triangles, which the file has with all digits.
-TEST_P(WheelMesh, OnAContinuumHasTheForcesOfTheBuiltInWheel) {
+TEST_P(WheelMesh, MeshOfAWheelHasTheForcesOfTheRigidWheel) {
   WheelGeometry geometry;
   geometry.diameter = 0.2;
   geometry.width = 0.08;
@@ -146,13 +146,13 @@ void expect_the_plate_of_twelve_facets(bool on_grains) {
   expect_equal(expected, found, 1e-6);
 }
 
-TEST(PlateMesh, OfTwelveFacetsHasTheForcesOfThePlateOnAContinuum) {
+TEST(PlateMesh, TwelveFacetsHaveTheForcesOfThePlateOnAContinuum) {
   expect_the_plate_of_twelve_facets(false);
 }
 
-TEST(PlateMesh, OfTwelveFacetsHasTheForcesOfThePlateOnGrains) {
+TEST(PlateMesh, TwelveFacetsHaveTheForcesOfThePlateOnGrains) {
   expect_the_plate_of_twelve_facets(true);
 }
 
 }  // namespace
-}  // namespace furrow::test::mesh_bodies_test
+}  // namespace furrow::test::mesh_body_forces_test

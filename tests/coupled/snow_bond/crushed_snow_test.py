@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A block of sintered snow that is crushed and torn, with what grains may meet.
 
-    run.py ranks.<load> <furrow> <mpirun -n>      on 1, 2 and 3 ranks: to rounding, and the same bonds
-    run.py restart.<load> <furrow> <mpirun -n>    continued after half of it, on 1 and 2 ranks: every bit
-    run.py same <furrow> <mpirun -n>              thrown at a mesh of LIGGGHTS as at a plane;
-                                                  every bit without AVX2 as with it, and in the loop
-                                                  of LIGGGHTS as in Furrow's
-    run.py overlaps <furrow> <mpirun -n>          accepted where snow is crushed, warned of where it
-                                                  is crushed to ice
+    crushed_snow_test.py ranks.<load> <furrow> <mpirun -n>      on 1, 2 and 3 ranks: to rounding, and the same bonds
+    crushed_snow_test.py restart.<load> <furrow> <mpirun -n>    continued after half of it, on 1 and 2 ranks: every bit
+    crushed_snow_test.py mesh_as_plane <furrow> <mpirun -n>     thrown at a mesh of LIGGGHTS as at a plane;
+                                                                every bit without AVX2 as with it, and in the
+                                                                loop of LIGGGHTS as in Furrow's
+    crushed_snow_test.py initial_overlap <furrow> <mpirun -n>   accepted where snow is crushed, warned of where it
+                                                                is crushed to ice
 
 Loads: plate (crushed on a plane by a body of Furrow), soft (the same, snow that does not harden),
 hybrid (on a continuum), plane and mesh (thrown at walls of LIGGGHTS, without a body of Furrow),
@@ -86,7 +86,7 @@ def restart(furrow, mpirun, folder, load):
         compare(f"{number} ranks", whole, continued, 0.0)
 
 
-def same(furrow, mpirun, folder):
+def mesh_as_plane(furrow, mpirun, folder):
     plane, mesh = (run(furrow, mpirun, folder / load, 1, load) for load in ("plane", "mesh"))
     check_that_it_happens(*plane)
     compare("mesh and plane", plane, mesh, ROUNDING)
@@ -95,7 +95,7 @@ def same(furrow, mpirun, folder):
     compare("without AVX2", plane, run(furrow, mpirun, folder / "baseline", 1, "plane"), 0.0)
 
 
-def overlaps(furrow, mpirun, folder):
+def initial_overlap(furrow, mpirun, folder):
     """Those of crushed snow are accepted; on a body beyond 0.4 of a diameter there is a warning, and
     one where two clusters leave less room to the snow between them than ice has."""
     ice = 917.0  # kg/m3
@@ -121,4 +121,5 @@ if __name__ == "__main__":
     case, program, *launcher = sys.argv[1:]
     check, *loads = case.split(".")
     with tempfile.TemporaryDirectory() as scratch:
-        {"ranks": ranks, "restart": restart, "same": same, "overlaps": overlaps}[check](program, launcher, Path(scratch), *loads)
+        checks = {"ranks": ranks, "restart": restart, "mesh_as_plane": mesh_as_plane, "initial_overlap": initial_overlap}
+        checks[check](program, launcher, Path(scratch), *loads)

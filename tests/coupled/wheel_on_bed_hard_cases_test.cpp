@@ -14,7 +14,7 @@
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 
-namespace furrow::test::hard_cases_test {
+namespace furrow::test::wheel_on_bed_hard_cases_test {
 namespace {
 
 struct Case {
@@ -41,7 +41,7 @@ void make_bed(Scene& scene, const Case& c) {
 
 class HardCase : public testing::TestWithParam<Case> {};
 
-TEST_P(HardCase, LosesNothing) {
+TEST_P(HardCase, BedKeepsGrainsMomentumAndEnergy) {
   const Case c = GetParam();
   Scene scene;
   make_bed(scene, c);
@@ -116,4 +116,4 @@ TEST(HardCases, CohesiveColumnCollapses) {
 }
 
 }  // namespace
-}  // namespace furrow::test::hard_cases_test
+}  // namespace furrow::test::wheel_on_bed_hard_cases_test

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Settling of a wheel on the ground, and the friction there.
 
-    run.py lowering <furrow>  the height at which a wheel starts does not change its rest
-    run.py friction <furrow>  a contact line without values takes those of the material file
+    first_contact_test.py lowering <furrow>  the height at which a wheel starts does not change its rest
+    first_contact_test.py friction <furrow>  a contact line without values takes those of the material file
 """
 
 import sys

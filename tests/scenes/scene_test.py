@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Runs the small version of a scene or laboratory test, as a user would, and checks the result.
 
-    run.py scene <script> <ranks> <results>     bash inputs/run <script> --quick
-    run.py two_grounds <results>                bash inputs/run --quick: two scenes and their report
-    run.py laboratory <script> <results>        inputs/laboratory/run.py, for a test or a ground
-    run.py sweep <results>                      the page of sweeps, one of them killed and resumed
-    run.py until_steady <results>               a run that goes on until it is steady
-    run.py error <results>                      plans for an error and for a time, and what limits them
-    run.py material <results>                   a scene over the standard errors of its soil card, and a later run that takes them
-    run.py answer <results>                     a tyre on clay, from its size and a cone index
-    run.py converge <results>                   two sizes of a scene, and a later run that takes their error
-    run.py usage                                the list of scenes
+    scene_test.py scene <script> <ranks> <results>     bash inputs/run <script> --quick
+    scene_test.py two_grounds <results>                bash inputs/run --quick: two scenes and their report
+    scene_test.py laboratory <script> <results>        inputs/laboratory/run.py, for a test or a ground
+    scene_test.py sweep <results>                      the page of sweeps, one of them killed and resumed
+    scene_test.py until_steady <results>               a run that goes on until it is steady
+    scene_test.py error <results>                      plans for an error and for a time, and what limits them
+    scene_test.py material <results>                   a scene over the standard errors of its soil card, and a later run that takes them
+    scene_test.py answer <results>                     a tyre on clay, from its size and a cone index
+    scene_test.py converge <results>                   two sizes of a scene, and a later run that takes their error
+    scene_test.py usage                                the list of scenes
 
 The head of a script states what is run and what must come out, in SI units:
 

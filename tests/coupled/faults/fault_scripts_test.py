@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Runs furrow on a script with one fault after another and checks what it says.
 
-    run.py <furrow> <script> [<launcher> ...]
+    fault_scripts_test.py <furrow> <script> [<launcher> ...]
 
 A table of the same name next to the script, `<script>.faults`, has a paragraph for each fault:
 

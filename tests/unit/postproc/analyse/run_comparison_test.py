@@ -15,7 +15,7 @@ from furrow_post.analyse.curves import Curve, CurveKind, compare_curves
 from furrow_post.analyse.density import height_left
 from furrow_post.laws.prediction import Prediction
 from furrow_post.uncertainty.verdict import BEST, COEFFICIENT, FORMULA, HUB_DROP, MEASURED, RUN
-from furrow_post.uncertainty.verdict import Agreement, Entry, Quantity, judge, remedies
+from furrow_post.uncertainty.verdict import Agreement, Entry, Quantity, remedies, verdict_between
 from furrow_post.errors import ResultsError
 from furrow_post.read.results import Results, Surface
 from furrow_post.run.summary import SteadyValue
@@ -31,47 +31,47 @@ def entry(
     return Entry(quantity, source, value, Budget(u, 0.0, 0.0, 0.0), kind)
 
 
-class JudgeTest(unittest.TestCase):
-    def test_two_standard_deviations_decide(self) -> None:
+class VerdictTest(unittest.TestCase):
+    def test_limit_of_agreement_is_two_standard_deviations(self) -> None:
         a = entry("a", 0.100, 0.003)
-        near = judge(a, entry("b", 0.100 + 2 * 0.005 - 1e-6, 0.004))
-        far = judge(a, entry("b", 0.100 + 2 * 0.005 + 1e-6, 0.004))
+        near = verdict_between(a, entry("b", 0.100 + 2 * 0.005 - 1e-6, 0.004))
+        far = verdict_between(a, entry("b", 0.100 + 2 * 0.005 + 1e-6, 0.004))
         self.assertEqual((near.agreement, far.agreement), (Agreement.AGREE, Agreement.DIFFER))
         self.assertIn("a and b differ: b - a = +10 mm (+10 %), 10 allowed", far.sentence)
 
     def test_agreement_within_a_large_uncertainty_is_inconclusive(self) -> None:
-        verdict = judge(entry("a", 0.1, 0.02), entry("b", 0.11, 0.0))
+        verdict = verdict_between(entry("a", 0.1, 0.02), entry("b", 0.11, 0.0))
         self.assertEqual(verdict.agreement, Agreement.INCONCLUSIVE)
         self.assertIn("inconclusive, too large: time of a: b - a = +10 mm (+10 %), 40 allowed", verdict.sentence)
 
-    def test_no_uncertainty_is_inconclusive(self) -> None:
+    def test_missing_uncertainty_is_inconclusive(self) -> None:
         other = Entry(HUB_DROP, "b", 0.1, Budget(), MEASURED)
-        verdict = judge(entry("a", 0.1, 0.001), other)
+        verdict = verdict_between(entry("a", 0.1, 0.001), other)
         self.assertEqual(verdict.agreement, Agreement.INCONCLUSIVE)
         self.assertIn("inconclusive, unknown: uncertainty of b", verdict.sentence)
 
-    def test_an_unknown_part_is_inconclusive_however_large_the_difference(self) -> None:
+    def test_unknown_part_of_the_error_is_inconclusive(self) -> None:
         for value in (0.1, 0.2):
             other = Entry(HUB_DROP, "b", value, Budget(time=0.001), RUN)
-            verdict = judge(entry("a", 0.1, 0.001), other)
+            verdict = verdict_between(entry("a", 0.1, 0.001), other)
             self.assertEqual(verdict.agreement, Agreement.INCONCLUSIVE)
             self.assertEqual(verdict.unknown, ("domain of b", "packing of b", "size of b"))
             self.assertIn("inconclusive, unknown: domain of b, packing of b, size of b", verdict.sentence)
             self.assertIn("2.8 allowed by the known parts", verdict.sentence)
 
-    def test_a_value_that_is_not_steady_has_no_known_error_over_time(self) -> None:
-        verdict = judge(entry("a", 0.1, 0.001), replace(entry("b", 0.1, 0.001), steady=False))
+    def test_unsteady_value_has_no_known_error_over_time(self) -> None:
+        verdict = verdict_between(entry("a", 0.1, 0.001), replace(entry("b", 0.1, 0.001), steady=False))
         self.assertEqual((verdict.agreement, verdict.unknown), (Agreement.INCONCLUSIVE, ("time of b",)))
         self.assertEqual(remedies(verdict.unknown), ["time average (b): a longer run"])
 
-    def test_each_unknown_part_has_the_run_that_finds_it(self) -> None:
+    def test_unknown_parts_list_the_run_that_determines_them(self) -> None:
         other = Entry(HUB_DROP, "b", 0.1, Budget(time=0.001), RUN)
-        sizes, ground, packings, command = remedies(judge(entry("a", 0.1, 0.001), other).unknown)
+        sizes, ground, packings, command = remedies(verdict_between(entry("a", 0.1, 0.001), other).unknown)
         self.assertRegex(sizes, r"^size of cells or grains \(b\): .*-v cell")
         self.assertRegex(ground, r"^size of the ground \(b\): .*-v width")
         self.assertRegex(packings, r"^packing of grains \(b\): .*-v seed")
         self.assertIn("furrow-post cost RUNS... --write errors.csv", command)
-        self.assertEqual(remedies(judge(entry("a", 0.1, 0.001), entry("b", 0.1, 0.001)).unknown), [])
+        self.assertEqual(remedies(verdict_between(entry("a", 0.1, 0.001), entry("b", 0.1, 0.001)).unknown), [])
 
 
 class CurvesTest(unittest.TestCase):
@@ -84,7 +84,7 @@ class CurvesTest(unittest.TestCase):
         ]
         return compare_curves(curves).verdict()
 
-    def test_material_points_agree_or_differ(self) -> None:
+    def test_curves_of_material_points_agree_or_differ(self) -> None:
         what = "compression (density over that at the start) at equal stress"
         self.assertEqual(self.verdict(1.0), f"The curves agree in {what}.")
         self.assertEqual(self.verdict(1.01), f"The curves differ in {what}.")
@@ -97,9 +97,9 @@ class OverallTest(unittest.TestCase):
     """The verdict comes from the enumeration, never from words."""
 
     def verdict(self, *pairs: tuple[Entry, Entry]) -> str:
-        return Comparison([], verdicts=[judge(a, b) for a, b in pairs]).overall()
+        return Comparison([], verdicts=[verdict_between(a, b) for a, b in pairs]).overall()
 
-    def test_every_kind_has_its_sentence(self) -> None:
+    def test_every_verdict_has_a_sentence(self) -> None:
         agree = entry("a", 0.1, 0.003), entry("b", 0.101, 0.003)
         differ = entry("a", 0.1, 0.003), entry("b", 0.2, 0.003)
         vague = entry("a", 0.2, 0.1, COEFFICIENT), entry("b", 0.21, 0.1, COEFFICIENT)
@@ -121,15 +121,15 @@ class OverallTest(unittest.TestCase):
         )
         self.assertEqual(self.verdict(), "")
 
-    def test_a_run_may_be_called_measured(self) -> None:
+    def test_run_can_have_the_name_measured(self) -> None:
         values = entry("a", 0.1, 0.003), entry("measured", 0.2, 0.003)
         self.assertEqual(self.verdict(values), "The runs differ in hub drop.")
 
-    def test_a_run_may_be_called_like_a_verdict(self) -> None:
+    def test_run_can_have_the_name_of_a_verdict(self) -> None:
         values = entry("inconclusive", 0.1, 0.003), entry("unknown", 0.1, 0.003)
         self.assertEqual(self.verdict(values), "The runs agree in hub drop.")
 
-    def test_measurements_are_no_part_of_it(self) -> None:
+    def test_overall_verdict_excludes_measurements(self) -> None:
         measured = entry("measured", 0.1, 0.001, kind=MEASURED)
         self.assertEqual(self.verdict((measured, entry("b", 0.2, 0.001))), "")
 
@@ -139,7 +139,7 @@ class CompareTest(FolderTest):
         write_run(self.folder / name, sinkage=sinkage)
         return read_wheel_run(self.folder / name, label)
 
-    def test_labels_become_unique_and_the_runs_stay_as_they_are(self) -> None:
+    def test_labels_become_unique_without_change_of_the_runs(self) -> None:
         runs = [self.read("one/wheel", "wheel"), self.read("two/wheel", "wheel")]
         result = comparison.compare(runs)
         self.assertEqual([run.label for run in result.runs], ["one/wheel", "two/wheel"])
@@ -158,7 +158,7 @@ class CompareTest(FolderTest):
             found = [difference.condition for difference in conditions.incomparable(runs)]
             self.assertEqual(found, differences, modes)
 
-    def test_slips_of_towed_wheels_that_differ_are_a_remark(self) -> None:
+    def test_different_slips_of_towed_wheels_give_a_remark(self) -> None:
         runs = [self.read("a", "a"), self.read("b", "b")]
         for run, slip in zip(runs, (-0.03, -0.09)):
             run.conditions["mode"] = Condition("towed")
@@ -173,7 +173,7 @@ class CompareTest(FolderTest):
         found = [difference.condition for difference in conditions.incomparable(runs)]
         self.assertEqual(found, ["slip definition"])
 
-    def test_a_run_called_measured_is_compared_as_any_other(self) -> None:
+    def test_run_named_measured_is_compared_as_any_other(self) -> None:
         runs = [self.read("a", "measured"), self.read("b", "b", sinkage=0.06)]
         result = comparison.compare(runs)
         self.assertEqual(
@@ -181,7 +181,7 @@ class CompareTest(FolderTest):
             "Inconclusive in hub drop and resistance coefficient; unknown: size of b, size of measured.",
         )
 
-    def test_measurements_are_judged_against_every_run(self) -> None:
+    def test_measurements_are_compared_with_every_run(self) -> None:
         reference = self.folder / "reference.csv"
         rows = "".join(f"0.2,{0.05 + k * 1e-3},0.2,200\n" for k in (-1, 0, 1))
         reference.write_text("# made\ndepth_m,sinkage_m,resistance,density_kgm3\n" + rows)
@@ -198,7 +198,7 @@ class CompareTest(FolderTest):
         with self.assertRaisesRegex(ResultsError, message):
             comparison.compare([run], measured=reference)
 
-    def test_best_estimates_of_runs_are_judged_too(self) -> None:
+    def test_best_estimates_of_runs_are_compared(self) -> None:
         # 60 mm with cells of 40 mm, on a line that falls to 52 mm
         run, other = self.read("a", "a", sinkage=0.06), self.read("b", "b", sinkage=0.06)
         run.ground, run.half, run.size = CONTINUUM.ground, True, 0.04
@@ -214,7 +214,7 @@ class CompareTest(FolderTest):
         self.assertEqual(best_estimates(other, known), [])  # of no family
 
         same = entry("b", 0.0521, 1e-3, kind=BEST)
-        verdict = judge(limit, same)
+        verdict = verdict_between(limit, same)
         self.assertIn("hub drop, best estimate: a and b agree", verdict.sentence)
         result = Comparison([run, other], [limit, same], best_estimates=[verdict])
         self.assertEqual(
@@ -226,7 +226,7 @@ class CompareTest(FolderTest):
         self.assertEqual(kinds, [BEST] * 2)
         self.assertEqual(Comparison([run]).overall_of_best_estimates(), "")
 
-    def test_formula_has_its_place_and_no_verdict(self) -> None:
+    def test_formula_is_listed_without_a_verdict(self) -> None:
         prediction = Prediction("made", "nowhere", 0.04, 100.0, 1000.0)
         result = comparison.compare([self.read("a", "a")], formulas=[prediction])
         (found,) = result.of(HUB_DROP, FORMULA)
@@ -247,7 +247,7 @@ class TyreResults(Results):
 
 
 class HeightLeftTest(unittest.TestCase):
-    def test_under_a_tyre_it_counts_the_deflection(self) -> None:
+    def test_height_left_under_a_tyre_includes_the_deflection(self) -> None:
         """0.2 m of ground up to 0.5 m; sinkage of the unloaded outline 0.18 m: 20 mm further up."""
         run = WheelRun(Path(), TyreResults(), "", "continuum", deformable=False)
         run.conditions = {"depth": Condition(0.2), "ground_level": Condition(0.5)}

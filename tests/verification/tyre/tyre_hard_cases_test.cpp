@@ -16,7 +16,7 @@
 #include "furrow/tyre/darnell/darnell_tyre.h"
 #include "tests/support/error_of.h"
 
-namespace furrow::hard_cases_test {
+namespace furrow::tyre_hard_cases_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -65,7 +65,7 @@ Rest press(double pressure, double load, int across, int around,
 
 /// 69 kPa under 5 kN: half of the way from tread to rim is used. The print carries the air's
 /// pressure and what sidewalls and belts add; the profile bulges.
-TEST(HardCases, LittleAirUnderMuchLoad) {
+TEST(HardCases, LowPressureUnderHighLoadIsSolved) {
   constexpr double little = 69e3, load = 5000.0;
   const Rest rest = press(little, load, 4, 36), full = press(241e3, load, 4, 36);
   EXPECT_NEAR(rest.patch.force, load, 8.0);
@@ -80,7 +80,7 @@ TEST(HardCases, LittleAirUnderMuchLoad) {
 
 /// The tread comes down on the rim: the chain has no table there, and the error says where and what
 /// was left.
-TEST(HardCases, BottomedIsRefused) {
+TEST(HardCases, TreadOnTheRimStopsTheRun) {
   EXPECT_THAT(test::error_of<StateError>([&] { press(69e3, 9000.0, 4, 36); }),
               ::testing::AllOf(HasSubstr("sidewall at +y, station"), HasSubstr("chord")));
 }
@@ -88,7 +88,7 @@ TEST(HardCases, BottomedIsRefused) {
 /// A crowned tread touches with its middle. Under its full load the barrel, which is curved both
 /// ways, snaps through: the middle of the print lifts, the tread carries at the front and the rear
 /// of it, and the tyre settles all the same.
-TEST(HardCases, CrownedTread) {
+TEST(HardCases, CrownedTreadSettles) {
   const auto crown = [](TyreParameters& tyre) { tyre.tread.crown = 0.01; };
   const Rest light = press(103e3, 600.0, 6, 72, crown), heavy = press(103e3, 6227.0, 6, 72, crown),
              flat = press(103e3, 6227.0, 6, 72);
@@ -110,7 +110,7 @@ TEST(HardCases, CrownedTread) {
 /// A sidewall that is held stiffly to the tread's edge presses the edge down and buckles the belt
 /// inside it, as [Shoop2001] Figs 52 and 53 show: the shoulder carries much more than the air's
 /// pressure, the line of nodes inside it much less, the middle the air's pressure.
-TEST(HardCases, BucklesInsideTheShoulder) {
+TEST(HardCases, StiffTreadJointBucklesTheBeltInsideTheShoulder) {
   constexpr double pressure = 207e3;
   const Rest pinned = press(pressure, 6627.0, 6, 72),
              held = press(pressure, 6627.0, 6, 72,
@@ -125,4 +125,4 @@ TEST(HardCases, BucklesInsideTheShoulder) {
 }
 
 }  // namespace
-}  // namespace furrow::hard_cases_test
+}  // namespace furrow::tyre_hard_cases_test

@@ -4,7 +4,7 @@
 The ground has fewer particles, and their number does not grow with the way. The wheel is that of
 inputs/crosscheck/wheel_continuum.lig.
 
-    run.py <furrow> <folder of the script>
+    graded_window_test.py <furrow> <folder of the script>
 """
 
 import sys

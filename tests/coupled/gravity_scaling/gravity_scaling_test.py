@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Granular scaling: wheels of other sizes in other gravities give the same numbers.
 
-    run.py <furrow>
+    gravity_scaling_test.py <furrow>
 
 Sand without cohesion and rate has no length and no time: with lengths L, times sqrt(L/g), masses
 L^3 and stresses L g, a wheel's slip, hub drop over L and forces over its weight are the same

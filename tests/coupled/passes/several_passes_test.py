@@ -2,9 +2,9 @@
 """Rolling in a rut: one wheel twice, or two wheels one behind the other; stopped in the middle of it
 and continued.
 
-    run.py sand <furrow>        one wheel twice, on grains
-    run.py sand_axles <furrow>  two wheels on grains
-    run.py snow <furrow> <results of inputs/scenes/two_axles.lig in its quick version>
+    several_passes_test.py sand <furrow>        one wheel twice, on grains
+    several_passes_test.py sand_axles <furrow>  two wheels on grains
+    several_passes_test.py snow <furrow> <results of inputs/scenes/two_axles.lig in its quick version>
 
 The run that continues gives the histories of the run in one, bit for bit. The second pass goes
 deeper, with less resistance than the first. Each of two wheels carries its own load, and keeps its

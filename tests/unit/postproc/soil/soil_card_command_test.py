@@ -98,14 +98,14 @@ class CardCommandTest(FolderTest):
     def runs(self) -> list[str]:
         return (self.folder / "log.txt").read_text().split()
 
-    def test_a_quick_card_has_the_cone_index_of_formulas(self) -> None:
+    def test_quick_card_has_the_cone_index_of_formulas(self) -> None:
         done = self.soil("make", "dry_sand_smooth", "--quick", "-o", "card")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("cone index: mean over 0 to 150 mm, spread", done.stdout)
         index = read_card(self.folder / "card" / "card.yaml").parameters()["index"]
         self.assertAlmostEqual(index.value / (CONE[0] + 0.075 * CONE[1]), 1, delta=0.01)
 
-    def test_the_card_has_the_parameters_of_the_ground(self) -> None:
+    def test_card_has_the_parameters_of_the_ground(self) -> None:
         done = self.soil("make", "dry_sand_smooth", "-o", "card")
         self.assertEqual(done.returncode, 0, done.stderr)
         card = read_card(self.folder / "card" / "card.yaml")
@@ -149,7 +149,7 @@ class CardCommandTest(FolderTest):
         self.soil(*words)
         self.assertEqual(self.runs(), 2 * first)
 
-    def test_a_run_that_fails_leaves_no_card(self) -> None:
+    def test_run_that_fails_leaves_no_card(self) -> None:
         self.furrow(1)
         done = self.soil("make", "dry_sand_smooth", "-o", "card")
         self.assertNotEqual(done.returncode, 0)
@@ -163,7 +163,7 @@ class CardCommandTest(FolderTest):
         found = {name: read_material(materials / f"{name}.yaml").linear for name in ("fresh_snow", "fresh_snow_foam", "norsand_dry")}
         self.assertEqual(found, {"fresh_snow": True, "fresh_snow_foam": False, "norsand_dry": False})
 
-    def test_a_card_of_grains_has_the_parameters(self) -> None:
+    def test_card_of_grains_has_the_parameters(self) -> None:
         done = self.soil("make", "sand_cmu", "-o", "card")
         self.assertEqual(done.returncode, 0, done.stderr)
         card = read_card(self.folder / "card" / "card.yaml")
@@ -184,7 +184,7 @@ class CardCommandTest(FolderTest):
         self.assertIn("8 grains wide; the index of another size, the standard one included, was not computed", card.notes[-2])
         self.assertIn("extrapolated to zero grain size 30 ± ", card.notes[-1])
 
-    def test_a_card_of_grains_on_the_moon_has_the_inertial_number_of_the_earth(self) -> None:
+    def test_card_of_grains_on_the_moon_has_the_inertial_number_of_earth(self) -> None:
         """Speeds grow with the root of gravity; the cone index of sand is in proportion to gravity."""
         self.soil("make", "sand_cmu", "--quick", "-o", "earth")
         self.soil("make", "sand_cmu", "--quick", "--gravity", 1.62, "-o", "moon")
@@ -207,13 +207,13 @@ class CardCommandTest(FolderTest):
                 ratio = float(given[1].variable(name)) / float(given[0].variable(name))
                 self.assertAlmostEqual(ratio, pace**power, places=9, msg=f"{run} {name}")
 
-    def test_a_card_of_bonded_grains_has_no_cone(self) -> None:
+    def test_card_of_bonded_grains_has_no_cone(self) -> None:
         self.soil("make", "snow_bonded", "--quick", "-o", "card")
         self.assertEqual(self.runs(), 2 * ["grain_plate"] + 2 * ["grain_ring"])
         card = read_card(self.folder / "card" / "card.yaml")
         self.assertIn("only where grains do not stick", card.failures()["cone"])
 
-    def test_the_scatter_of_packings_is_in_the_errors(self) -> None:
+    def test_errors_include_the_scatter_of_packings(self) -> None:
         self.soil("make", "sand_cmu", "-o", "equal")
         self.furrow(0, packing=1.1)
         self.soil("make", "sand_cmu", "-o", "apart")

@@ -2,7 +2,7 @@
 """A wheel run that is stopped and continued, against the same run without a break: the histories
 must agree.
 
-    run.py <case> <furrow> [<mpirun -n>]
+    restart_test.py <case> <furrow> [<mpirun -n>]
 
 Cases, with the largest difference reached here over 2000 steps, relative to the largest value of a
 channel:

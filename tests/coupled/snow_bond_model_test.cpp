@@ -13,7 +13,7 @@
 #include "tests/coupled/support/scene.h"
 #include "tests/coupled/support/snow.h"
 
-namespace furrow::test::snow_bond_test {
+namespace furrow::test::snow_bond_model_test {
 namespace {
 
 constexpr double dt = 1e-5, density = 340.0;
@@ -117,7 +117,7 @@ void set_motion(Scene& scene, int tag, const Sphere& sphere) {
 
 /// Two unlike clusters are sintered, pressed together obliquely while they turn, and torn apart;
 /// the pair lies across the border of two ranks.
-TEST(SnowBondModel, APairMovesAsTheLawSays) {
+TEST(SnowBondModel, PairMovesAsThePointLaw) {
   Pair pair;
   pair.i = {{0.0101, 0.001, 0.0}, {-1.0, 0.4, 0.1}, {20.0, -30.0, 15.0}, 0.0115};
   pair.j = {{-0.0085, 0.0, 0.0005}, {0.6, 0.0, 0.0}, {5.0, 10.0, -12.0}, 0.0085};
@@ -151,7 +151,7 @@ TEST(SnowBondModel, APairMovesAsTheLawSays) {
 }
 
 /// A grain that is thrown at a floor, and its mirror image: half a contact.
-TEST(SnowBondModel, AWallIsHalfOfAContact) {
+TEST(SnowBondModel, WallContactIsHalfOfAMirroredPair) {
   for (const bool mesh : {false, true}) {
     Pair pair;
     pair.i = {{0.013, 0.011, 0.0105}, {0.1, 0.05, -0.4}, {10.0, -20.0, 8.0}, 0.01};
@@ -245,7 +245,7 @@ void two_lumps(Scene& scene) {
 }
 
 /// Nothing acts on the lumps from outside while they collide and break up.
-TEST(SnowBondModel, LumpsThatCollideKeepMomentumAndMoment) {
+TEST(SnowBondModel, CollidingLumpsKeepLinearAndAngularMomentum) {
   Scene scene;
   snow_box(scene, {});
   two_lumps(scene);
@@ -257,7 +257,7 @@ TEST(SnowBondModel, LumpsThatCollideKeepMomentumAndMoment) {
   EXPECT_GT(snow_energy(scene, 7), 50.0);  // bonds broken
 }
 
-TEST(SnowBondModel, TheEnergyOfLumpsThatCollideIsAccountedFor) {
+TEST(SnowBondModel, CollidingLumpsHaveAClosedEnergyBalance) {
   Scene scene;
   snow_box(scene, {});
   two_lumps(scene);
@@ -275,4 +275,4 @@ TEST(SnowBondModel, TheEnergyOfLumpsThatCollideIsAccountedFor) {
 }
 
 }  // namespace
-}  // namespace furrow::test::snow_bond_test
+}  // namespace furrow::test::snow_bond_model_test

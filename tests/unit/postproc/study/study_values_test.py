@@ -13,7 +13,7 @@ from furrow_post.study.provenance import read_origins
 from furrow_post.study.values import (
     NEED_REASON,
     Registry,
-    Value,
+    StudyValue,
     limit_verdict,
     study_folders,
     values_of,
@@ -23,7 +23,7 @@ from support.command import SOURCE
 
 
 class VerdictTest(unittest.TestCase):
-    def test_equal_values(self) -> None:
+    def test_equal_values_agree(self) -> None:
         for expected, value, error, reference_error in (
             ("agrees", 10.9, 0.0, 0.0),
             ("near", 12.0, 0.0, 0.0),
@@ -37,13 +37,13 @@ class VerdictTest(unittest.TestCase):
             with self.subTest(value=value, error=error, reference_error=reference_error):
                 self.assertEqual(verdict_of(value, error, 10.0, reference_error), expected)
 
-    def test_a_larger_error_never_makes_a_value_agree(self) -> None:
+    def test_larger_error_never_makes_a_value_agree(self) -> None:
         for value in (9.0, 10.5, 11.5, 13.0):
             verdicts = [verdict_of(value, error, 10.0) for error in (0.0, 0.2, 0.5, 1.0, 3.0)]
             if verdicts[0] != "agrees":
                 self.assertNotIn("agrees", verdicts)
 
-    def test_limits_use_the_error(self) -> None:
+    def test_limits_include_the_error(self) -> None:
         for expected, value, error, upper in (
             ("met", 9.0, 0.0, True),
             ("missed", 11.0, 0.0, True),
@@ -81,21 +81,21 @@ ENTRY = "values:\n  - {{id: z, row: {{run: {run}}}, column: z, scale: 100, unit:
 
 
 class EntryTest(unittest.TestCase):
-    def value(self, more: str = "", run: str = "a") -> Value:
+    def value(self, more: str = "", run: str = "a") -> StudyValue:
         return Study(self, ENTRY.format(run=run, more=more), TABLE).registry()["plate.z"]
 
-    def test_a_value_is_scaled_and_its_error_too(self) -> None:
+    def test_scale_applies_to_value_and_error(self) -> None:
         for more, error in ((", error: e", 0.31), (", error: 0.5", 0.5), ("", None)):
             value = self.value(more)
             self.assertAlmostEqual(value.computed() or 0, 12.34)
             self.assertAlmostEqual(value.uncertainty() or 0, error or 0)
 
-    def test_the_error_of_the_next_size_is_the_distance(self) -> None:
+    def test_error_of_the_next_size_is_the_distance(self) -> None:
         value = self.value(", next: {row: {run: b}}, reference: 12, reference_of: measured")
         self.assertAlmostEqual(value.uncertainty() or 0, 0.66)
         self.assertEqual(value.verdict(), "agrees")
 
-    def test_a_ratio_divides_two_stored_numbers(self) -> None:
+    def test_ratio_divides_two_stored_numbers(self) -> None:
         value = self.value(", over: {row: {run: b}, scale: 1}, reference: 90, reference_of: report")
         self.assertAlmostEqual(value.computed() or 0, 12.34 / 0.130)
         self.assertEqual(value.row()["error"], "not estimated")
@@ -109,23 +109,23 @@ class EntryTest(unittest.TestCase):
         self.assertAlmostEqual(value.time_error(), 0.31)
         self.assertEqual(value.row()["error_of"], "time average; cells")
 
-    def test_an_rms_has_the_error_of_its_number_of_tests(self) -> None:
+    def test_rms_has_the_error_of_its_number_of_tests(self) -> None:
         value = self.value(", error: [{of: tests, tests: 8}]")
         self.assertAlmostEqual(value.uncertainty() or 0, 12.34 / 4)
 
-    def test_an_error_that_nobody_estimated_is_marked(self) -> None:
+    def test_unestimated_error_is_marked(self) -> None:
         unknown = self.value(", reference: 12.34, reference_of: measured")
         self.assertEqual((unknown.row()["error"], unknown.verdict()), ("not estimated", "inconclusive"))
         self.assertEqual(self.value(", error: [{of: none}]").row()["error"], "0")
 
-    def test_the_scatter_of_tests_enters_by_the_error_of_their_mean(self) -> None:
+    def test_scatter_of_tests_gives_the_error_of_their_mean(self) -> None:
         more = ", error: 0, reference: 11, reference_scatter: 1.2, reference_tests: {}, reference_of: measured"
         for tests, verdict in ((1, "agrees"), (4, "near")):
             value = self.value(more.format(tests))
             self.assertAlmostEqual(value.expected_error(), 1.2 / tests**0.5)
             self.assertEqual(value.verdict(), verdict)
 
-    def test_a_reference_may_be_stored_too(self) -> None:
+    def test_reference_can_be_a_stored_value(self) -> None:
         value = self.value(", error: 0, reference: {row: {run: b}}, limit: upper, reference_of: formula")
         self.assertAlmostEqual(value.expected() or 0, 13.0)
         self.assertEqual(value.verdict(), "met")
@@ -157,7 +157,7 @@ class PagesTest(unittest.TestCase):
         more = ", error: e, reference: 12.5, reference_of: measured"
         self.study = Study(self, ENTRY.format(run="a", more=more), TABLE)
 
-    def test_a_value_is_rounded_to_its_error(self) -> None:
+    def test_value_is_rounded_to_its_error(self) -> None:
         value = self.study.registry()["plate.z"]
         for form, text in (
             ("", "12.3 ± 0.3"),
@@ -168,7 +168,7 @@ class PagesTest(unittest.TestCase):
         ):
             self.assertEqual(shown(value, form), text)
 
-    def test_a_page_gets_the_stored_values(self) -> None:
+    def test_page_shows_the_stored_values(self) -> None:
         page = self.study.root / "page.md"
         page.write_text("z <!-- value: plate.z -->?<!-- end value --> cm\n", encoding="utf-8")
         stale = stale_pages(self.study.root, self.study.registry())
@@ -195,13 +195,13 @@ class StoredTest(unittest.TestCase):
         self.assertGreater(len(list(from_studies)), 200)
         write_pages(SOURCE, check=True)
 
-    def test_what_does_not_agree_has_a_reason(self) -> None:
+    def test_disagreeing_values_have_a_reason(self) -> None:
         for value in Registry.of(SOURCE):
             if value.verdict() in NEED_REASON:
                 with self.subTest(value.id):
                     self.assertTrue(value.reason)
 
-    def test_the_field_tests_are_those_of_their_table(self) -> None:
+    def test_field_tests_equal_their_table(self) -> None:
         """The twelve tests in 0.18 to 0.22 m of 220 kg/m3, on which values of c and z rest."""
         table = SOURCE / "inputs" / "validation" / "snow_wheel" / "reference.csv"
         measured = measured_near(table, 0.2, 220.0, {"depth": (0.9, 1.1), "density": (1.0, 1.0)})
@@ -215,7 +215,7 @@ class StoredTest(unittest.TestCase):
                 self.assertAlmostEqual(value.reference_scatter, scale * scatter, delta=0.01 * scale)
                 self.assertEqual(value.reference_tests, len(measured))
 
-    def test_nothing_of_the_studies_is_blind_and_calibrations_are_fitted(self) -> None:
+    def test_studies_are_not_blind_and_calibrations_are_fitted(self) -> None:
         registry = Registry.of(SOURCE)
         self.assertFalse([value.id for value in registry if value.label == "blind"])
         for name in (  # the numbers that the parameters of these runs were chosen by
@@ -227,7 +227,7 @@ class StoredTest(unittest.TestCase):
         ):
             self.assertEqual(registry[name].label, "fitted", name)
 
-    def test_a_computed_number_is_no_measurement(self) -> None:
+    def test_computed_number_is_no_measurement(self) -> None:
         for value in Registry.of(SOURCE):
             if value.quantity == "K0":  # 1 - sin(phi), from shear tests
                 self.assertEqual(value.reference_of, "formula")
@@ -236,7 +236,7 @@ class StoredTest(unittest.TestCase):
             if value.reference == 1867.0:  # of a plate on snow of 180 kg/m3
                 self.assertEqual(value.study, "plate_variants")
 
-    def test_every_table_has_its_origin(self) -> None:
+    def test_tables_state_their_origin(self) -> None:
         for folder in study_folders(SOURCE):
             tables = {value.stored.table.name for value in values_of(folder) if value.stored}
             self.assertLessEqual(tables, set(read_origins(folder)), folder)

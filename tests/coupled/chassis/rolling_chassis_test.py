@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A body on three and four wheels rolls over sand: momentum, statics, mirror image, restart.
 
-    run.py <case> <furrow>
+    rolling_chassis_test.py <case> <furrow>
 
 level: four wheels carry the weight and left equals right. A run that continues has the same bits.
 slopes: four wheels on a grade with a side slope. driven: a tricycle climbs by torques.
