@@ -347,7 +347,7 @@ CheckResult cells_show_the_grousers(const Scene&, FixGroundContact& contact) {
   const FixBody& body = contact.body_fix();
   const Options& ground = contact.ground().line();
   const auto* wheel = dynamic_cast<const WheelHub*>(&body.body());
-  if (!wheel || !body.options().has("grousers")) return {};
+  if (!wheel || !body.options().has("grousers") || !contact.needs_fine_cells()) return {};
   const Vector3 cell = contact.ground().shortest_cell();
   const auto count = static_cast<double>(body.options().integer("grousers"));
   const double high = wheel->tip_radius() - wheel->nominal_radius(),
@@ -515,6 +515,7 @@ CheckResult terrain_has_the_size_of_a_wheels(const Scene&, FixContactContinuum& 
 
 /// Counts cells across a body, and in the radius of a wheel or along a plate.
 CheckResult cells_show_the_body(const Scene&, FixGroundContact& contact) {
+  if (!contact.needs_fine_cells()) return {};
   const FixBody& body = contact.body_fix();
   const Options& ground = contact.ground().line();
   const auto [lower, upper] = whole_bounds(body.body());

@@ -15,6 +15,8 @@ class FixContactRft : public FixFieldContact {
   static const Outputs<FixContactRft>& outputs();
 
   const RftContact& contact() const { return contact_; }
+  /// Stresses act on the triangles of the body.
+  bool needs_fine_cells() const override { return false; }
   void add_losses(const Body& wheel, GroundLosses& losses) const override;
 
  private:

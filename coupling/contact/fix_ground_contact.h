@@ -13,6 +13,8 @@ namespace furrow::coupling {
 class FixGroundContact : public FixContact {
  public:
   virtual const Terrain& ground() const = 0;
+  /// True if forces converge with the cells of the ground.
+  virtual bool needs_fine_cells() const { return true; }
 
  protected:
   using FixContact::FixContact;
