@@ -33,7 +33,7 @@ check(postproc ${validation}/grains FILES ${of_validation/grains})
 check(postproc ${validation}/second_opinion FILES ${of_validation/second_opinion})
 check(postproc ${validation}/snow_wheel FILES ${of_validation/snow_wheel})
 check(postproc tests/support ${tests} inputs/laboratory inputs/crosscheck ${validation}/grains FILES tests/support/copied.py
-      tests/support/short_suite.py ${of_tests})
+      tests/support/mutants.py tests/support/short_suite.py ${of_tests})
 if(failed)
   message(FATAL_ERROR "mypy: see above")
 endif()
