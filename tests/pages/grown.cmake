@@ -17,9 +17,10 @@ string(REPLACE "  };\n  return models" "      VonMises::model(),\n  };\n  return
 file(CONFIGURE OUTPUT ${grown}/material_models.cpp CONTENT "${models}" @ONLY)
 set(grown_law ${grown}/material_models.cpp ${grown}/furrow/material/models/von_mises/von_mises.cpp)
 
-# grown_program(<target> <name> <source>...): the program <name> with the law
+# grown_program(<target> <name> <source>...): the program <name> with the law, for long tests alone
 function(grown_program target name)
-  add_executable(${target} ${ARGN} ${grown_law})
+  add_executable(${target} EXCLUDE_FROM_ALL ${ARGN} ${grown_law})
+  add_dependencies(long_tests ${target})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${grown}/bin
                         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_include_directories(${target} PRIVATE ${grown} ${PROJECT_SOURCE_DIR})
@@ -35,7 +36,8 @@ target_link_libraries(grown_point PRIVATE CLI11::CLI11)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/postproc/furrow-post ${grown}/bin/furrow-post SYMBOLIC)
 grown_program(guide_law_test guide_law_test ${grown}/furrow/material/models/von_mises/von_mises_test.cpp)
 target_link_libraries(guide_law_test PRIVATE GTest::gtest_main GTest::gmock)
-gtest_discover_tests(guide_law_test TEST_PREFIX "pages.law." DISCOVERY_TIMEOUT 60)
+add_test(NAME pages.law COMMAND guide_law_test --gtest_brief=1)
+furrow_long(pages.law)
 
 if(FURROW_COUPLING)
   grown_program(grown_furrow furrow ${PROJECT_SOURCE_DIR}/coupling/main.cpp ${grown}/coupling/output/fix_wheel_limit.cpp)

@@ -6,6 +6,7 @@ function(guide_test name build)
   add_test(NAME pages.${name} COMMAND ${FURROW_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/guide.py ${PROJECT_SOURCE_DIR} ${build}
            ${CMAKE_CURRENT_BINARY_DIR}/${name} ${ARGN})
   set_tests_properties(pages.${name} PROPERTIES TIMEOUT 1800 COST 50 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;${MPI_TEST_ENVIRONMENT}")
+  furrow_long(pages.${name})
 endfunction()
 
 file(GLOB howto RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/inputs/guide/howto/*.md

@@ -31,7 +31,7 @@ ELSEWHERE = (
     (r"(\w+=\S+ )?paraview ", "ParaView"),
     (r"inputs/laboratory/(run|calibrate|identify)\.py (?!--list)", "scenes.laboratory.*"),
     (r"bash inputs/run$", "scenes.two_grounds"),
-    (r"bash tests/run$", "this run of all tests"),
+    (r"bash tests/run( --all)?$", "this run of tests"),
     (r"(cmake|ctest) ", "this build"),
 )
 # Smaller than the quick versions, whose values tests/scenes checks

@@ -2,9 +2,13 @@
 #include "furrow/mpm/transfer/transfer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <random>
+#include <set>
+#include <string>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -549,6 +553,106 @@ TEST(Transfer, TransferKeepsNodalMassAndAddsNoKineticEnergy) {
     EXPECT_LE(after, before * (1.0 + 1e-14));
     before = after;
   }
+}
+
+/// A kernel, the fields of the particles that it reads, and the numbers that it gives.
+struct KernelUse {
+  const char* name;
+  std::set<std::string> read;
+  std::function<std::vector<double>(const TransferKernels&, Cloud&, const ParticleView&)> result;
+};
+
+/// NaN in all fields of the particles but those that a kernel reads.
+void spoil_all_but(const std::set<std::string>& read, Cloud& cloud) {
+  const auto spoil = [&](const std::string& name, std::vector<double>& values) {
+    if (read.count(name) == 0)
+      std::fill(values.begin(), values.end(), std::numeric_limits<double>::quiet_NaN());
+  };
+  for (auto& x : cloud.position) spoil("quadrature_position", x);
+  for (auto& x : cloud.moved) spoil("position", x);
+  for (auto& s : cloud.stress) spoil("stress", s);
+  spoil("velocity", cloud.velocity);
+  spoil("affine", cloud.affine);
+  spoil("residual", cloud.residual);
+  spoil("volume", cloud.volume);
+  spoil("volume_ratio", cloud.ratio);
+  spoil("gradient", cloud.gradient);
+}
+
+/// The first three of each four numbers; the last is unused.
+void append_vectors(const std::vector<double>& values, std::vector<double>& result) {
+  for (std::size_t n = 0; n < values.size(); n += 4)
+    result.insert(result.end(), &values[n], &values[n] + 3);
+}
+
+const KernelUse kernel_uses[] = {
+    {"scatter_momentum",
+     {"quadrature_position", "velocity", "affine", "volume"},
+     [](const TransferKernels& kernels, Cloud& cloud, const ParticleView& particles) {
+       EXPECT_EQ(kernels.scatter_momentum(cloud.grid.view(), particles, Cloud::rho), 0u);
+       return numbers_of(cloud.grid);
+     }},
+    {"scatter_force",
+     {"quadrature_position", "volume", "volume_ratio", "stress"},
+     [](const TransferKernels& kernels, Cloud& cloud, const ParticleView& particles) {
+       cloud.find_weights(kernels);
+       kernels.scatter_force(cloud.grid.view(), particles, cloud.weights.data());
+       return numbers_of(cloud.grid);
+     }},
+    {"gather_strain",
+     {"quadrature_position"},
+     [](const TransferKernels& kernels, Cloud& cloud, const ParticleView& particles) {
+       cloud.find_weights(kernels);
+       kernels.gather_strain(cloud.grid.view(), particles, cloud.weights.data(), 1e-3,
+                             cloud.gradients);
+       return cloud.gradient;
+     }},
+    {"stress_work",
+     {"volume", "volume_ratio", "stress", "gradient"},
+     [](const TransferKernels& kernels, Cloud& cloud, const ParticleView& particles) {
+       const StressWork work = kernels.stress_work(particles, cloud.gradients);
+       return std::vector<double>{work.total, work.vertical};
+     }},
+    {"gather_residual",
+     {"quadrature_position", "velocity", "affine"},
+     [](const TransferKernels& kernels, Cloud& cloud, const ParticleView& particles) {
+       kernels.gather_residual(cloud.grid.view(), particles);
+       std::vector<double> result;
+       append_vectors(cloud.residual, result);
+       return result;
+     }},
+    {"gather_motion",
+     {"quadrature_position", "position", "residual"},
+     [](const TransferKernels& kernels, Cloud& cloud, const ParticleView& particles) {
+       kernels.gather_motion(cloud.grid.view(), particles, 0.95);
+       std::vector<double> result;
+       for (const auto& x : cloud.moved) result.insert(result.end(), x.begin(), x.end());
+       append_vectors(cloud.velocity, result);
+       append_vectors(cloud.affine, result);
+       return result;
+     }}};
+
+/// Fields that a kernel does not read, among them those that it writes, may be undefined.
+TEST(Transfer, UnusedFieldsHaveNoEffect) {
+  for (const InstructionSet set : available_instruction_sets())
+    for (const KernelUse& use : kernel_uses) {
+      std::vector<double> results[2];
+      for (const bool spoiled : {false, true}) {
+        const auto& kernels = kernels_for<TransferKernels>(set);
+        Cloud cloud(203);  // no multiple of a batch
+        Grid& grid = cloud.grid;
+        ASSERT_EQ(cloud.give_momentum(), 0u);
+        grid.compute_velocities(grid.all_nodes());
+        kernels.gather_residual(grid.view(), cloud.view());
+        grid.move(grid.all_nodes(), grid.all_nodes(), dt);
+        cloud.take_strain(dt);
+        const ParticleView particles = cloud.view();
+        if (spoiled) spoil_all_but(use.read, cloud);
+        results[spoiled] = use.result(kernels, cloud, particles);
+      }
+      for (const double value : results[0]) ASSERT_TRUE(std::isfinite(value)) << use.name;
+      EXPECT_EQ(results[1], results[0]) << use.name << ", " << to_string(set);
+    }
 }
 
 }  // namespace
