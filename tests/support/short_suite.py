@@ -24,7 +24,7 @@ def main(source: Path, build: Path) -> None:
         if f"/{law}_0 " not in cases:
             faults.append(f"the law {law} has no conformance test")
     styles = json.loads(output(build / "bin" / "furrow", "--keys"))
-    pages = {page.stem for page in (source / "coupling").glob("*/*.md")}
+    pages = {page.stem for page in (source / "coupling").rglob("*.md")}
     for style in styles:
         internal = style.startswith("fix furrow/") or style == "fix ave/time"
         if not internal and style.replace(" ", "_").replace("/", "_") not in pages:
