@@ -181,6 +181,7 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
     std::vector<std::string> aside;
     if (section.name == "law") aside.push_back("type");
     if (map != &nothing) result.sections[section.name] = entries_of(*map, aside);
+    result.options.emplace(section.name, SectionOptions{name, options});
   }
   result.contact = contact_of(file);
   const std::unique_ptr<Material> material = with_place(path, [&] { return result.make(); });
@@ -193,11 +194,10 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
   if (has_warnings) return result;  // these warnings cause further ones
   for (const std::string& warning : plausibility_warnings(*material))
     result.warnings.push_back(fmt::format("{}: {}", path, warning));
-  const MaterialOptions options = read_sections(model, result.sections);
-  for (const std::string& warning : plausibility_warnings(options))
+  for (const std::string& warning : plausibility_warnings(result.options))
     result.warnings.push_back(fmt::format("{}: {}", path, warning));
   if (model.warnings)
-    for (const std::string& warning : model.warnings(options))
+    for (const std::string& warning : model.warnings(result.options))
       result.warnings.push_back(fmt::format("{}: {}", path, warning));
   return result;
 }

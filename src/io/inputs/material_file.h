@@ -33,12 +33,13 @@ struct MaterialFile {
   std::string path;
   std::string title;  ///< the file's, or its name without folder and ending
   MaterialModel model;
-  MaterialSections sections;
+  MaterialSections sections;  ///< as given
+  MaterialOptions options;    ///< the same values as the law takes them, defaults included
   GroundContact contact;
   std::optional<double> cone_index;   ///< [Pa]
   std::vector<std::string> warnings;  ///< unusual values, a sentence each, to be shown
 
-  std::unique_ptr<Material> make() const { return make_material(model, sections); }
+  std::unique_ptr<Material> make() const { return model.create(options); }
 };
 
 /// @throws InputError naming file, line and key, what is allowed and what to do

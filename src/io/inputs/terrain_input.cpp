@@ -44,6 +44,7 @@ void scale_modulus(MaterialFile& file, double factor, const std::string& where) 
   for (Entry& entry : file.sections["elasticity"])
     if (entry.key == "E") {
       entry.values[0] = fmt::format("{:.17g}", factor * std::stod(entry.values[0]));
+      file.options = read_sections(file.model, file.sections);
       return;
     }
   throw InputError(where, fmt::format("is {}, and {} has no Young's modulus E", factor, file.path),
@@ -53,7 +54,7 @@ void scale_modulus(MaterialFile& file, double factor, const std::string& where) 
 /// The law and every key that has a value, section by section.
 std::vector<Entry> describe(const MaterialFile& file) {
   std::vector<Entry> description = {{"law", {file.model.name}}};
-  for (const auto& [section, values] : read_sections(file.model, file.sections)) {
+  for (const auto& [section, values] : file.options) {
     description.push_back({section, {values.type}});
     for (Entry entry : values.options.effective()) {
       entry.key = section + '.' + entry.key;

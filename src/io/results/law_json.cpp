@@ -102,10 +102,9 @@ std::string laws_json(const MaterialModels& models) {
 }
 
 std::string material_json(const MaterialFile& file, double pressure) {
-  const MaterialOptions options = read_sections(file.model, file.sections);
   Json sections = Json::object();
   for (const SectionSchema& section : file.model.sections) {
-    const SectionOptions& values = options.at(section.name);
+    const SectionOptions& values = file.options.at(section.name);
     const Schema& schema = section.choice(values.type).schema;
     Json json = Json::object();
     const std::string type = section.name == "law" ? file.model.name : values.type;
