@@ -156,7 +156,7 @@ def plant(copy: Path, chosen: list[Mutant]) -> None:
         for one in faults:
             lines[one.line - 1] = one.guarded.format(n=one.number)
         # In the first line, a comment, so that errors name the lines of the original
-        first = '#include "core/mutant.h"' if file.endswith(".cpp") else '#pragma once\n#include "core/mutant.h"\n#line 1'
+        first = '#include "furrow/core/mutant.h"' if file.endswith(".cpp") else '#pragma once\n#include "furrow/core/mutant.h"\n#line 1'
         text = "\n".join([f"{first}\n#line 1", *lines]) + "\n"
         if not (copy / file).exists() or (copy / file).read_text() != text:
             (copy / file).write_text(text)
@@ -172,7 +172,8 @@ def build(copy: Path, folder: Path, chosen: list[Mutant], jobs: str) -> list[Mut
         done = subprocess.run(["cmake", "--build", folder, "-j", jobs, "--", "-k", "0"], capture_output=True, text=True)
         if done.returncode == 0:
             return chosen
-        errors = {(m[1], int(m[2])) for m in re.finditer(r"((?:src|coupling)/[\w/.]+):(\d+):\d+: error", done.stdout)}
+        said = done.stdout.replace("build/include/furrow/", "src/")
+        errors = {(m[1], int(m[2])) for m in re.finditer(r"((?:src|coupling)/[\w/.]+):(\d+):\d+: error", said)}
         bad = [one for one in chosen if (one.file, one.line) in errors]
         if not bad:
             sys.exit(done.stdout[-6000:])
