@@ -340,4 +340,40 @@ std::vector<ThinPart> find_thin_parts(const Surface& surface, double largest_thi
   return parts;
 }
 
+/// A part is its regions and the number of its facets; a facet its nodes, its half thickness, and
+/// its ends as bits.
+void checkpoint_parts(Checkpoint& state, std::vector<ThinPart>& parts) {
+  std::vector<double> numbers;
+  for (const ThinPart& part : parts) {
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(part.region[0]), static_cast<double>(part.region[1]),
+                    static_cast<double>(part.facets.size())});
+    for (const ThinPart::Facet& facet : part.facets) {
+      int ends = 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        ends += (facet.edge_ends[c] << c) + (facet.corner_ends[c] << (3 + c));
+      for (const int node : facet.nodes) numbers.push_back(node);
+      numbers.insert(numbers.end(), {facet.half_thickness, static_cast<double>(ends)});
+    }
+  }
+  state.values("thin_parts", numbers);
+  if (state.saving()) return;
+  parts.clear();
+  for (auto number = numbers.cbegin(); number != numbers.cend();) {
+    ThinPart part;
+    for (int& region : part.region) region = static_cast<int>(*number++);
+    part.facets.resize(static_cast<std::size_t>(*number++));
+    for (ThinPart::Facet& facet : part.facets) {
+      for (int& node : facet.nodes) node = static_cast<int>(*number++);
+      facet.half_thickness = *number++;
+      const int ends = static_cast<int>(*number++);
+      for (std::size_t c = 0; c < 3; ++c) {
+        facet.edge_ends[c] = (ends >> c & 1) != 0;
+        facet.corner_ends[c] = (ends >> (3 + c) & 1) != 0;
+      }
+    }
+    parts.push_back(std::move(part));
+  }
+}
+
 }  // namespace furrow

@@ -12,6 +12,7 @@
 #include <array>
 #include <vector>
 
+#include "furrow/core/checkpoint.h"
 #include "furrow/geometry/surface.h"
 
 namespace furrow {
@@ -48,5 +49,9 @@ class ThinPart {
 /// @param regions  how many numbers there are; both sides of a part differ
 std::vector<ThinPart> find_thin_parts(const Surface& surface, double largest_thickness,
                                       double largest_gap, int regions);
+
+/// Saves or restores parts. A surface that has turned gives parts that differ by rounding, and the
+/// other one of two equal faces.
+void checkpoint_parts(Checkpoint& state, std::vector<ThinPart>& parts);
 
 }  // namespace furrow

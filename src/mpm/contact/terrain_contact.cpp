@@ -226,6 +226,7 @@ void TerrainContact::checkpoint(Checkpoint& state) {
   state.value("area", step_.area);
   state.value("penetration", step_.penetration);
   state.value("last_dt", last_dt_);
+  if (terrain_.parameters().thin_parts) checkpoint_parts(state, thin_parts_);
 }
 
 }  // namespace furrow

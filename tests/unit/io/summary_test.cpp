@@ -108,6 +108,7 @@ TEST(Summary, ImposedValuesAreMarkedAndHaveNoError) {
   const std::string text = summary_text(summary());
   EXPECT_THAT(text, HasSubstr("imposed by the scene"));
   Summary free = summary();
+  free.resistance.axle_free = true;
   free.resistance.values[2].imposed = true;
   free.resistance.values[4] = value("slip", "", 0.0864, 0.041, false);
   EXPECT_THAT(verdict_of(free),
