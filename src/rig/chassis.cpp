@@ -212,6 +212,7 @@ const Outputs<const Chassis>& Chassis::outputs() {
 void Chassis::checkpoint(Checkpoint& state) {
   body_.checkpoint(state);
   state.values("speed", speed_);
+  if (rigs_.front()->travel_free()) state.values("places", places_);
 }
 
 }  // namespace furrow
