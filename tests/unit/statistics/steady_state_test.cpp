@@ -41,18 +41,20 @@ TEST(SteadyState, ErrorBarsOfCorrelatedSignalsCoverTheTruth) {
     const double tau = 0.5 * (1.0 + phi) / (1.0 - phi),
                  truth = std::sqrt(2.0 * tau / static_cast<double>(rows));
     int covered = 0;
-    double error = 0.0, time = 0.0;
+    double error = 0.0, time = 0.0, samples = 0.0;
     for (int seed = 0; seed < seeds; ++seed) {
       const SteadyValue value =
           analyse_steady("x", "", autoregressive(phi, rows, static_cast<unsigned>(seed)), 0.1, 1.0);
       covered += std::abs(value.mean) < 2.0 * value.standard_error;
       error += value.standard_error / seeds;
       time += value.correlation_time / seeds;
+      samples += value.independent_samples / seeds;
     }
     EXPECT_GE(covered, 0.90 * seeds) << "phi " << phi;
     EXPECT_LE(covered, 0.98 * seeds) << "phi " << phi;
     EXPECT_NEAR(error / truth, 1.0, 0.1) << "phi " << phi;
     EXPECT_NEAR(time / (tau * 0.1), 1.0, 0.2) << "phi " << phi;
+    EXPECT_NEAR(samples / (static_cast<double>(rows) / (2.0 * tau)), 1.0, 0.3) << "phi " << phi;
   }
 }
 
