@@ -55,7 +55,11 @@ const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
        [](R& r) { return static_cast<double>(r.rig.stage(r.time)); }},
       {axle_free_channel, "",
        "1: free along x; 2: free together with the wheels of its chassis; 0: not free",
-       [](R& r) { return r.rig.travel_free_ ? (r.rig.joined_ ? 2.0 : 1.0) : 0.0; }},
+       [](R& r) {
+         return static_cast<double>(!r.rig.travel_free_ ? AxleTravel::held
+                                    : r.rig.joined_     ? AxleTravel::shared
+                                                        : AxleTravel::free);
+       }},
       {"x", "m", "position of the axle centre along the travel",
        [](R& r) { return r.wheel.centre().x(); }},
       {"y", "m", "lateral position of the axle centre", [](R& r) { return r.wheel.centre().y(); }},

@@ -189,10 +189,11 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   add("drive_torque", "N m", part("drive_torque"), torque_scale);
   result.driven = std::abs(result.values.back().mean) > no_torque * torque_scale;
   add("slip", "", part("slip"), slip_scale);
-  const std::vector<double> free =
-      history.has(axle_free_channel) ? part(axle_free_channel) : std::vector<double>{};
-  result.axle_free = any_not_zero(free);
-  mark_imposed(result.values, result.driven, result.axle_free && free.back() == 1.0);
+  const AxleTravel travel = history.has(axle_free_channel)
+                                ? static_cast<AxleTravel>(part(axle_free_channel).back())
+                                : AxleTravel::held;
+  result.axle_free = travel != AxleTravel::held;
+  mark_imposed(result.values, result.driven, travel == AxleTravel::free);
   share_error_of_negatives(result.values, "resistance_coefficient", "net_traction_coefficient");
   if (history.has("tractive_force")) {
     const std::vector<double> tractive = part("tractive_force");

@@ -14,8 +14,11 @@ constexpr char stage_channel[] = "stage";
 /// Name of the channel that counts the passes in one rut, from 1.
 constexpr char pass_channel[] = "pass";
 
-/// Name of the channel that is 1 where the axle is free along x, and 2 where it is free together
-/// with others: speed and slip are then answers. Pull is an answer of the latter only.
+/// Travel of an axle along x. Of a free axle speed and slip are answers; of one that shares its
+/// travel with the other wheels of a vehicle, pull is an answer too.
+enum class AxleTravel { held = 0, free = 1, shared = 2 };
+
+/// Name of the channel that holds the travel of the axle, as a number.
 constexpr char axle_free_channel[] = "axle_free";
 
 /// Name of the channel that counts the pitches of grousers by which the wheel has turned.
