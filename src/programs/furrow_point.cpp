@@ -127,7 +127,7 @@ void show(const std::string& input, bool json, double pressure) {
     return;
   }
   show_warnings(file);
-  std::cout << furrow::material_file_text(file.title, file.model, file.sections);
+  std::cout << furrow::material_file_text(file.title, file.model, file.options);
 }
 
 furrow::MaterialModels laws_named(const std::string& name) {

@@ -207,8 +207,7 @@ std::unique_ptr<Material> load_material(const std::string& path, const MaterialM
 }
 
 std::string material_file_text(const std::string& title, const MaterialModel& model,
-                               const MaterialSections& sections) {
-  const MaterialOptions options = read_sections(model, sections);
+                               const MaterialOptions& options) {
   std::string text = fmt::format("title: {}\n", quoted(title));
   for (const SectionSchema& section : model.sections) {
     const SectionOptions& values = options.at(section.name);

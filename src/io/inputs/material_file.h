@@ -51,8 +51,7 @@ std::unique_ptr<Material> load_material(const std::string& path,
 
 /// The effective values, defaults included, with unit and meaning as comments: a material file that
 /// gives the same law.
-/// @throws InputError when the sections do not pass
 std::string material_file_text(const std::string& title, const MaterialModel& model,
-                               const MaterialSections& sections);
+                               const MaterialOptions& options);
 
 }  // namespace furrow

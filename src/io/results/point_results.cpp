@@ -57,9 +57,8 @@ void write_point_run(const std::string& folder, const PointRun& run, const Mater
   const auto in_folder = [&](const char* name) {
     return (std::filesystem::path(folder) / name).string();
   };
-  write_text_file(
-      in_folder("material.yaml"),
-      material_file_text(run.material.title, run.material.model, run.material.sections));
+  write_text_file(in_folder("material.yaml"),
+                  material_file_text(run.material.title, run.material.model, run.material.options));
   write_text_file(in_folder("run.yaml"), run_text(run));
 
   const std::vector<PointChannel> channels = point_channels(material);
@@ -216,7 +215,8 @@ std::string channel_values(const Material& material, const PointHistory& history
 
 std::string fitted_material(const PointFit& fit, const MaterialSections& sections) {
   return nlohmann::json(material_file_text(fit.material.title + ", fitted: " + fit.title,
-                                           fit.material.model, sections))
+                                           fit.material.model,
+                                           read_sections(fit.material.model, sections)))
       .dump();
 }
 

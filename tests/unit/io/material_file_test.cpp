@@ -145,13 +145,13 @@ TEST_F(MaterialFileTest, RefusesContactFileThatIsAbsent) {
 TEST_F(MaterialFileTest, EffectiveValuesReadBackAsTheSameLaw) {
   const MaterialFile first = read_material_file(file(with(sand, "Sand", "\"Shoop's sand: # 1\"")));
   EXPECT_EQ(first.title, "Shoop's sand: # 1");
-  const std::string text = material_file_text("it's: # sand", first.model, first.sections);
+  const std::string text = material_file_text("it's: # sand", first.model, first.options);
   EXPECT_THAT(text, AllOf(HasSubstr("alpha: 0"),
                           HasSubstr("beta: 14.56  # [degree] slope of the shear line"),
                           HasSubstr("p: [0.138e6, 0.172e6, 0.434e6]  # [Pa]")));
   const MaterialFile second = read_material_file(file(text, "written.yaml"));
   EXPECT_EQ(second.title, "it's: # sand");
-  EXPECT_EQ(material_file_text("it's: # sand", second.model, second.sections), text);
+  EXPECT_EQ(material_file_text("it's: # sand", second.model, second.options), text);
 }
 
 TEST_F(MaterialFileTest, VariantGivesOnlyTheDifferences) {
@@ -160,15 +160,15 @@ TEST_F(MaterialFileTest, VariantGivesOnlyTheDifferences) {
       read_material_file(file("base: sand.yaml\nlaw: {d: 5e3}\n", "variant.yaml"));
   const MaterialFile base = read_material_file(file(sand));
   EXPECT_EQ(variant.title, "Sand");
-  EXPECT_EQ(material_file_text("", variant.model, variant.sections),
-            with(material_file_text("", base.model, base.sections), "d: 1.194e6", "d: 5e3"));
+  EXPECT_EQ(material_file_text("", variant.model, variant.options),
+            with(material_file_text("", base.model, base.options), "d: 1.194e6", "d: 5e3"));
   // A section of another type replaces the base's whole: no table keys are left in it.
   const MaterialFile other =
       read_material_file(file("base: variant.yaml\ntitle: other\nhardening: {type: exponential, "
                               "pc0: 1e5, lambda: 0.1, kappa: 0, e0: 0.5}\n",
                               "other.yaml"));
   EXPECT_EQ(other.title, "other");
-  const std::string text = material_file_text("", other.model, other.sections);
+  const std::string text = material_file_text("", other.model, other.options);
   EXPECT_THAT(text, AllOf(HasSubstr("d: 5e3"), HasSubstr("pc0: 1e5"),
                           ::testing::Not(HasSubstr("interpolation"))));
 }

@@ -67,7 +67,7 @@ TEST(Presets, ShippedMaterialsAreRead) {
     if (entry.path().extension() != ".yaml") continue;
     if (entry.path().parent_path().filename() == "contact") continue;  // parts of materials
     const MaterialFile file = read_material_file(entry.path().string());
-    EXPECT_EQ(material_file_text(file.title, file.model, file.sections).find("title: "), 0u);
+    EXPECT_EQ(material_file_text(file.title, file.model, file.options).find("title: "), 0u);
     EXPECT_GT(file.make()->density(), 0.0);
     ++count;
   }
