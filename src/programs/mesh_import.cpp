@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh_import.h"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include <assimp/postprocess.h>
@@ -10,14 +8,13 @@
 #include <assimp/Importer.hpp>
 
 #include "furrow/core/error.h"
+#include "furrow/io/formats/input_text.h"
 #include "furrow/io/formats/mesh_file.h"
 
 namespace furrow {
 
 SolidMesh import_mesh(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
   Assimp::Importer importer;
   const bool is_ours = ending == ".stl" || ending == ".obj" || ending == ".vtp";
   if (is_ours || !std::filesystem::is_regular_file(path) || !importer.IsExtensionSupported(ending))

@@ -76,12 +76,6 @@ void check_height(const TextLines& lines, int line, double height, double x, dou
                "fill the gaps: gdal_fillnodata, or cut the map: gdal_translate -projwin");
 }
 
-std::string lower_case(std::string_view word) {
-  std::string text(word);
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 /// Checks the length of a text before memory is taken for its heights: one has a digit and a blank
 /// at least, the last one a digit.
 void check_length(const TextLines& lines, const std::string& text, double count) {

@@ -2,11 +2,11 @@
 #include "furrow/io/formats/input_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -81,6 +81,12 @@ void check_file(const std::string& path, const std::string& kind, std::uintmax_t
 }
 
 }  // namespace
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
 
 bool has_control_character(const std::string& text) {
   return std::any_of(text.begin(), text.end(), is_control);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace furrow {
 
@@ -24,6 +25,9 @@ std::string read_input_bytes(const std::string& path, const std::string& kind,
 /// The text in such bytes, without a byte order mark.
 /// @throws InputError where they are not text in UTF-8 (with the line)
 std::string text_of_bytes(std::string bytes, const std::string& path, const std::string& kind);
+
+/// Text with its ASCII letters in lower case.
+std::string lower_case(std::string_view text);
 
 /// True if a text has a control character other than tabulators and line ends.
 bool has_control_character(const std::string& text);

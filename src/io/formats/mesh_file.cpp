@@ -2,7 +2,6 @@
 #include "furrow/io/formats/mesh_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -211,9 +210,7 @@ SolidMesh mesh_of_facets(const std::string& path, const MeshFacets& read) {
 }
 
 SolidMesh read_mesh_file(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
   if (ending != ".stl" && ending != ".obj" && ending != ".vtp")
     throw InputError(path, "is no mesh file by its name", "names that end in .stl, .obj or .vtp",
                      "export the mesh in one of these formats; 'furrow-tyre mesh FILE' converts "

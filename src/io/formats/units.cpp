@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "furrow/io/formats/units.h"
 
-#include <cctype>
 #include <utility>
+
+#include "furrow/io/formats/input_text.h"
 
 namespace furrow {
 
@@ -67,15 +68,10 @@ constexpr Unit units[] = {{"pa", "Pa", 1.0},
                           {"mpa/m", "Pa/m", 1e6},
                           {"m/s2", "m/s^2", 1.0}};
 
-std::string lower_case_of(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 }  // namespace
 
 const Unit* find_unit(const std::string& text) {
-  std::string name = lower_case_of(text);
+  std::string name = lower_case(text);
   for (const auto& [from, to] : {std::pair<const char*, const char*>{"\xC2\xB2", "2"},
                                  {"\xC2\xB3", "3"},
                                  {"\xC2\xB5", "u"},
