@@ -14,8 +14,8 @@ constexpr char stage_channel[] = "stage";
 /// Name of the channel that counts the passes in one rut, from 1.
 constexpr char pass_channel[] = "pass";
 
-/// Travel of an axle along x. Of a free axle speed and slip are answers; of one that shares its
-/// travel with the other wheels of a vehicle, pull is an answer too.
+/// Travel of an axle along x. Speed and slip are answers of a free axle. Pull is an answer too
+/// where the axle shares its travel with the other wheels of a vehicle.
 enum class AxleTravel { held = 0, free = 1, shared = 2 };
 
 /// Name of the channel that holds the travel of the axle, as a number.
