@@ -3,22 +3,26 @@
 /// Contact of two clusters of sintered snow that crush in place (theory: grains, eqs. 5 to 12).
 ///
 /// A cluster is a lump of snow as light as the surrounding snow allows: its packing is dense and
-/// random, so snow compacts by crushing contacts, not by rearranging clusters. A contact has
-/// d = Ri + Rj, overlap u, unit normal n from j to i; stiffness k = E d along and across n.
+/// random, so snow compacts by crushing contacts, not by rearranging clusters.
 ///
-///   state      u_p plastic overlap; X = (u_p - u_0)/d crushing, u_0 its value when sintered;
-///              A area of the bond, A0 = pi (0.2 d)^2 that of a sintered one; shear force; moments
-///   crush      Fy = d^2 (Y0 exp(p X) + Y1 (exp(q X) - 1))
-///   bond       Fb = min(Fy, d^2 Y0 exp(pc X)) min(1, A/A0)
-///   trial      Fn = k (u - u_p), Ft and moments grow by stiffness times relative motion
-///   shear      |Ft| <= C + mu max(Fn, 0), C = chi Fb
-///   crushing   Fn <= Fy
-///   tension    Fn < -zeta Fb breaks the bond; without one there is no tension
-///   bending    stiffness k a_s^2/4, |M| <= 4/(3 pi) a (zeta Fb + max(Fn, 0))
-///   torsion    stiffness k a_s^2/2, |M| <= 2/3 a (chi Fb + mu max(Fn, 0))
-///              a = max(sqrt(A/pi), 0.07 d), a_s = max(a, 0.2 d); limits of a fully plastic disc
-///   sintering  A grows to w pi (d/4) (u_p - u_b) where clusters are pressed into one another; u_b
-///              is u_p when the last bond broke
+/// The sum of the radii is d = Ri + Rj, the overlap is u, and the unit normal n points from j to i.
+/// The contact remembers five things. Its plastic overlap is u_p, which was u_0 when the clusters
+/// sintered, and X = (u_p - u_0)/d measures the crushing since then. The bond has the area A; a
+/// freshly sintered one has A0 = pi (0.2 d)^2. Shear force and moments are remembered too.
+///
+/// The trial force is elastic: Fn = k (u - u_p) with k = E d, and shear force and moments grow by
+/// stiffness times relative motion. These limits then hold:
+///
+///   crushing   Fn <= Fy,  Fy = d^2 (Y0 exp(p X) + Y1 (exp(q X) - 1)).
+///   shear      |Ft| <= C + mu max(Fn, 0),  C = chi Fb.
+///   tension    Fn >= -zeta Fb. The bond breaks below; a contact without a bond has no tension.
+///   bending    |M| <= 4/(3 pi) a (zeta Fb + max(Fn, 0)), with the stiffness k a_s^2/4.
+///   torsion    |M| <= 2/3 a (chi Fb + mu max(Fn, 0)), with the stiffness k a_s^2/2.
+///
+/// The strength of the bond is Fb = min(Fy, d^2 Y0 exp(pc X)) min(1, A/A0). Both moments are those
+/// of a fully plastic disc of the radius a = max(sqrt(A/pi), 0.07 d), elastic with a_s = max(a, 0.2
+/// d). Pressed clusters sinter: A grows to w pi (d/4) (u_p - u_b), where u_b is the plastic overlap
+/// at which the last bond broke.
 ///
 /// If the trial is beyond the crush surface, Fn and Ft shrink in one ratio: the force follows the
 /// displacement, which keeps lateral stress low (theory: grains, eq. 9). Beyond the shear surface

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Return of the trial deviator in a step of plastic flow, for a yield measure t = q g(c)
-/// (section/section.h). Flow is associated in the deviatoric plane, plastic deviatoric strain =
-/// Lambda d(t^2/2)/ds, so that with m = 3 G Lambda
-///   q + m d(t^2/2)/dq = q_tr   (vectors in the deviatoric plane),
-/// in polar components, theta from triaxial extension (0) to compression (pi/3), ' by theta,
-///   (1 + m g^2) tan(theta_tr - theta) = m g g',   q = q_tr cos(theta_tr - theta)/(1 + m g^2).
-/// Round section, g = 1: t = t_tr/(1 + m), and the direction stays.
+/// (section/section.h). Flow is associated in the deviatoric plane: the plastic deviatoric strain
+/// is Lambda d(t^2/2)/ds. With m = 3 G Lambda the return is an equation of vectors in that plane:
+///   q + m d(t^2/2)/dq = q_tr.
+/// The angle theta runs from triaxial extension (0) to compression (pi/3), and g' is dg/dtheta. In
+/// polar components the return has two parts:
+///   (1 + m g^2) tan(theta_tr - theta) = m g g'.
+///   q = q_tr cos(theta_tr - theta)/(1 + m g^2).
+/// A round section has g = 1. It gives t = t_tr/(1 + m), and the direction stays.
 ///
 /// Other sections are linearised at the trial, which is exact to the order of the step and needs no
 /// iteration over angles:

@@ -4,18 +4,22 @@
 /// transfers (APIC), stress updated last, and a grid reset every few steps. Why the grid is kept,
 /// and the equations: theory: continuum, eqs. 1 to 6.
 ///
-/// One remap interval from t_n (between two grid resets), transfers as in transfer.h:
-///   begin_remap_interval  m from the speed of the particles (remap_control.h)
-///                         quadrature positions x_s = x_p + (m - 1)/2 dt v_p
-///                         particles_to_grid: m_i, v_i from m, v_p, C_p; u_i = 0; the residual
-///                         motion r, w; f_i of the stress
-///   each step
-///     sum_nodal_forces    f_i += contact forces; sums over the ranks
-///     accelerate_nodes    v_i += dt (f_i/m_i + g), slide surface, boundary conditions on v_i
-///     move_nodes          u_i += dt v_i
-///     update_particles    strain H = dt sum v_i G_i^T, material with H, f_i of the new stress;
-///                         with the means of cell_average.h
-///   end_step, the last    grid_to_particles: x_p += sum N_i u_i, and v_p, C_p from v_i and r, w
+/// A remap interval lies between two grid resets and has m steps. The step functions are called in
+/// this order; transfer.h has the transfers.
+///
+///   begin_remap_interval  Chooses m by the speed of the particles (remap_control.h) and places the
+///                         quadrature points at x_s = x_p + (m - 1)/2 dt v_p.
+///   particles_to_grid     Gives the nodes mass and velocity, and sets their displacement u_i to
+///                         zero. It splits off the residual motion r, w of the particles, and
+///                         starts f_i with the force of the stress.
+///   sum_nodal_forces      Adds contact forces to f_i and sums over the ranks, in each step.
+///   accelerate_nodes      Adds dt (f_i/m_i + g) to v_i and applies slide surface and boundaries.
+///   move_nodes            Adds dt v_i to u_i.
+///   update_particles      Strains the material by H = dt sum v_i G_i^T, averaged over cells
+///                         (cell_average.h), and computes f_i of the new stress.
+///   grid_to_particles     Ends the last step. It adds sum N_i u_i to x_p, and computes v_p and C_p
+///                         from v_i and r, w.
+///
 /// Velocities are those of half steps (leapfrog, as in LIGGGHTS); all is in double precision.
 ///
 /// All N_i and G_i of an interval are those at the quadrature position x_s, the mean of the

@@ -10,14 +10,16 @@
 namespace furrow {
 
 /// Sums of contacts over the angle theta about the axle (theory: resistance, eq. 7). theta is 0 at
-/// the lowest point, > 0 ahead, and reaches 90 degrees to either side. With the unit vectors e_r
-/// from the axle to the contact and e_t = e_r x a along the rim, the axle a, the force F on the
-/// wheel and the velocity v of the rim over the ground, a sector has
-///   normal stress  sigma = - int F . e_r dt/(T A),
-///   shear stress   tau   =   int F . e_t dt/(T A), > 0 drives the wheel forward,
-///   slip velocity  v_s   = - int (F . e_r)(v . e_t) dt/int F . e_r dt, > 0 where the rim moves
-///                            backwards over the ground,
-/// where A is its share of the cylinder of the wheel's nominal width and radius.
+/// the lowest point, > 0 ahead, and reaches 90 degrees to either side.
+///
+/// The unit vector e_r points from the axle to the contact, and e_t = e_r x a along the rim, where
+/// a is the axle. F is the force on the wheel, and v the velocity of the rim over the ground. A
+/// sector is the area A of a cylinder of the nominal width and radius. Its means over the time T
+/// are:
+///   normal stress  sigma = - int F . e_r dt/(T A).
+///   shear stress   tau   =   int F . e_t dt/(T A). Positive drives the wheel forward.
+///   slip velocity  v_s   = - int (F . e_r)(v . e_t) dt/int F . e_r dt. Positive means that the rim
+///                            moves backwards over the ground.
 class ContactArc : public ContactRecord {
  public:
   struct Profile {

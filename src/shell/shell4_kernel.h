@@ -6,20 +6,20 @@
 /// The element-independent co-rotational formulation [Rankin1986, NourOmid1991] (theory: tyres, eq.
 /// 1) around the linear element of shell4_stiffness.h, in the steps of shell4_forces():
 ///
-///   frame        the element's axes e follow its nodes: e_3 is normal to both medians, and the
-///                rotation about e_3 is that of the polar decomposition of the medians'
-///                deformation, so the axes do not depend on where the numbering starts; or it is
-///                that of the first median (Shell4Turning)
-///   deformation  small in these axes for any motion of the shell:
-///                  u_a     = e^T (x_a - c) - X_a
-///                  theta_a = 2 sin(angle/2) axis  of  T_a = e^T Q_a E
-///                (c: mean of the nodes, X_a: stress-free nodes, E: stress-free axes, Q_a: rotation
-///                of the node; T_a as the product of their quaternions)
-///   energy       U = 1/2 u^T K u and its gradient K u
-///   forces       the exact gradient of U, the rotation of the axes included: they balance in force
-///                and moment, and a free shell keeps its energy
-///   pressure     a follower load on the bilinear surface through the nodes
-///   scatter      to the nodes, one element after the other
+///   frame        The axes e of the element follow its nodes. Axis e_3 is normal to both medians.
+///                The rotation about e_3 comes from the polar decomposition of the deformation of
+///                the medians, which does not depend on the numbering of the nodes. Shell4Turning
+///                can choose the first median instead.
+///   deformation  Displacements and rotations are small in these axes for any motion of the shell.
+///                  u_a     = e^T (x_a - c) - X_a.
+///                  theta_a = 2 sin(angle/2) axis  of  T_a = e^T Q_a E.
+///                The mean of the nodes is c. X_a and E are nodes and axes without stress. Q_a is
+///                the rotation of the node, and T_a is a product of quaternions.
+///   energy       U = 1/2 u^T K u, with the gradient K u.
+///   forces       The exact gradient of U, with the rotation of the axes. The forces balance in
+///                force and moment, so a free shell keeps its energy.
+///   pressure     A follower load on the bilinear surface through the nodes.
+///   scatter      Adds the forces to the nodes, one element after the other.
 
 #include "furrow/shell/shell4_block.h"
 #include "furrow/simd/records.h"

@@ -9,15 +9,16 @@ namespace furrow {
 
 using Matrix24 = Eigen::Matrix<double, 24, 24>;
 
-/// Strain energy 1/2 u^T K u of displacements and rotations u = (u_x, u_y, u_z, theta_x, theta_y,
-/// theta_z) node by node:
-///   membrane  bilinear, with four enhanced modes condensed: no locking in in-plane bending
-///             [Simo1990]
-///   bending   curvature of the directors, also of a curved reference
-///   shear     MITC4: covariant shears sampled at mid-sides, no locking of thin shells
-///             [Dvorkin1984]
-///   drilling  at each node a spring drilling_share (D11 + D22)/2 between its rotation about axis 3
-///             and the element's
+/// Matrix K of the strain energy 1/2 u^T K u. Each node has the displacements and rotations u_x,
+/// u_y, u_z, theta_x, theta_y, theta_z. The energy has four parts:
+///   membrane  Bilinear strains with four enhanced modes, which are condensed. They prevent locking
+///             in in-plane bending [Simo1990].
+///   bending   Curvature of the directors, relative to that of a curved reference shape.
+///   shear     Covariant shears that are sampled at mid-sides (MITC4). They prevent locking of thin
+///             shells [Dvorkin1984].
+///   drilling  A spring at each node, between its rotation about axis 3 and that of the element.
+///   Its
+///             stiffness is drilling_share (D11 + D22)/2.
 /// All parts use 2 x 2 Gauss points. Only the six rigid motions have no energy, so there are no
 /// hourglass modes. The drilling spring is as weak as bending, because its action between the
 /// facets of a curved shell is wrong.

@@ -9,16 +9,16 @@
 
 namespace furrow {
 
-/// Motion of the axle in the second half of the cruise, v its speed, u that of the rim:
-///   prescribed     the rig gives it its speed
-///   travels        none of the following
-///   runs_away      |v| or |u| grows significantly (99 %), by more than a tenth, and does not level
-///                  off: in the last quarter of the cruise at least half as much as in the third
-///   digs_in        |v| is below half of |u|, and the hub drop grows significantly, by more than a
-///                  twentieth
-///   stalled        |v| is below a twentieth of |u|, or both are below 1e-3 of the largest speed of
-///                  the run
-///   rolls_back     the axle moves against its rim, or against x while the rim rests
+/// Motion of the axle in the second half of the cruise, at the speed v with the rim speed u. Growth
+/// counts where it is significant at 99 %.
+///   prescribed     The rig prescribes the speed.
+///   travels        The wheel makes progress: none of the following is true.
+///   runs_away      |v| or |u| grows by more than a tenth. The growth goes on: its last quarter has
+///                  at least half of that of the third.
+///   digs_in        |v| is below half of |u|, and the hub drop grows by more than a twentieth.
+///   stalled        |v| is below a twentieth of |u|. Or both are below a thousandth of the largest
+///                  speed of the run.
+///   rolls_back     The axle moves against its rim, or against x while the rim rests.
 enum class Travel { prescribed, travels, runs_away, digs_in, stalled, rolls_back };
 
 struct TravelVerdict {

@@ -4,12 +4,14 @@
 /// because flow is associated there.
 ///
 /// The point of the cap is p = pa + R Q cos(phi), t = A Q sin(phi). Unknown are the volumetric
-/// plastic strain of the step, De, and u = tan(phi); pa and Q are those of eps_n + De. Associated
-/// flow gives
-///   m = 3 G Lambda = 3 G R De/(A^2 Q) sqrt(1 + u^2),
-/// G being the shear modulus of the return of t, and leaves two equations:
-///   f = p_el(dv - De) - pa - R Q cos(phi) = 0     elastic pressure
-///   g = A Q sin(phi) (1 + m) - t_tr = 0           deviatoric return
+/// plastic strain of the step, De, and u = tan(phi). The sizes pa and Q of the cap follow from the
+/// strain eps_n + De. Associated flow gives the factor m of the deviatoric return, where G is the
+/// shear modulus of the return of t:
+///   m = 3 G Lambda = 3 G R De/(A^2 Q) sqrt(1 + u^2).
+/// Two equations remain. The first states that the pressure is elastic, the second that t returns
+/// from its trial value:
+///   f = p_el(dv - De) - pa - R Q cos(phi) = 0.
+///   g = A Q sin(phi) (1 + m) - t_tr = 0.
 /// Newton's method solves both together if elasticity is linear. Points that have not converged
 /// after a few iterations, and those of porous elasticity, are solved with one equation inside the
 /// other, each within a bracket, which always converges.
