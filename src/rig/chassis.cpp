@@ -139,7 +139,7 @@ void Chassis::apply(double time, double dt) {
 }
 
 /// Pulls the axles to the mean of their velocities and to their distances at the start. The forces
-/// have no sum.
+/// sum to zero.
 void Chassis::keep_distances(double dt) {
   double mass = 0.0, velocity = 0.0, shift = 0.0;
   const auto mass_along = [](const WheelHub& wheel) {
