@@ -16,6 +16,12 @@ HERE = Path(__file__).resolve().parent
 WHEEL = 0.38  # [m] radius of the wheel in the tests that the tyre file describes
 ANGLES, SLIPS = (15, 30, 45), (-0.5, 0.0, 0.23, 0.5)  # of the CMU tests that are predicted
 SEEDS = (86028121, 67867967)  # two pours
+# Conditions of the group CMU in further.csv, by wheel and slip angle: every slip and every angle occurs. The
+# number is that of conditions.csv: ten times the rim speed over the travel speed.
+FURTHER = {
+    "smooth": {15: (3, 40), 30: (8, 100), 45: (0, 40), 60: (5, 12), 75: (10, 20), 90: (3, 10)},
+    "grouser": {15: (0, 3, 8, 40), 30: (0, 8, 40, 100), 45: (0, 3, 8, 40), 60: (0, 5, 10, 20), 75: (3, 8, 12, 40), 90: (0, 5, 12, 20)},
+}
 FASTEST = 0.4  # [m/s] the larger of travel and rim speed in the runs on grains
 POWERS = {"bead_radius": 1, "bead_spacing": 1, "radius": 1, "half_width": 1, "length": 1, "curvature": -1}
 
@@ -77,6 +83,28 @@ def sand() -> list[dict[str, Any]]:
         keys |= {"angle": f"{float(row['slip_angle_deg']):g}", "height": "0.005" if "grouser" in row["id"] else "0"}
         runs += [{**keys, "pour": k + 1, "seed": seed} for k, seed in enumerate(SEEDS)]
     return runs
+
+
+def further_sand() -> list[dict[str, Any]]:
+    """Further tests of the wheel at a slip angle, on one packing of finer grains. A wheel that travels across its plane
+    needs a wider bed; the rig takes angles below 90 degrees."""
+    rows = {row["id"]: row for row in conditions("CMU")}
+    runs = []
+    for wheel, angles in FURTHER.items():
+        bars = "grousers 24 grouser_height 0.005 grouser_thickness 0.00165" if wheel == "grouser" else "grousers 0"
+        for angle, numbers in angles.items():
+            for number in numbers:
+                row = rows[f"CMU-{wheel}-{angle}-{number}"]
+                turned = min(float(angle), 89.9)
+                travel, slip = in_wheel_frame(float(row["slip"]), turned)
+                runs.append({**row, "rig_slip": f"{slip:.6g}", "speed": f"{FASTEST * travel:.5g}", "bars": bars, "angle": f"{turned:g}",
+                    "height": "0.005" if wheel == "grouser" else "0", "width": "0.3" if angle > 45 else "0.22"})  # fmt: skip
+    return runs
+
+
+def is_braked(name: str) -> bool:
+    """True for a run whose wheel turns slower than it travels."""
+    return int(name.partition("/")[0].split("-")[3]) < 10
 
 
 def in_wheel_axes(pull: float, side: float, load: float, angle: float) -> tuple[float, float]:

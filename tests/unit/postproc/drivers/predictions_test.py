@@ -28,6 +28,15 @@ class SetUpTest(unittest.TestCase):
         places = {(row["case"], row["slip_angle_deg"], round(float(row["slip"]), 1)) for row in chosen}
         self.assertEqual(len(places), 2 * 3 * 4)
 
+    def test_further_cmu_conditions_have_every_slip_and_angle_and_none_of_the_first(self) -> None:
+        rows = study.further_sand()
+        first = {row["id"] for row in read_rows(FOLDER / "conditions.csv") if study.is_predicted(row)}
+        self.assertEqual([sum("smooth" in row["id"] for row in rows), len(rows)], [12, 36])
+        self.assertFalse(first & {row["id"] for row in rows})
+        for column, count in (("slip_angle_deg", 6), (3, 9)):
+            values = {row["id"].split("-")[3] if column == 3 else row[column] for row in rows}
+            self.assertEqual(len(values), count)
+
     def test_slip_by_total_speed_is_converted_to_the_wheel_plane(self) -> None:
         for slip, angle in ((0.5, 30.0), (0.0, 45.0), (-0.5, 15.0)):
             travel, converted = study.in_wheel_frame(slip, angle)
