@@ -12,7 +12,7 @@ MEASURED: list[dict[str, Any]] = read_frame(Path(__file__).with_name("reference.
 
 def nearest(kind: str, slip: float) -> dict[str, Any]:
     """Nearest of the points that are computed."""
-    return min((p for p in MEASURED if p["kind"] == kind and -0.55 < p["slip"] < 0.8), key=lambda p: float(abs(p["slip"] - slip)))
+    return min((p for p in MEASURED if p["kind"] == kind and -0.75 < p["slip"] < 0.8), key=lambda p: float(abs(p["slip"] - slip)))
 
 
 def all_slips(*grains: float) -> list[dict[str, Any]]:
