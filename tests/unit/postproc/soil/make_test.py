@@ -204,6 +204,23 @@ class MakeTest(FolderTest):
             self.assertAlmostEqual(float(made.law["beta"].value), stored["beta"], delta=1e-3)
             self.assertAlmostEqual(float(row["index_Pa"]) / asked, 1, delta=0.15)
 
+    def test_command_in_the_head_of_a_soil_writes_its_file(self) -> None:
+        inputs = SOURCE / "inputs"
+        for row in read_rows(inputs / "soils" / "cone_on_cohesive_soil.csv"):
+            text = (inputs / "materials" / f"{row['file']}.yaml").read_text()
+            command = re.search(r"furrow-post card material (\S+) (.*)", text)
+            assert command, row
+            done = run_card("material", command[1], *command[2].split(), "--no-check", folder=self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            written = (self.folder / command[1]).read_text()
+            made, stored = yaml.safe_load(written), yaml.safe_load(text)
+            self.assertEqual({key: stored[key] for key in made if key != "title"}, {key: made[key] for key in made if key != "title"})
+            self.assertTrue({line for line in written.splitlines() if line.startswith("#")} <= set(text.splitlines()))
+            index = float(row["index_Pa"])
+            self.assertIn(f"{1e-3 * index:.0f} kPa", stored["title"])
+            self.assertAlmostEqual(float(row["asked_Pa"] or index) / index, 1, delta=0.2)
+            self.assertAlmostEqual(float(stored.get("cone_index", index)) / index, 1, delta=2e-3)
+
     def test_every_estimate_is_marked_in_the_file(self) -> None:
         done = run_card("material", self.file, "--c", 500, "--phi", 33, "--density", 1600,
                         "--oedometer", self.table, folder=self.folder)  # fmt: skip
