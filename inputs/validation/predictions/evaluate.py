@@ -18,7 +18,7 @@ ANGLES, SLIPS = (15, 30, 45), (-0.5, 0.0, 0.23, 0.5)  # of the CMU tests that ar
 SEEDS = (86028121, 67867967)  # two pours
 # Conditions of the group CMU in further.csv, by wheel and slip angle: every slip and every angle occurs. The
 # number is that of conditions.csv: ten times the rim speed over the travel speed.
-FURTHER = {
+FURTHER: dict[str, dict[int, tuple[int, ...]]] = {
     "smooth": {15: (3, 40), 30: (8, 100), 45: (0, 40), 60: (5, 12), 75: (10, 20), 90: (3, 10)},
     "grouser": {15: (0, 3, 8, 40), 30: (0, 8, 40, 100), 45: (0, 3, 8, 40), 60: (0, 5, 10, 20), 75: (3, 8, 12, 40), 90: (0, 5, 12, 20)},
 }

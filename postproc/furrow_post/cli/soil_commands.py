@@ -23,7 +23,7 @@ from .parameters import Given, argument, command, flag, option, output_options, 
 SIZES = (0.1, 0.15, 0.2)  # [m]
 ROUND_OFF = 1e-9
 ROUTES = {  # option that chooses the route -> required and optional further options
-    "cone_index": (("soil_class",), ("density",)),
+    "cone_index": (("soil_class",), ("density", "phi")),
     "k_phi": (("k_c", "n", "c", "phi", "K"), ("density", "plate")),
     "c": (("phi", "density"), ("oedometer", "E")),
 }
@@ -155,6 +155,8 @@ def card_material(given: Given) -> None:
     print(f"{given.file}: written")
     for guess in material.guesses():
         print(f"  guessed       {guess}")
+    for band in material.bands:
+        print(f"  band          {band}")
     if not given.no_check:
         print(f"  check         {_check(route, given)}")
 
@@ -174,7 +176,7 @@ def _material(route: str, given: Given) -> NewMaterial:
         return from_bekker(
             title, given.k_c, given.k_phi, given.n, given.c, given.phi, given.K, _radius(given), given.density
         )
-    return from_cone(title, given.cone_index, given.soil_class, given.density)
+    return from_cone(title, given.cone_index, given.soil_class, given.density, given.phi)
 
 
 def _radius(given: Given) -> float:

@@ -2,8 +2,11 @@
 """Soil and tyre of the formulas of a cone index, from a material file and a tyre file."""
 
 import functools
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -18,12 +21,14 @@ from .tyre_size import is_radial
 
 # Law -> kind of soil of the formulas; they do not speak of other laws, as those of snow
 KINDS = {"undrained_clay": "clay", "drucker_prager": "sand", "drucker_prager_cap": "sand", "norsand": "sand"}
+# [Pa] cohesion above which a soil is fine-grained: the dry sands of terrains.csv have up to 1300 Pa, the sandy loam 1720 Pa
+COHESIVE = 1500.0
 MESH = (4, 36)  # of the tyre on a rigid plane
 
 
 @dataclass(frozen=True)
 class Soil:
-    """kind: sand or clay, as the formulas have it; cone index [Pa]."""
+    """kind: sand or clay, that is fine-grained soil, as the formulas have it; cone index [Pa]."""
 
     kind: str
     cone_index: float
@@ -31,10 +36,19 @@ class Soil:
 
 @functools.cache
 def soil_of(material: Path) -> Soil | None:
-    """Soil of a material file; None where it has no cone index, or no sand or clay. @raises ResultsError"""
+    """Soil of a material file; None where it has no cone index, or no sand or fine-grained soil. @raises ResultsError"""
     content = parse_json(answer([find_program("furrow-point"), "show", material, "--json"]))
     index, kind = content.get("cone_index"), KINDS.get(content["law"])
+    if kind == "sand" and cohesion(content["sections"]["law"]) > COHESIVE:
+        kind = "clay"
     return Soil(kind, float(index)) if kind and index is not None else None
+
+
+def cohesion(law: Mapping[str, Any]) -> float:
+    """Cohesion [Pa] of Mohr-Coulomb in triaxial compression; 0 of a law without d."""
+    tangent = math.tan(math.radians(law.get("beta", 0.0)))
+    sine = 3 * tangent / (6 + tangent)
+    return float(law.get("d", 0.0)) * (3 - sine) / (6 * math.sqrt(1 - sine**2))
 
 
 @functools.cache

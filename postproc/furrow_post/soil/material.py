@@ -103,10 +103,11 @@ class NewMaterial:
     pressure: tuple[float, ...]  # [Pa]
     strain: tuple[float, ...]  # plastic volume strain
     hardening: Parameter  # origin of the table
+    bands: tuple[str, ...] = ()  # ranges of what is not known
 
     def text(self) -> str:
         """Text of the material file."""
-        lines = [f"title: {yaml_text(self.title)}", *(f"# {line}" for line in self.head)]
+        lines = [f"title: {yaml_text(self.title)}", *(f"# {line}" for line in (*self.head, *self.bands))]
         lines += ["law:", "  type: drucker_prager_cap"]
         lines += [_line(name, parameter) for name, parameter in self.law.items()]
         lines += ["elasticity:", "  type: linear"]

@@ -2,7 +2,10 @@
 """Material files of furrow-post card material: closed forms, virtual tests of the laws, and refusals."""
 
 import math
+import re
 import unittest
+from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 import yaml
@@ -12,18 +15,30 @@ from furrow_post.errors import ResultsError
 from furrow_post.soil.make import (
     CLASSES,
     Strength,
+    bands_of,
     compression,
     cone_resistance,
+    estimate_of,
     from_bekker,
     from_cone,
     from_strength,
+    middle,
 )
+from furrow_post.read.soil_card import Range
 from furrow_post.soil.material import read_material
 from furrow_post.soil.oedometer import confined_strain, oedometer_misfit, read_oedometer
 from support.command import SOURCE, run_card
 from support.folder import FolderTest
 
 OEDOMETER = "# mine\nstress_Pa,strain\n1e4,0.02\n2e4,0.03\n5e4,0.045\n1e5,0.06\n3e5,0.09\n"
+
+BAND = re.compile(r"(.+): (\S+), (\S+) to ([^\s:]+)")
+
+
+def bands(lines: Iterable[str]) -> dict[str, tuple[float, float, float]]:
+    """Quantity -> value and ends of the bands in lines of text."""
+    found = [match.groups() for line in lines if (match := BAND.match(line))]
+    return {name: (float(value), float(low), float(high)) for name, value, low, high in found}
 
 
 class MakeTest(FolderTest):
@@ -88,7 +103,7 @@ class MakeTest(FolderTest):
             made = from_cone("mine", index, soil_class, None)
             self.file.write_text(made.text(), encoding="utf-8")
             law = yaml.safe_load(self.file.read_text())["law"]
-            self.assertEqual(law["density"], float(f"{CLASSES[soil_class].density:.6g}"))
+            self.assertEqual(law["density"], float(f"{middle(CLASSES[soil_class].density):.6g}"))
             self.assertGreaterEqual(len(made.guesses()), 6)
 
     def test_firmer_cone_gives_a_stronger_soil(self) -> None:
@@ -96,6 +111,89 @@ class MakeTest(FolderTest):
         cohesions = [float(from_cone("c", q, "CL", None).law["d"].value) for q in (1e5, 2e5, 4e5)]
         self.assertEqual(betas, sorted(betas))
         self.assertEqual(cohesions, sorted(cohesions))
+
+    def test_band_contains_the_value_of_the_file(self) -> None:
+        for soil_class, typical in CLASSES.items():
+            for index in (1e5, 2e5, 3e5):
+                made = from_cone("mine", index, soil_class, None)
+                found = bands(made.bands)
+                for name, (value, low, high) in found.items():
+                    self.assertTrue(low <= value <= high, f"{soil_class}, {index:g} Pa: {name}")
+                written = {"density, kg/m3": made.law["density"], "E, Pa": made.elasticity["E"]}
+                for name, parameter in written.items():
+                    self.assertAlmostEqual(found[name][0] / float(parameter.value), 1, delta=5e-3, msg=soil_class)
+                self.assertTrue(set(made.bands) < {line[2:] for line in made.text().splitlines()})
+                self.assertTrue(typical.friction.low <= typical.phi <= typical.friction.high, soil_class)
+
+    def test_every_end_of_a_band_has_the_cone_index(self) -> None:
+        index, typical = 4e5, CLASSES["CL"]
+        found = bands(from_cone("mine", index, "CL", None).bands)
+        ends = []
+        for density in (typical.density.low, typical.density.high):
+            for ratio in (3.0, 8.0):  # of the source, below 0.7 MPa
+                for phi in (27.0, 35.0):
+                    soil = estimate_of(index, typical, density, ratio, phi)
+                    q = cone_resistance(soil.strength, density, ratio * index / 2.5, 0.075)
+                    self.assertAlmostEqual(q / index, 1, places=9)
+                    ends.append(soil.strength.c)
+        _, low, high = found["cohesion, Pa"]
+        self.assertAlmostEqual(low / min(ends), 1, delta=5e-3)
+        self.assertAlmostEqual(high / max(ends), 1, delta=5e-3)
+
+    def test_friction_alone_ends_the_band_of_a_weak_silt(self) -> None:
+        made = from_cone("mine", 2e5, "ML", None)
+        _, low, high = bands(made.bands)["friction angle, degrees"]
+        self.assertEqual(low, CLASSES["ML"].friction.low)
+        self.assertTrue(32 < high < CLASSES["ML"].friction.high)
+
+    def test_ends_without_a_strength_are_counted(self) -> None:
+        # loose sand of a modulus of 2 needs more than 48 degrees
+        made = from_cone("mine", 9e5, "SP", None)
+        self.assertIn("ends of the ranges without a strength of this cone index, not in the bands: 1", made.bands)
+        self.assertNotIn("without a strength", from_cone("mine", 3e5, "SP", None).text())
+
+    def test_given_friction_angle_has_no_band(self) -> None:
+        for soil_class in ("SP", "ML"):
+            found = bands(from_cone("mine", 4e5, soil_class, None, 33.0).bands)
+            self.assertNotIn("friction angle, degrees", found)
+            self.assertIn("cohesion, Pa", found)
+
+    def test_wider_range_gives_a_wider_band(self) -> None:
+        typical = CLASSES["SP"]
+        soil = estimate_of(2e5, typical, middle(typical.density), 2.0, None)
+        density = Range(typical.density.low - 100, typical.density.high + 100)
+        wider = (replace(typical, density=density), replace(typical, moduli=((math.inf, Range(1, 6)),)))
+        before = bands(bands_of(soil, typical, None, None))
+        for changed in wider:
+            after = bands(bands_of(soil, changed, None, None))
+            for name in ("friction angle, degrees", "shear strength over a pressure of 100 kPa"):
+                self.assertLess(after[name][1], before[name][1], name)
+                self.assertGreater(after[name][2], before[name][2], name)
+        given = bands(bands_of(soil, typical, soil.density, None))
+        self.assertNotIn("density, kg/m3", given)
+        self.assertLess(given["friction angle, degrees"][2], before["friction angle, degrees"][2])
+
+    def test_class_without_a_range_states_it(self) -> None:
+        for soil_class, typical in CLASSES.items():
+            text = "\n".join(from_cone("mine", 3e5, soil_class, None).bands)
+            known = "no range known for this class" not in text
+            self.assertEqual(known, bool(typical.moduli), soil_class)
+        self.assertFalse(CLASSES["GW"].moduli)
+
+    def test_known_friction_angle_gives_the_cohesion_of_moist_sand(self) -> None:
+        made = from_cone("moist", 6e5, "SP", 1700.0, 36.0)
+        n = math.tan(math.radians(45 + 36 / 2)) ** 2
+        M = 6 * math.sin(math.radians(36)) / (3 - math.sin(math.radians(36)))
+        self.assertAlmostEqual(math.tan(math.radians(float(made.law["beta"].value))), M, places=9)
+        # uniaxial strength 2 c sqrt(n) lies on q = d + p M with p = q/3
+        c = float(made.law["d"].value) / (2 * math.sqrt(n) * (1 - M / 3))
+        q = cone_resistance(Strength(c, 36.0), 1700, 2 * 6e5 / 2.5, 0.075)
+        self.assertAlmostEqual(q / 6e5, 1, places=9)
+
+    def test_table_ends_before_the_soil_has_no_voids(self) -> None:
+        made = from_bekker("mine", 5270.0, 1515040.0, 0.7, 1720.0, 29.0, 0.025, 0.075, None)
+        self.assertLess(1600 * math.exp(made.strain[-1]), 2650)
+        self.assertGreater(1600 * math.exp(made.strain[-1]), 1800)
 
     def test_virtual_cone_in_an_estimated_sand_has_the_given_index(self) -> None:
         inputs = SOURCE / "inputs"
@@ -105,6 +203,23 @@ class MakeTest(FolderTest):
             made = from_cone("mine", asked, "SP", float(row["density_kgm3"]))
             self.assertAlmostEqual(float(made.law["beta"].value), stored["beta"], delta=1e-3)
             self.assertAlmostEqual(float(row["index_Pa"]) / asked, 1, delta=0.15)
+
+    def test_command_in_the_head_of_a_soil_writes_its_file(self) -> None:
+        inputs = SOURCE / "inputs"
+        for row in read_rows(inputs / "soils" / "cone_on_cohesive_soil.csv"):
+            text = (inputs / "materials" / f"{row['file']}.yaml").read_text()
+            command = re.search(r"furrow-post card material (\S+) (.*)", text)
+            assert command, row
+            done = run_card("material", command[1], *command[2].split(), "--no-check", folder=self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            written = (self.folder / command[1]).read_text()
+            made, stored = yaml.safe_load(written), yaml.safe_load(text)
+            self.assertEqual({key: stored[key] for key in made if key != "title"}, {key: made[key] for key in made if key != "title"})
+            self.assertTrue({line for line in written.splitlines() if line.startswith("#")} <= set(text.splitlines()))
+            index = float(row["index_Pa"])
+            self.assertIn(f"{1e-3 * index:.0f} kPa", stored["title"])
+            self.assertAlmostEqual(float(row["asked_Pa"] or index) / index, 1, delta=0.2)
+            self.assertAlmostEqual(float(stored.get("cone_index", index)) / index, 1, delta=2e-3)
 
     def test_every_estimate_is_marked_in_the_file(self) -> None:
         done = run_card("material", self.file, "--c", 500, "--phi", 33, "--density", 1600,
