@@ -57,14 +57,16 @@ class SetUpTest(unittest.TestCase):
 
 class ValuesTest(unittest.TestCase):
     def test_every_predicted_condition_has_all_quantities_with_an_error(self) -> None:
-        rows = stored("predictions", "predictions")
-        self.assertTrue(rows["value"].abs().lt(math.inf).all() and (rows["standard_error"] > 0).all())
-        for name, quantities in rows.groupby("id")["quantity"]:
-            self.assertEqual(set(quantities), QUANTITIES[name.split("-")[0]], name)
+        for table in ("predictions", "further"):
+            rows = stored("predictions", table)
+            self.assertTrue(rows["value"].abs().lt(math.inf).all() and (rows["standard_error"] > 0).all())
+            for name, quantities in rows.groupby("id")["quantity"]:
+                self.assertEqual(set(quantities), QUANTITIES[name.split("-")[0]], name)
 
     def test_frozen_values_equal_the_first_committed_ones(self) -> None:
         names = ("id", "quantity", "value", "standard_error")
-        for file, known in (("predictions.csv", "933e6fc99b72bf23"), ("second.csv", "4d2d4bc0eabbd30a")):
+        digests = {"predictions.csv": "933e6fc99b72bf23", "second.csv": "4d2d4bc0eabbd30a", "further.csv": "ad0a8f92dbb8d9c9"}
+        for file, known in digests.items():
             lines = [",".join(row[name] for name in names) for row in read_rows(FOLDER / file)]
             digest = hashlib.sha256("\n".join(lines).encode()).hexdigest()
             self.assertEqual(digest[:16], known, file)
