@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Commands surrogate, a fast model from sweeps; map, go and no-go on a terrain raster; fit soil, from wheel tests."""
+"""Commands surrogate, a fast model from sweeps; map, on a terrain raster; fit soil, from wheel tests."""
 
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from datetime import datetime, timezone
 from pathlib import Path
 
@@ -22,6 +22,7 @@ from ..surrogate.posterior import identify, read_tests
 from ..surrogate.raster import read_raster, read_slope
 from ..surrogate.surrogate_figures import draw_held_out, draw_posterior
 from ..surrogate.terrain_map import GO, NO_GO, UNCERTAIN, make_map, read_classes, write_map, write_mobility_table
+from ..surrogate.two_fidelities import Gain
 from ..surrogate.training import PULL, QUANTITIES, RADIUS, TORQUE, Training, read_training
 from .parameters import Given, argument, assignments, command, option, repeated, require_file, target_option
 
@@ -31,30 +32,32 @@ QUANTILES = (2.5, 50.0, 97.5)
 
 @command(
     argument("sources", "folders of sweeps or their sweep.csv; or a surrogate, with --at", path, nargs=-1, required=True),
+    repeated("--better", parse=path, metavar="PATH", help="the same of few runs on a better ground, which correct the others"),
     target_option("file to write, .json (default: surrogate.json in the first folder)"),
     assignments("--at", "predicts here: all inputs of the surrogate"),
 )
 def surrogate_(given: Given) -> None:
     sources: Sequence[Path] = given.sources
     if sources[0].suffix == ".json":
-        if given.output or len(sources) > 1 or not given.at:
+        if given.output or given.better or len(sources) > 1 or not given.at:
             raise ResultsError(f"{sources[0]}: is a surrogate; give it alone, with --at NAME=NUMBER ...")
         surrogate = read_surrogate(sources[0])
     else:
-        surrogate = _fit(sources, given.output)
+        surrogate = _fit(sources, given.better, given.output)
     if given.at:
         print("\n".join(_prediction(surrogate, dict(given.at))))
 
 
-def _fit(sources: Sequence[Path], output: Path | None) -> Surrogate:
+def _fit(sources: Sequence[Path], better_sources: Sequence[Path], output: Path | None) -> Surrogate:
     folder = sources[0] if sources[0].is_dir() else sources[0].parent
     target = output or folder / "surrogate.json"
     training = read_training(sources)
     require_file(target, "json", make_folder=True)
-    surrogate, held_out = fit(training, _origin(sources))
+    better = read_training(better_sources) if better_sources else None
+    surrogate, held_out, gains = fit(training, _origin([*sources, *better_sources]), better)
     surrogate.write(target)
-    draw_held_out(training.quantities, held_out, target.with_suffix(".png"))
-    print("\n".join(_report(surrogate, training, held_out)))
+    draw_held_out((better or training).quantities, held_out, target.with_suffix(".png"))
+    print("\n".join([*_report(surrogate, training, held_out), *_gains(better, held_out, gains)]))
     print(f"\n{target}, {target.with_suffix('.png').name}")
     return surrogate
 
@@ -79,6 +82,16 @@ def _report(surrogate: Surrogate, training: Training, held_out: Mapping[str, Hel
     if training.left_out:
         lines.append(f"{training.left_out} runs have no steady values and are left out")
     return [*lines, "", *in_columns(rows), "", *in_columns([["input", "range"], *ranges])]
+
+
+def _gains(better: Training | None, held_out: Mapping[str, HeldOut], gains: Mapping[str, Gain]) -> list[str]:
+    if not better:
+        return []
+    rows = [["rms error at the better runs", "fast alone", "better alone", "both"]]
+    for name, gain in gains.items():
+        errors = (gain.fast, gain.better, held_out[name].rms_error)
+        rows.append([name + in_unit(QUANTITIES[name]), *(f"{error:.2g}" for error in errors)])
+    return ["", f"{len(better.inputs)} better runs, each held out", "", *in_columns(rows)]
 
 
 def _prediction(surrogate: Surrogate, at: Mapping[str, float]) -> list[str]:
@@ -119,7 +132,7 @@ def _raster(text: str) -> tuple[str, Path]:
 def map_(given: Given) -> None:
     begin = time.perf_counter()
     surrogate = read_surrogate(given.surrogate)
-    vehicle = _vehicle(surrogate, given)
+    vehicle = _vehicle(surrogate, given.load, given.speed, given.power)
     slope = read_slope(given.elevation)
     rasters: dict[str, Floats] = {}
     for name, file in given.raster:
@@ -127,11 +140,8 @@ def map_(given: Given) -> None:
         slope.require_same(raster, str(file))
         rasters[name] = raster.values
     constants = dict(given.set)
-    needed = [name for name in surrogate.names if name not in CHOSEN]
-    of_classes = [name for name in needed if name not in rasters and name not in constants]
-    for name in (*rasters, *constants):
-        if name not in needed:
-            raise ResultsError(f"the surrogate has no soil parameter '{name}'; it has {', '.join(needed) or 'none'}")
+    of_classes = [name for name in _parameters(surrogate) if name not in rasters and name not in constants]
+    _require_known(surrogate, (*rasters, *constants))
     fixed: list[tuple[Booleans | None, Mapping[str, float]]] = [(None, constants)]
     soils: dict[str, Mapping[str, float]] = {"all": constants}
     if given.classes:
@@ -158,18 +168,31 @@ def map_(given: Given) -> None:
     print(f"\n{given.output}: {', '.join(files)}; {slope.values.size} cells in {time.perf_counter() - begin:.1f} s")
 
 
-def _vehicle(surrogate: Surrogate, given: Given) -> Vehicle:
-    """@raises ResultsError where the surrogate does not fit"""
+def _parameters(surrogate: Surrogate) -> list[str]:
+    """Inputs of the soil."""
+    return [name for name in surrogate.names if name not in CHOSEN]
+
+
+def _require_known(surrogate: Surrogate, names: Iterable[str]) -> None:
+    """@raises ResultsError for a name that is no soil parameter"""
+    known = _parameters(surrogate)
+    for name in names:
+        if name not in known:
+            raise ResultsError(f"the surrogate has no soil parameter '{name}'; it has {', '.join(known) or 'none'}")
+
+
+def _vehicle(surrogate: Surrogate, load: float | None, speed: float | None, power: float = math.inf) -> Vehicle:
+    """Those that are not given: of the training runs. @raises ResultsError where the surrogate does not fit"""
     if "slip" not in surrogate.names:
-        raise ResultsError("a map needs a surrogate over slip; sweep slip too")
+        raise ResultsError("this needs a surrogate over slip; sweep slip too")
     constants = surrogate.constants
-    load, speed = given.load or constants.get("load"), given.speed or constants.get("speed")
+    load, speed = load or constants.get("load"), speed or constants.get("speed")
     if load is None or speed is None:
         raise ResultsError("the surrogate has no single load and speed; give --load and --speed")
     if "load" not in surrogate.names and load != constants.get("load"):
         known = f"a load of {constants['load']:g} N only" if "load" in constants else "loads that follow another input"
         raise ResultsError(f"--load {load:g}: the surrogate knows {known}; sweep load too")
-    return Vehicle(load, speed, given.power)
+    return Vehicle(load, speed, power)
 
 
 @command(

@@ -138,7 +138,7 @@ COMMANDS: dict[str, tuple[Entry, ...]] = {
               ("nrmm --load 6e3 --diameter 0.74 --width 0.27 --depth 0.2 --density 200 --pressure 179e3",)),
         Entry("surrogate", "surrogate_commands",
               "a fast model of a wheel from sweeps, with checked intervals -> surrogate.json, .png",
-              ("results/a -o wheel.json", "wheel.json --at slip=0.2 load=600")),
+              ("results/a -o wheel.json", "fast.csv --better good.csv -o wheel.json", "wheel.json --at slip=0.2 load=600")),
         Entry("map", "surrogate_commands",
               "go, pull, speed and energy of a wheel on a terrain raster -> map.tif, map.png, mobility.csv",
               ("wheel.json dem.tif --classes soil.tif soils.csv --load 600 -o results/map",)),

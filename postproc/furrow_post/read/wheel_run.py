@@ -72,6 +72,7 @@ class WheelRun:
     below: float = 0.0  # depth of the continuum under the grains of a hybrid [m]
     values: dict[str, SteadyValue] = field(default_factory=dict)  # STEADY_QUANTITIES
     rolling_radius: float = float("nan")  # travel along x per turn in the window [m/rad]
+    slip_radius: float = float("nan")  # rim speed of the slip over spin rate in the window [m]
     wall_time: float = float("nan")  # [s]
     cpu_time: float = float("nan")  # measured by the runner, else wall time x ranks [s]
 
@@ -291,6 +292,7 @@ def _read_values(run: WheelRun, reference: Grains | None) -> None:
     v, spin = (float(columns[name][inside].mean()) for name in ("velocity_x", "spin_rate"))
     run.rolling_radius = v / spin if spin else float("nan")
     rim = float(columns["rim_speed"][inside].mean()) if "rim_speed" in columns else run.radius * spin
+    run.slip_radius = rim / spin if spin else float("nan")
     if run.text("travel") == "free":  # an answer of the ground
         run.conditions["speed"] = Condition(v, "m/s")
     run.conditions["slip"] = Condition(float(run.values["slip"].mean))
