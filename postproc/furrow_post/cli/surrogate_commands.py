@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Commands surrogate, a fast model from sweeps; map, on a terrain raster; fit soil, from wheel tests."""
+"""Commands surrogate, a fast model from sweeps; map, on a terrain raster; slopes, slip over slope; fit soil, from wheel tests."""
 
 import math
 import time
@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..arguments import WrongText, between, path, positive
+from ..arguments import WrongText, between, path, positive, series
 from ..arrays import Booleans, Floats
 from ..csv_table import in_columns, write_rows
 from ..errors import ResultsError
@@ -20,6 +20,7 @@ from ..surrogate.mobility import Vehicle
 from ..surrogate.model import Surrogate, fit, read_surrogate
 from ..surrogate.posterior import identify, read_tests
 from ..surrogate.raster import read_raster, read_slope
+from ..surrogate.slopes import draw_slopes, limits, slip_over_slope, write_slopes
 from ..surrogate.surrogate_figures import draw_held_out, draw_posterior
 from ..surrogate.terrain_map import GO, NO_GO, UNCERTAIN, make_map, read_classes, write_map, write_mobility_table
 from ..surrogate.two_fidelities import Gain
@@ -27,6 +28,7 @@ from ..surrogate.training import PULL, QUANTITIES, RADIUS, TORQUE, Training, rea
 from .parameters import Given, argument, assignments, command, option, repeated, require_file, target_option
 
 CHOSEN = ("slip", "load", "slope")  # inputs that the map chooses
+SHARES = (0.95, 0.5, 0.05)  # probabilities of climbing
 QUANTILES = (2.5, 50.0, 97.5)
 
 
@@ -193,6 +195,41 @@ def _vehicle(surrogate: Surrogate, load: float | None, speed: float | None, powe
         known = f"a load of {constants['load']:g} N only" if "load" in constants else "loads that follow another input"
         raise ResultsError(f"--load {load:g}: the surrogate knows {known}; sweep load too")
     return Vehicle(load, speed, power)
+
+
+@command(
+    argument("surrogate", "file of furrow-post surrogate", path),
+    option("--slope", parse=series(51), default="0:25", metavar="FIRST:LAST", show_default=True, help="degrees; FIRST:LAST:COUNT or a list too"),
+    option("--load", parse=series(4), metavar="FIRST:LAST:COUNT", help="N on level ground, or a list (default: that of the training runs)"),
+    assignments("--set", "soil parameters"),
+    target_option("folder to write: slopes.csv, slopes.png", required=True),
+)
+def slopes(given: Given) -> None:
+    surrogate = read_surrogate(given.surrogate)
+    soil = dict(given.set)
+    _require_known(surrogate, soil)
+    for name in _parameters(surrogate):
+        if name not in soil:
+            raise ResultsError(f"no soil parameter {name}; give it by --set {name}=NUMBER")
+        surrogate.require_range(name, soil[name])
+    slope = np.array(given.slope)
+    # The balance has no speed in it
+    vehicles = [_vehicle(surrogate, load, surrogate.constants.get("speed", 1.0)) for load in given.load or (None,)]
+    found = [slip_over_slope(surrogate, vehicle, slope, soil) for vehicle in vehicles]
+    curves = [curve for curve in found if len(curve)]
+    if not curves:
+        one = surrogate.inputs[surrogate.names.index("load" if "load" in surrogate.names else "slope")]
+        raise ResultsError(f"no slope and load lie inside the training range: {one.name} {one.low:g} to {one.high:g} {one.unit}")
+    folder: Path = given.output
+    folder.mkdir(parents=True, exist_ok=True)
+    write_slopes(curves, surrogate, folder / "slopes.csv")
+    draw_slopes(curves, surrogate, folder / "slopes.png")
+    rows = [[f"{curve['load_N'].iloc[0]:.4g}", *limits(curve, SHARES)] for curve in curves]
+    print("\n".join(in_columns([["load [N]", *(f"climbs at {100 * share:.0f} % [degrees]" for share in SHARES)], *rows])))
+    missing = len(vehicles) * len(slope) - sum(map(len, curves))
+    if missing:
+        print(f"{missing} slopes and loads lie outside of the training ranges and are left out")
+    print(f"\n{folder}: slopes.csv, slopes.png")
 
 
 @command(

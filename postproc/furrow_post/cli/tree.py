@@ -142,6 +142,9 @@ COMMANDS: dict[str, tuple[Entry, ...]] = {
         Entry("map", "surrogate_commands",
               "go, pull, speed and energy of a wheel on a terrain raster -> map.tif, map.png, mobility.csv",
               ("wheel.json dem.tif --classes soil.tif soils.csv --load 600 -o results/map",)),
+        Entry("slopes", "surrogate_commands",
+              "slip and hub drop of a wheel over slope and load, and where it digs in -> slopes.csv, slopes.png",
+              ("wheel.json --slope 0:25 --load 100:250:4 -o results/slopes",)),
     ),
     "Other": (
         Entry("figure", "shell_commands",
