@@ -2,7 +2,7 @@
 """A Gaussian process of many runs on a fast ground, corrected by few runs on a better one [Kennedy2000].
 
 y_better(x) = rho y_fast(x) + delta(x). y_fast is the process of the fast runs, and delta is a Gaussian process of the
-residuals. rho comes from least squares with delta's covariance and an intercept. Both errors add:
+residuals. rho comes from least squares with delta's covariance, an intercept and a prior. Both errors add:
 s^2 = f^2 (rho^2 s_fast^2 + s_delta^2). Each better run is predicted without it, with rho and delta of the others.
 These held-out runs set f.
 """
@@ -20,7 +20,7 @@ from .gaussian_process import Z_95, HeldOut, Process, factor_of, likeliest
 
 MORE_RUNS = 3  # better runs beyond the number of inputs, at least
 ROUNDS = 3  # of the search of rho and delta
-LEAST_SPREAD = 1e-9  # relative: without one of the fast process at the better runs, rho is 0
+RHO = (1.0, 1.0)  # mean and standard deviation of its prior: few runs leave rho open
 
 
 @dataclass
@@ -94,20 +94,18 @@ def _held_out(x: Floats, y: Floats, fit: Callable[[Floats, Floats], Process | Co
 
 
 def _corrected(fast: Process, x: Floats, y: Floats, start: Corrected | None) -> Corrected:
-    """rho and delta of maximum likelihood, alternately. start: where the search begins."""
+    """rho and delta alternately. start: where the search begins."""
     known = fast.mean_at(x)
     basis = np.column_stack([np.ones(len(y)), known])
-    rho = start.rho if start else _slope(basis, y)
+    rho = start.rho if start else RHO[0]
     delta = likeliest(x, y - rho * known, start.delta if start else None)
     for _ in range(ROUNDS):
-        rho = _slope(*(solve_triangular(delta.factored, part, lower=True) for part in (basis, y)))
+        matrix, right = (solve_triangular(delta.factored, part, lower=True) for part in (basis, y))
+        weight = delta.deviation / RHO[1]  # of the prior, a row more
+        matrix, right = np.vstack([matrix, [0.0, weight]]), np.append(right, weight * RHO[0])
+        rho = float(np.linalg.lstsq(matrix, right, rcond=None)[0][1])
         delta = likeliest(x, y - rho * known, delta)
     return Corrected(fast, rho, delta)
-
-
-def _slope(basis: Floats, y: Floats) -> float:
-    """Second coefficient of least squares."""
-    return float(np.linalg.lstsq(basis, y, rcond=LEAST_SPREAD)[0][1])
 
 
 def _rms(errors: Floats) -> float:

@@ -46,10 +46,10 @@ class CorrectTest(FolderTest):
         fast, _ = fit_process(x, 0.5 * forrester(x) + 10 * (x[:, 0] - 0.5) - 5)
         few, new = np.linspace(0, 1, 8)[:, None], np.linspace(0, 1, 201)[:, None]
         both, held, gain = correct(fast, few, forrester(few))
-        self.assertAlmostEqual(both.rho, 2.0, delta=0.2)
+        self.assertAlmostEqual(both.rho, 2.0, delta=0.3)  # its prior is 1 ± 1
         self.assertLess(held.rms_error, 0.05 * min(gain.fast, gain.better))
         alone = rms(likeliest(few, forrester(few), None).mean_at(new) - forrester(new))
-        self.assertLess(rms(both.mean_at(new) - forrester(new)), 0.3 * alone)
+        self.assertLess(rms(both.mean_at(new) - forrester(new)), 0.4 * alone)
         self.assertAlmostEqual(gain.fast, rms(fast.mean_at(few) - forrester(few)), 12)
 
     def test_band_holds_its_share_of_new_points(self) -> None:
@@ -65,8 +65,8 @@ class CorrectTest(FolderTest):
             errors = np.abs(mean - pull(new)[1])
             shares.append(np.mean(errors <= Z_95 * deviation))
             fits.append(np.mean(errors <= Z_95 * deviation / both.factor))
-        self.assertGreater(np.mean(shares), 0.75, shares)
-        self.assertLess(np.mean(fits), 0.6, fits)  # the widening matters
+        self.assertGreater(np.mean(shares), 0.9, shares)
+        self.assertLess(np.mean(fits), 0.85, fits)  # the widening matters
 
     def test_equal_tables_need_no_correction(self) -> None:
         x = qmc.Halton(2, seed=1).random(60)
