@@ -59,7 +59,7 @@ def _fit(sources: Sequence[Path], better_sources: Sequence[Path], output: Path |
     surrogate, held_out, gains = fit(training, _origin([*sources, *better_sources]), better)
     surrogate.write(target)
     draw_held_out((better or training).quantities, held_out, target.with_suffix(".png"))
-    print("\n".join([*_report(surrogate, training, held_out), *_gains(better, held_out, gains)]))
+    print("\n".join([*_report(surrogate, training, better, held_out), *_gains(held_out, gains)]))
     print(f"\n{target}, {target.with_suffix('.png').name}")
     return surrogate
 
@@ -74,26 +74,29 @@ def _origin(sources: Sequence[Path]) -> dict[str, str]:
     }
 
 
-def _report(surrogate: Surrogate, training: Training, held_out: Mapping[str, HeldOut]) -> list[str]:
+def _report(
+    surrogate: Surrogate, training: Training, better: Training | None, held_out: Mapping[str, HeldOut]
+) -> list[str]:
     rows = [["quantity", "rms error", "of spread", "inside 95 % band"]]
     for name, held in held_out.items():
         percents = [f"{100 * share:.1f} %" for share in (held.rms_error / held.spread, held.coverage)]
         rows.append([name + in_unit(QUANTITIES[name]), f"{held.rms_error:.2g}", *percents])
     ranges = [[one.name, f"{one.low:g} to {one.high:g} {one.unit}".strip()] for one in surrogate.inputs]
-    lines = [f"{len(training.inputs)} runs, held out in ten parts"]
+    how = f"corrected by {len(better.inputs)} better ones, each held out" if better else "held out in ten parts"
+    lines = [f"{len(training.inputs)} runs, {how}"]
     if training.left_out:
         lines.append(f"{training.left_out} runs have no steady values and are left out")
     return [*lines, "", *in_columns(rows), "", *in_columns([["input", "range"], *ranges])]
 
 
-def _gains(better: Training | None, held_out: Mapping[str, HeldOut], gains: Mapping[str, Gain]) -> list[str]:
-    if not better:
+def _gains(held_out: Mapping[str, HeldOut], gains: Mapping[str, Gain]) -> list[str]:
+    if not gains:
         return []
     rows = [["rms error at the better runs", "fast alone", "better alone", "both"]]
     for name, gain in gains.items():
         errors = (gain.fast, gain.better, held_out[name].rms_error)
         rows.append([name + in_unit(QUANTITIES[name]), *(f"{error:.2g}" for error in errors)])
-    return ["", f"{len(better.inputs)} better runs, each held out", "", *in_columns(rows)]
+    return ["", *in_columns(rows)]
 
 
 def _prediction(surrogate: Surrogate, at: Mapping[str, float]) -> list[str]:

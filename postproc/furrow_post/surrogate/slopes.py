@@ -80,7 +80,7 @@ def write_slopes(curves: Sequence[pandas.DataFrame], surrogate: Surrogate, file:
     comments = (
         f"# Slip of one wheel over slope and load by a surrogate of Furrow. Slip is by the radius of {surrogate.constants[RADIUS]:.4g} m.",
         "# load_N: on level ground. least, greatest: slip at the ends of the 95 % band of the pull. probability: of climbing.",
-        f"# Empty slip: the wheel needs more than the slip of {end:.3g}, the end of the training range, or less than the lowest.",
+        f"# Empty slip: no slip up to {end:.3g} gives the pull, so that the wheel digs in; or the lowest gives more than the need.",
     )
     write_rows(file, [in_cells(row, 5) for curve in curves for row in curve.to_dict("records")], comments)
 
@@ -108,6 +108,6 @@ def draw_slopes(curves: Sequence[pandas.DataFrame], surrogate: Surrogate, target
     for axes in (above, below):
         axes.set_xlabel("slope [degrees]")
         axes.axhline(0.0, color="0.8", lw=0.6, zorder=0)
-    label_panels((above, below), f"slip; ×: digs in beyond (needs a slip above {one.high:.2g})", "hub drop; bands: 95 %")
+    label_panels((above, below), f"slip; ×: digs in beyond (no slip up to {one.high:.2g} suffices)", "hub drop; bands: 95 %")
     above.legend(title="load on the level", loc="upper left")
     save(figure, target)

@@ -14,7 +14,7 @@ from furrow_post.surrogate.gaussian_process import Z_95, Process, fit_process, l
 from furrow_post.surrogate.model import fit, read_surrogate
 from furrow_post.surrogate.training import HUB_DROP, PULL, RADIUS, TORQUE, Training, read_training, require_alike
 from furrow_post.surrogate.two_fidelities import Corrected, correct
-from support.command import run_post
+from support.command import SOURCE, run_post
 from support.folder import FolderTest
 from support.surrogate import RANGES, write_sweep_table
 
@@ -112,7 +112,8 @@ class TablesTest(FolderTest):
         file = self.folder / "wheel.json"
         done = run_post("surrogate", self.folder / "fast.csv", "--better", self.folder / "better.csv", "-o", file)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout, r"9 better runs, each held out\n\n +rms error at the better runs +fast alone +better alone +both")
+        self.assertRegex(done.stdout, r"60 runs, corrected by 9 better ones, each held out\n")
+        self.assertRegex(done.stdout, r"rms error at the better runs +fast alone +better alone +both\n")
         found = read_surrogate(file)
         runs = read_training([self.folder / "better.csv"])
         made, held, _ = fit(read_training([self.folder / "fast.csv"]), {}, runs)
@@ -128,6 +129,15 @@ class TablesTest(FolderTest):
         self.assertIn(PULL, shown.stdout)
         low = [one.low for one in found.inputs]  # of the better runs
         np.testing.assert_allclose(low, runs.inputs.min(0))
+
+    def test_stored_runs_have_the_errors_of_the_page(self) -> None:
+        folder = SOURCE / "inputs" / "guide" / "howto" / "surrogate"
+        fast, better = (read_training([folder / f"grc1_{ground}.csv"]) for ground in ("fast", "better"))
+        low, high = better.inputs.min(0), better.inputs.max(0)
+        x, few = ((runs.inputs - low) / (high - low) for runs in (fast, better))
+        process, _ = fit_process(x, fast.quantities[PULL])
+        _, held, gain = correct(process, few, better.quantities[PULL])
+        np.testing.assert_allclose((gain.fast, gain.better, held.rms_error), (0.13, 0.088, 0.039), rtol=0.05)
 
     def test_tables_that_differ_are_refused(self) -> None:
         fast = read_training([self.folder / "fast.csv"])
