@@ -57,6 +57,22 @@ def at_least(low: int) -> Callable[[str], int]:
     return value_of
 
 
+def series(usual: int) -> Callable[[str], tuple[float, ...]]:
+    """Numbers of FIRST:LAST:COUNT, of FIRST:LAST, which are so many, or of NUMBER,NUMBER,..."""
+
+    def values_of(text: str) -> tuple[float, ...]:
+        ends = text.split(":")
+        if len(ends) == 1:
+            return tuple(map(number, text.split(",")))
+        if len(ends) > 3:
+            raise WrongText(f"'{text}' is not FIRST:LAST:COUNT, e.g. 100:250:4")
+        first, last = map(number, ends[:2])
+        count = at_least(2)(ends[2]) if len(ends) == 3 else usual
+        return tuple(first + k * (last - first) / (count - 1) for k in range(count))
+
+    return values_of
+
+
 def fraction(text: str) -> float:
     """0.1 of "10%" or "0.1", between 0 and 1."""
     value = number(text[:-1]) / 100 if text.endswith("%") else number(text)

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Commands surrogate, a fast model from sweeps; map, go and no-go on a terrain raster; fit soil, from wheel tests."""
+"""Commands surrogate, a fast model from sweeps; map, on a terrain raster; slopes, slip over slope; fit soil, from wheel tests."""
 
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from datetime import datetime, timezone
 from pathlib import Path
 
 import numpy as np
 
-from ..arguments import WrongText, between, path, positive
+from ..arguments import WrongText, between, path, positive, series
 from ..arrays import Booleans, Floats
 from ..csv_table import in_columns, write_rows
 from ..errors import ResultsError
@@ -20,41 +20,46 @@ from ..surrogate.mobility import Vehicle
 from ..surrogate.model import Surrogate, fit, read_surrogate
 from ..surrogate.posterior import identify, read_tests
 from ..surrogate.raster import read_raster, read_slope
+from ..surrogate.slopes import draw_slopes, limits, slip_over_slope, write_slopes
 from ..surrogate.surrogate_figures import draw_held_out, draw_posterior
 from ..surrogate.terrain_map import GO, NO_GO, UNCERTAIN, make_map, read_classes, write_map, write_mobility_table
+from ..surrogate.two_fidelities import Gain
 from ..surrogate.training import PULL, QUANTITIES, RADIUS, TORQUE, Training, read_training
 from .parameters import Given, argument, assignments, command, option, repeated, require_file, target_option
 
 CHOSEN = ("slip", "load", "slope")  # inputs that the map chooses
+SHARES = (0.95, 0.5, 0.05)  # probabilities of climbing
 QUANTILES = (2.5, 50.0, 97.5)
 
 
 @command(
     argument("sources", "folders of sweeps or their sweep.csv; or a surrogate, with --at", path, nargs=-1, required=True),
+    repeated("--better", parse=path, metavar="PATH", help="the same of few runs on a better ground, which correct the others"),
     target_option("file to write, .json (default: surrogate.json in the first folder)"),
     assignments("--at", "predicts here: all inputs of the surrogate"),
 )
 def surrogate_(given: Given) -> None:
     sources: Sequence[Path] = given.sources
     if sources[0].suffix == ".json":
-        if given.output or len(sources) > 1 or not given.at:
+        if given.output or given.better or len(sources) > 1 or not given.at:
             raise ResultsError(f"{sources[0]}: is a surrogate; give it alone, with --at NAME=NUMBER ...")
         surrogate = read_surrogate(sources[0])
     else:
-        surrogate = _fit(sources, given.output)
+        surrogate = _fit(sources, given.better, given.output)
     if given.at:
         print("\n".join(_prediction(surrogate, dict(given.at))))
 
 
-def _fit(sources: Sequence[Path], output: Path | None) -> Surrogate:
+def _fit(sources: Sequence[Path], better_sources: Sequence[Path], output: Path | None) -> Surrogate:
     folder = sources[0] if sources[0].is_dir() else sources[0].parent
     target = output or folder / "surrogate.json"
     training = read_training(sources)
     require_file(target, "json", make_folder=True)
-    surrogate, held_out = fit(training, _origin(sources))
+    better = read_training(better_sources) if better_sources else None
+    surrogate, held_out, gains = fit(training, _origin([*sources, *better_sources]), better)
     surrogate.write(target)
-    draw_held_out(training.quantities, held_out, target.with_suffix(".png"))
-    print("\n".join(_report(surrogate, training, held_out)))
+    draw_held_out((better or training).quantities, held_out, target.with_suffix(".png"))
+    print("\n".join([*_report(surrogate, training, better, held_out), *_gains(held_out, gains)]))
     print(f"\n{target}, {target.with_suffix('.png').name}")
     return surrogate
 
@@ -69,16 +74,29 @@ def _origin(sources: Sequence[Path]) -> dict[str, str]:
     }
 
 
-def _report(surrogate: Surrogate, training: Training, held_out: Mapping[str, HeldOut]) -> list[str]:
+def _report(
+    surrogate: Surrogate, training: Training, better: Training | None, held_out: Mapping[str, HeldOut]
+) -> list[str]:
     rows = [["quantity", "rms error", "of spread", "inside 95 % band"]]
     for name, held in held_out.items():
         percents = [f"{100 * share:.1f} %" for share in (held.rms_error / held.spread, held.coverage)]
         rows.append([name + in_unit(QUANTITIES[name]), f"{held.rms_error:.2g}", *percents])
     ranges = [[one.name, f"{one.low:g} to {one.high:g} {one.unit}".strip()] for one in surrogate.inputs]
-    lines = [f"{len(training.inputs)} runs, held out in ten parts"]
+    how = f"corrected by {len(better.inputs)} better ones, each held out" if better else "held out in ten parts"
+    lines = [f"{len(training.inputs)} runs, {how}"]
     if training.left_out:
         lines.append(f"{training.left_out} runs have no steady values and are left out")
     return [*lines, "", *in_columns(rows), "", *in_columns([["input", "range"], *ranges])]
+
+
+def _gains(held_out: Mapping[str, HeldOut], gains: Mapping[str, Gain]) -> list[str]:
+    if not gains:
+        return []
+    rows = [["rms error at the better runs", "fast alone", "better alone", "both"]]
+    for name, gain in gains.items():
+        errors = (gain.fast, gain.better, held_out[name].rms_error)
+        rows.append([name + in_unit(QUANTITIES[name]), *(f"{error:.2g}" for error in errors)])
+    return ["", *in_columns(rows)]
 
 
 def _prediction(surrogate: Surrogate, at: Mapping[str, float]) -> list[str]:
@@ -119,7 +137,7 @@ def _raster(text: str) -> tuple[str, Path]:
 def map_(given: Given) -> None:
     begin = time.perf_counter()
     surrogate = read_surrogate(given.surrogate)
-    vehicle = _vehicle(surrogate, given)
+    vehicle = _vehicle(surrogate, given.load, given.speed, given.power)
     slope = read_slope(given.elevation)
     rasters: dict[str, Floats] = {}
     for name, file in given.raster:
@@ -127,11 +145,8 @@ def map_(given: Given) -> None:
         slope.require_same(raster, str(file))
         rasters[name] = raster.values
     constants = dict(given.set)
-    needed = [name for name in surrogate.names if name not in CHOSEN]
-    of_classes = [name for name in needed if name not in rasters and name not in constants]
-    for name in (*rasters, *constants):
-        if name not in needed:
-            raise ResultsError(f"the surrogate has no soil parameter '{name}'; it has {', '.join(needed) or 'none'}")
+    of_classes = [name for name in _parameters(surrogate) if name not in rasters and name not in constants]
+    _require_known(surrogate, (*rasters, *constants))
     fixed: list[tuple[Booleans | None, Mapping[str, float]]] = [(None, constants)]
     soils: dict[str, Mapping[str, float]] = {"all": constants}
     if given.classes:
@@ -158,18 +173,66 @@ def map_(given: Given) -> None:
     print(f"\n{given.output}: {', '.join(files)}; {slope.values.size} cells in {time.perf_counter() - begin:.1f} s")
 
 
-def _vehicle(surrogate: Surrogate, given: Given) -> Vehicle:
-    """@raises ResultsError where the surrogate does not fit"""
+def _parameters(surrogate: Surrogate) -> list[str]:
+    """Inputs of the soil."""
+    return [name for name in surrogate.names if name not in CHOSEN]
+
+
+def _require_known(surrogate: Surrogate, names: Iterable[str]) -> None:
+    """@raises ResultsError for a name that is no soil parameter"""
+    known = _parameters(surrogate)
+    for name in names:
+        if name not in known:
+            raise ResultsError(f"the surrogate has no soil parameter '{name}'; it has {', '.join(known) or 'none'}")
+
+
+def _vehicle(surrogate: Surrogate, load: float | None, speed: float | None, power: float = math.inf) -> Vehicle:
+    """Those that are not given: of the training runs. @raises ResultsError where the surrogate does not fit"""
     if "slip" not in surrogate.names:
-        raise ResultsError("a map needs a surrogate over slip; sweep slip too")
+        raise ResultsError("this needs a surrogate over slip; sweep slip too")
     constants = surrogate.constants
-    load, speed = given.load or constants.get("load"), given.speed or constants.get("speed")
+    load, speed = load or constants.get("load"), speed or constants.get("speed")
     if load is None or speed is None:
         raise ResultsError("the surrogate has no single load and speed; give --load and --speed")
     if "load" not in surrogate.names and load != constants.get("load"):
         known = f"a load of {constants['load']:g} N only" if "load" in constants else "loads that follow another input"
         raise ResultsError(f"--load {load:g}: the surrogate knows {known}; sweep load too")
-    return Vehicle(load, speed, given.power)
+    return Vehicle(load, speed, power)
+
+
+@command(
+    argument("surrogate", "file of furrow-post surrogate", path),
+    option("--slope", parse=series(51), default="0:25", metavar="FIRST:LAST", show_default=True, help="degrees; FIRST:LAST:COUNT or a list too"),
+    option("--load", parse=series(4), metavar="FIRST:LAST:COUNT", help="N on level ground, or a list (default: that of the training runs)"),
+    assignments("--set", "soil parameters"),
+    target_option("folder to write: slopes.csv, slopes.png", required=True),
+)
+def slopes(given: Given) -> None:
+    surrogate = read_surrogate(given.surrogate)
+    soil = dict(given.set)
+    _require_known(surrogate, soil)
+    for name in _parameters(surrogate):
+        if name not in soil:
+            raise ResultsError(f"no soil parameter {name}; give it by --set {name}=NUMBER")
+        surrogate.require_range(name, soil[name])
+    slope = np.array(given.slope)
+    # The balance has no speed in it
+    vehicles = [_vehicle(surrogate, load, surrogate.constants.get("speed", 1.0)) for load in given.load or (None,)]
+    found = [slip_over_slope(surrogate, vehicle, slope, soil) for vehicle in vehicles]
+    curves = [curve for curve in found if len(curve)]
+    if not curves:
+        one = surrogate.inputs[surrogate.names.index("load" if "load" in surrogate.names else "slope")]
+        raise ResultsError(f"no slope and load lie inside the training range: {one.name} {one.low:g} to {one.high:g} {one.unit}")
+    folder: Path = given.output
+    folder.mkdir(parents=True, exist_ok=True)
+    write_slopes(curves, surrogate, folder / "slopes.csv")
+    draw_slopes(curves, surrogate, folder / "slopes.png")
+    rows = [[f"{curve['load_N'].iloc[0]:.4g}", *limits(curve, SHARES)] for curve in curves]
+    print("\n".join(in_columns([["load [N]", *(f"climbs at {100 * share:.0f} % [degrees]" for share in SHARES)], *rows])))
+    missing = len(vehicles) * len(slope) - sum(map(len, curves))
+    if missing:
+        print(f"{missing} slopes and loads lie outside of the training ranges and are left out")
+    print(f"\n{folder}: slopes.csv, slopes.png")
 
 
 @command(

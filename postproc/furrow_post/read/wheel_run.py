@@ -72,6 +72,7 @@ class WheelRun:
     below: float = 0.0  # depth of the continuum under the grains of a hybrid [m]
     values: dict[str, SteadyValue] = field(default_factory=dict)  # STEADY_QUANTITIES
     rolling_radius: float = float("nan")  # travel along x per turn in the window [m/rad]
+    slip_radius: float = float("nan")  # that gives the rim speed of the slip [m]; NaN: tips of a mesh
     wall_time: float = float("nan")  # [s]
     cpu_time: float = float("nan")  # measured by the runner, else wall time x ranks [s]
 
@@ -144,6 +145,7 @@ def read_wheel_run(folder: Path | str, label: str | None = None) -> WheelRun:
     )
     run.conditions.update(_rig_conditions(rig))
     run.conditions.update(_wheel_conditions(wheel, results))
+    run.slip_radius = _slip_radius(rig, wheel, run.radius)
     if soil and run.ground == "scm":
         _read_scm(run, soil)
     elif soil and run.ground == "continuum":
@@ -189,6 +191,16 @@ def _slip_definition(rig: Style) -> str:
     else:
         radius = f"{radius} radius"
     return f"{radius}, {speed} speed"
+
+
+def _slip_radius(rig: Style, wheel: Style, bare: float) -> float:
+    kind = rig.text("slip_radius") if rig.has("slip_radius") else "bare"
+    if kind == "effective":
+        return rig.number("effective_radius")
+    if kind == "bare":
+        return bare
+    height = wheel.number("grouser_height") if wheel.has("grouser_height") else 0.0
+    return bare + height if wheel.has("diameter") else float("nan")
 
 
 def _wheel_conditions(wheel: Style, results: Results) -> dict[str, Condition]:

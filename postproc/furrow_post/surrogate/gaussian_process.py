@@ -99,11 +99,11 @@ def fit_process(x: Floats, y: Floats) -> tuple[Process, HeldOut]:
             f"a surrogate needs {FEWEST_RUNS} runs or more to check its intervals (got {len(y)}); "
             "repeat the sweep with a larger --samples"
         )
-    process = _likeliest(x, y, None)
+    process = likeliest(x, y, None)
     fold = np.random.default_rng(0).permutation(len(y)) % FOLDS
     predicted, deviation = np.empty_like(y), np.empty_like(y)
     for k in range(FOLDS):
-        rest = _likeliest(x[fold != k], y[fold != k], process)
+        rest = likeliest(x[fold != k], y[fold != k], process)
         predicted[fold == k], deviation[fold == k] = rest.predict(x[fold == k])
     factor, coverage = calibrate((y - predicted) / deviation, fold)
     process.factor = factor
@@ -120,12 +120,13 @@ def calibrate(z: Floats, fold: Any) -> tuple[float, float]:
     To count a fold, the factor comes from the other folds.
     """
     inside = [
-        np.abs(z[fold == k]) <= Z_95 * _factor(z[fold != k]) for k in range(int(np.max(fold)) + 1)
+        np.abs(z[fold == k]) <= Z_95 * factor_of(z[fold != k]) for k in range(int(np.max(fold)) + 1)
     ]
-    return _factor(z), float(np.mean(np.concatenate(inside)))
+    return factor_of(z), float(np.mean(np.concatenate(inside)))
 
 
-def _factor(z: Floats) -> float:
+def factor_of(z: Floats) -> float:
+    """Factor of the standard deviation that brings 95 % of the runs inside the band; of few runs all."""
     rank = min(math.ceil(0.95 * (len(z) + 1)), len(z))
     return float(np.sort(np.abs(z))[rank - 1]) / Z_95
 
@@ -145,8 +146,8 @@ def require_calibrated(name: str, held: HeldOut) -> None:
         )
 
 
-def _likeliest(x: Floats, y: Floats, start: Process | None) -> Process:
-    """start: where the search begins; None: from several places."""
+def likeliest(x: Floats, y: Floats, start: Process | None) -> Process:
+    """The process of maximum likelihood. start: where the search begins; None: from several places."""
     library = optional_module("sklearn.gaussian_process", "python3-sklearn")
     kernels = library.kernels
     lengths = np.ones(x.shape[1]) if start is None else start.lengths

@@ -47,19 +47,24 @@ UNITS = {  # of the mobility of a cell
 }
 
 
-def evaluate(surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats]) -> dict[str, Floats]:
+def evaluate(
+    surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats], shift: float = 0.0
+) -> dict[str, Floats]:
     """Smooth fields over cells. ground: "slope" in degrees and all inputs but slip and load.
 
-    Where the wheel does not climb, slip, energy and sinkage are those of the best pull.
+    Where the wheel does not climb, slip, energy and sinkage are those of the best pull. shift: of the pull, in its
+    standard deviations.
     """
     some = CHUNK // SLIPS
     starts = range(0, len(ground["slope"]), some)
     chunks = ({name: values[k : k + some] for name, values in ground.items()} for k in starts)
-    parts = [_evaluate(surrogate, vehicle, chunk) for chunk in chunks]
+    parts = [_evaluate(surrogate, vehicle, chunk, shift) for chunk in chunks]
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
-def _evaluate(surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats]) -> dict[str, Floats]:
+def _evaluate(
+    surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats], shift: float
+) -> dict[str, Floats]:
     slip_range = surrogate.inputs[surrogate.names.index("slip")]
     slip = np.linspace(slip_range.low, slip_range.high, SLIPS)
     tilt = np.radians(ground["slope"])
@@ -72,6 +77,8 @@ def _evaluate(surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Float
     traction, torque = (
         surrogate.processes[name].mean_at(flat).reshape(x.shape[:2]) for name in (PULL, TORQUE)
     )
+    if shift:
+        traction = traction + shift * surrogate.processes[PULL].predict(flat)[1].reshape(x.shape[:2])
     rows = np.arange(len(x))
     peak = np.argmax(traction, axis=1)
     best = traction[rows, peak]
@@ -100,6 +107,20 @@ def _evaluate(surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Float
         "energy": at(torque) * _rim_over_speed(running),
         "drop": surrogate.processes[HUB_DROP].mean_at(operating),
     }
+
+
+def inside_ranges(surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats]) -> Booleans:
+    """True where all inputs but the slip lie in the training ranges."""
+    loads = vehicle.load * np.cos(np.radians(ground["slope"]))
+    given = dict(ground)
+    if "slope" not in surrogate.names:
+        given["load"] = loads
+        del given["slope"]
+    inside = np.ones(loads.shape, bool)
+    with np.errstate(invalid="ignore"):
+        for name in set(given) & set(surrogate.names):
+            inside &= surrogate.inside(name, given[name])
+    return inside
 
 
 def _rim_over_speed(slip: Floats) -> Floats:

@@ -14,7 +14,7 @@ from ..arrays import Booleans, Floats
 from ..csv_table import in_cells, read_numbers, write_rows
 from ..errors import ResultsError
 from ..figures.style import annotate_panel, panel_letters, save, use_style
-from .mobility import UNITS, Vehicle, evaluate, mobility_of, tabulate
+from .mobility import UNITS, Vehicle, evaluate, inside_ranges, mobility_of, tabulate
 from .model import Surrogate
 from .raster import Raster, write_geotiff
 
@@ -51,7 +51,7 @@ def make_map(
         known = np.all([np.isfinite(values) for values in ground.values()], axis=0)
         if cells is not None:
             known &= cells
-        usable = known & _inside(surrogate, vehicle, ground)
+        usable = known & inside_ranges(surrogate, vehicle, ground)
         outside += int(known.sum() - usable.sum())
         if not usable.any():
             continue
@@ -74,19 +74,6 @@ def make_map(
     verdict = np.select(list(cases.values()), list(cases), UNCERTAIN)
     bands = {"verdict": (verdict, ""), **{name: (found[name], unit) for name, unit in UNITS.items()}}
     return Map(verdict, bands, tuple(notes))
-
-
-def _inside(surrogate: Surrogate, vehicle: Vehicle, ground: Mapping[str, Floats]) -> Booleans:
-    loads = vehicle.load * np.cos(np.radians(ground["slope"]))
-    given = dict(ground)
-    if "slope" not in surrogate.names:
-        given["load"] = loads
-        del given["slope"]
-    inside = np.ones(loads.shape, bool)
-    with np.errstate(invalid="ignore"):
-        for name in set(given) & set(surrogate.names):
-            inside &= surrogate.inside(name, given[name])
-    return inside
 
 
 def read_classes(file: Path, names: Sequence[str]) -> dict[int, dict[str, float]]:
@@ -147,7 +134,7 @@ def write_mobility_table(
     file: Path, surrogate: Surrogate, vehicle: Vehicle, soils: Mapping[str, Mapping[str, float]]
 ) -> int:
     """A row per soil and slope, for tools that read speed, go and pull by soil and slope. @return rows"""
-    inside = SLOPES[_inside(surrogate, vehicle, {"slope": SLOPES})]
+    inside = SLOPES[inside_ranges(surrogate, vehicle, {"slope": SLOPES})]
     tables = []
     for soil, parameters in soils.items() if len(inside) else ():
         constants = {name: np.full(len(inside), value) for name, value in parameters.items()}

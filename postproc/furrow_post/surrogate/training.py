@@ -4,7 +4,7 @@
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -19,9 +19,11 @@ from ..sweep.table import SET
 PULL, TORQUE, HUB_DROP = "net_traction_coefficient", "torque_coefficient", "hub_drop"
 MOTION_RESISTANCE = "motion_resistance_coefficient"  # T/(W r) - P/W
 QUANTITIES = {PULL: "", TORQUE: "", HUB_DROP: "m", MOTION_RESISTANCE: ""}  # name -> unit
-RADIUS = "wheel_radius"
+RADIUS = "wheel_radius"  # of slip and torque_coefficient [m]
+SLIP_RADIUS = "slip_radius"  # column of a sweep; without it slip is by the radius of the torque coefficient
 FORCES = ("force_z", "drive_torque")
 CONDITIONS = ("load", "pressure", "depth", "speed", "slip_angle", "camber", "slope")
+MOST_DIFFERENCE = 0.02  # relative, of conditions that two tables share
 REMEDY = "make it with 'inputs/run SCENE --sweep NAME=FIRST:LAST ... --samples N'"
 
 
@@ -47,10 +49,12 @@ def read_training(sources: Sequence[Path]) -> Training:
         tables.append(pd.DataFrame(read_rows(table)))
         units.update(re.findall(r"^# (\w+) \[(.+)\]$", "\n".join(read_comments(table)), re.M))
     texts = pd.concat(tables, ignore_index=True)
-    runs = texts.applymap(_number).reindex(columns=dict.fromkeys([*texts.columns, *QUANTITIES, *CONDITIONS, *FORCES]))
+    runs = texts.applymap(_number).reindex(columns=dict.fromkeys([*texts.columns, *QUANTITIES, *CONDITIONS, *FORCES, SLIP_RADIUS]))
     names = _inputs(texts, runs, sources[0])
     lever = runs[TORQUE] * runs[FORCES[0]]
-    runs[RADIUS] = runs[FORCES[1]] / lever.where(lever != 0)
+    of_torque = runs[FORCES[1]] / lever.where(lever != 0)
+    runs[RADIUS] = runs[SLIP_RADIUS].fillna(of_torque)
+    runs[TORQUE] *= of_torque / runs[RADIUS]
     runs[MOTION_RESISTANCE] = runs[TORQUE] - runs[PULL]
     inputs = [SET + name for name in names]
     whole = runs[np.isfinite(runs[[*inputs, *QUANTITIES, RADIUS]]).all(axis="columns")]
@@ -65,6 +69,24 @@ def read_training(sources: Sequence[Path]) -> Training:
         {RADIUS: float(whole[RADIUS].median()), **{name: float(value) for name, value in shared.items() if math.isfinite(value)}},
         len(runs) - len(whole),
     )
+
+
+def require_alike(fast: Training, better: Training) -> Training:
+    """The better runs with inputs in the order of the fast ones. @raises ResultsError where both do not fit"""
+    if set(fast.names) != set(better.names):
+        raise ResultsError(f"the runs vary {', '.join(fast.names)}, the better runs {', '.join(better.names)}; vary the same variables")
+    for name in fast.constants.keys() & better.constants.keys():
+        ours, theirs = fast.constants[name], better.constants[name]
+        if not math.isclose(ours, theirs, rel_tol=MOST_DIFFERENCE, abs_tol=1e-9):
+            raise ResultsError(f"{name} is {ours:g} in the runs and {theirs:g} in the better runs; give both the same")
+    inputs = better.inputs[:, [better.names.index(name) for name in fast.names]]
+    for name, values, known in zip(fast.names, inputs.T, fast.inputs.T):
+        if values.min() < known.min() or values.max() > known.max():
+            raise ResultsError(
+                f"{name}: the better runs reach from {values.min():g} to {values.max():g}, the runs from {known.min():g} to "
+                f"{known.max():g}; add runs to the sweep, or leave out better ones"
+            )
+    return replace(better, names=fast.names, units=fast.units, inputs=inputs)
 
 
 def _inputs(texts: pd.DataFrame, runs: pd.DataFrame, source: Path) -> tuple[str, ...]:

@@ -39,6 +39,7 @@ def _cells(series: Series, point: SweepPoint) -> dict[str, tuple[Cell, str]]:
     for name, value in quantities.items():
         cells |= {name: (value.mean, value.unit), f"{name}_error": (value.uncertainty, value.unit)}
         cells |= {f"{name}_error_{part}": (value.parts.part(part), value.unit) for part in Budget.NAMES}
+    cells["slip_radius"] = first.slip_radius, "m"
     if parts := point.parts:
         forces = {"whole": parts.whole, **parts.forces, "not accounted for": parts.unexplained}
         cells |= {PART + name.replace(",", "").replace(" ", "_"): (force, "N") for name, force in forces.items()}

@@ -35,6 +35,20 @@ class WheelRunTest(FolderTest):
         self.assertAlmostEqual(run.number("slip_by_vehicle_speed"), 0.25, places=12)
         self.assertAlmostEqual(run.rolling_radius, 0.8 * RADIUS)
 
+    def test_radius_of_slip_is_that_of_the_rig(self) -> None:
+        for options, height, radius in (
+            ({}, 0.03, RADIUS),
+            ({"slip_radius": ["tip"]}, 0.03, RADIUS + 0.03),
+            ({"slip_radius": ["tip"]}, None, RADIUS),
+            ({"slip_radius": ["effective"], "effective_radius": [0.2]}, 0.03, 0.2),
+        ):
+            wheel, driven = rigid_wheel(), rig()
+            driven["options"].update(options)
+            if height:
+                wheel["options"].update(grousers=[24], grouser_height=[height])
+            write_run(self.folder, styles=[wheel, driven])
+            self.assertAlmostEqual(read_wheel_run(self.folder).slip_radius, radius)
+
     def test_fix_can_have_the_name_of_a_keyword(self) -> None:
         write_run(self.folder, styles=[rigid_wheel("speed"), rig(identity="load_force")])
         run = read_wheel_run(self.folder)

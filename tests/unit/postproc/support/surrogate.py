@@ -30,6 +30,17 @@ def wheel(slip: Floats, load: Floats, phi: Floats, k: Floats | float = 1.0) -> d
     }
 
 
+def closed_form(slope: float, phi: float, load: float) -> tuple[float, float, float]:
+    """Largest pull minus need, slip and energy per distance of the operating point; load: on level ground."""
+    slip = np.linspace(*RANGES["slip"], 20001)
+    load *= np.cos(np.radians(slope))
+    answers = wheel(slip, np.array(load), np.array(phi))
+    need = np.tan(np.radians(slope))
+    k = int(np.argmax(answers[PULL] >= need))
+    rim = 1 / (1 - slip[k]) if slip[k] > 0 else 1 + slip[k]
+    return float(answers[PULL].max() - need), float(slip[k]), float(load * answers[TORQUE][k] * rim)
+
+
 def samples(runs: int, noise: float = 0.0, ranges: Ranges = RANGES) -> dict[str, Floats]:
     """Inputs and answers by name; noise: standard deviation over the mean size of an answer."""
     unit = qmc.Halton(len(ranges), seed=1).random(runs)

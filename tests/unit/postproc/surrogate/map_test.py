@@ -16,7 +16,7 @@ from furrow_post.surrogate.raster import read_slope
 from furrow_post.surrogate.training import HUB_DROP, PULL, TORQUE
 from support.command import run_post
 from support.folder import FolderTest
-from support.surrogate import RANGES, made_surrogate, wheel
+from support.surrogate import RANGES, closed_form, made_surrogate, wheel
 
 gdal.UseExceptions()
 LOAD, SPEED, POWER, CELL = 600.0, 0.5, 150.0, 10.0
@@ -28,17 +28,6 @@ def write_ascii(file: Path, values: Floats, cell: float = CELL) -> None:
     """ESRI's grid of numbers, row 0 in the north."""
     head = f"ncols {values.shape[1]}\nnrows {values.shape[0]}\nxllcorner 0\nyllcorner 0\ncellsize {cell}\nNODATA_value -9999\n"
     file.write_text(head + "\n".join(" ".join(f"{v:.9g}" for v in row) for row in values) + "\n")
-
-
-def closed_form(slope: float, phi: float) -> tuple[float, float, float]:
-    """Largest pull minus need, slip and energy per distance of the operating point."""
-    slip = np.linspace(*RANGES["slip"], 20001)
-    load = LOAD * np.cos(np.radians(slope))
-    answers = wheel(slip, np.array(load), np.array(phi))
-    need = np.tan(np.radians(slope))
-    k = int(np.argmax(answers[PULL] >= need))
-    rim = 1 / (1 - slip[k]) if slip[k] > 0 else 1 + slip[k]
-    return float(answers[PULL].max() - need), float(slip[k]), float(load * answers[TORQUE][k] * rim)
 
 
 class MapTest(FolderTest):
@@ -77,7 +66,7 @@ class MapTest(FolderTest):
             fields = evaluate(made_surrogate(), vehicle, {"slope": slopes, "phi": np.full(5, phi)})
             result = mobility_of(fields, vehicle, slopes)
             for k, slope in enumerate(slopes):
-                margin, slip, energy = closed_form(float(slope), phi)
+                margin, slip, energy = closed_form(float(slope), phi, LOAD)
                 self.assertAlmostEqual(
                     result["pull"][k], max(margin, 0) * LOAD * np.cos(np.radians(slope)), delta=1.5
                 )
@@ -136,14 +125,14 @@ class MapTest(FolderTest):
         for key, phi in PHI.items():
             row = verdict[self.classes[:, 0] == key][5]
             edge = np.flatnonzero(row < 2)[0]  # first column without go
-            steepest = next(s for s in np.arange(0, 45, 0.01) if closed_form(float(s), phi)[0] < 0)
+            steepest = next(s for s in np.arange(0, 45, 0.01) if closed_form(float(s), phi, LOAD)[0] < 0)
             self.assertAlmostEqual(self.slope[edge], steepest, delta=1.0)
         self.assertGreater((self.folder / "map" / "map.png").stat().st_size, 10_000)
         rows = read_numbers(self.folder / "map" / "mobility.csv")
         self.assertEqual({row["soil"] for row in rows}, {1.0, 2.0})
         for row in rows:
             slope = np.radians(row["slope_degrees"])
-            margin, _, energy = closed_form(row["slope_degrees"], PHI[int(row["soil"])])
+            margin, _, energy = closed_form(row["slope_degrees"], PHI[int(row["soil"])], LOAD)
             self.assertAlmostEqual(row["traction_coefficient"], margin + np.tan(slope), delta=2e-3)
             self.assertLess(row["pull_N"], max(margin, 0) * LOAD * np.cos(slope) + 1.5)  # power limits it
             self.assertEqual(row["go_probability"] > 0.5, margin > 0)
