@@ -15,18 +15,6 @@ def nearest(kind: str, slip: float) -> dict[str, Any]:
     return min((p for p in MEASURED if p["kind"] == kind and -0.75 < p["slip"] < 0.8), key=lambda p: float(abs(p["slip"] - slip)))
 
 
-def all_slips(*grains: float) -> list[dict[str, Any]]:
-    """Keys of a run for every test of both wheels but spinning at 0.9 and locked, in grains of several sizes [mm]; the
-    larger of travel and rim speed is 0.4 m/s."""
-    bars = {"smooth": "grousers 0", "grouser": "grousers 24 grouser_height 0.005 grouser_thickness 0.00165"}
-    return [
-        {"kind": test["kind"], "grain": grain, "diameter": grain / 1000, "step": f"{1.6e-5 * grain:.6g}", "slip": test["slip"],
-         "load": round(test["load_N"], 2), "speed": f"{0.4 * min(1.0, 1 - test['slip']):.5g}", "grousers": bars[test["kind"]],
-         "height": 0.005 if test["kind"] == "grouser" else 0.0}
-        for grain in grains for test in MEASURED if test["kind"] in bars and -0.8 < test["slip"] < 0.8
-    ]  # fmt: skip
-
-
 def along_heading(along_travel: float, lateral: float, slip_angle: float) -> float:
     """F_T from F_x and F_S, by equation 3 of src/theory/symbols.md; the angle in degrees."""
     angle = math.radians(slip_angle)

@@ -73,33 +73,33 @@ def is_predicted(row: dict[str, str]) -> bool:
     return near and (not row["id"].startswith("CMU") or float(row["slip_angle_deg"]) in ANGLES)
 
 
+def wheel_keys(row: dict[str, Any], angle: float) -> dict[str, Any]:
+    """Keys of a run on grains; angle: of slip, as the rig takes it [degrees]."""
+    travel, slip = in_wheel_frame(float(row["slip"]), angle)
+    grousers = "grouser" in row["id"]
+    return {
+        **row, "rig_slip": f"{slip:.6g}", "speed": f"{FASTEST * travel:.5g}", "angle": f"{angle:g}", "height": "0.005" if grousers else "0",
+        "bars": "grousers 24 grouser_height 0.005 grouser_thickness 0.00165" if grousers else "grousers 0",
+    }  # fmt: skip
+
+
 def sand() -> list[dict[str, Any]]:
     """The wheel at a slip angle on grains that were calibrated on plates alone; two pours."""
-    runs = []
-    for row in filter(is_predicted, conditions("CMU")):
-        travel, slip = in_wheel_frame(float(row["slip"]), float(row["slip_angle_deg"]))
-        bars = "grousers 24 grouser_height 0.005 grouser_thickness 0.00165" if "grouser" in row["id"] else "grousers 0"
-        keys: dict[str, Any] = {**row, "rig_slip": f"{slip:.6g}", "speed": f"{FASTEST * travel:.5g}", "bars": bars}
-        keys |= {"angle": f"{float(row['slip_angle_deg']):g}", "height": "0.005" if "grouser" in row["id"] else "0"}
-        runs += [{**keys, "pour": k + 1, "seed": seed} for k, seed in enumerate(SEEDS)]
-    return runs
+    rows = filter(is_predicted, conditions("CMU"))
+    keys = [wheel_keys(row, float(row["slip_angle_deg"])) for row in rows]
+    return [{**one, "pour": k + 1, "seed": seed} for one in keys for k, seed in enumerate(SEEDS)]
 
 
 def further_sand() -> list[dict[str, Any]]:
     """Further tests of the wheel at a slip angle, on one packing of finer grains. A wheel that travels across its plane
     needs a wider bed; the rig takes angles below 90 degrees."""
     rows = {row["id"]: row for row in conditions("CMU")}
-    runs = []
-    for wheel, angles in FURTHER.items():
-        bars = "grousers 24 grouser_height 0.005 grouser_thickness 0.00165" if wheel == "grouser" else "grousers 0"
-        for angle, numbers in angles.items():
-            for number in numbers:
-                row = rows[f"CMU-{wheel}-{angle}-{number}"]
-                turned = min(float(angle), 89.9)
-                travel, slip = in_wheel_frame(float(row["slip"]), turned)
-                runs.append({**row, "rig_slip": f"{slip:.6g}", "speed": f"{FASTEST * travel:.5g}", "bars": bars, "angle": f"{turned:g}",
-                    "height": "0.005" if wheel == "grouser" else "0", "width": "0.3" if angle > 45 else "0.22"})  # fmt: skip
-    return runs
+    return [
+        {**wheel_keys(rows[f"CMU-{wheel}-{angle}-{number}"], min(float(angle), 89.9)), "width": "0.3" if angle > 45 else "0.22"}
+        for wheel, angles in FURTHER.items()
+        for angle, numbers in angles.items()
+        for number in numbers
+    ]
 
 
 def is_braked(name: str) -> bool:
