@@ -16,6 +16,7 @@ from scipy.stats import t as student
 
 from ..arrays import Floats
 from ..errors import ResultsError
+from ..uncertainty.statistics import rms
 from .gaussian_process import Z_95, HeldOut, Process, factor_of, likeliest
 
 MORE_RUNS = 3  # better runs beyond the number of inputs, at least
@@ -70,9 +71,9 @@ def correct(fast: Process, x: Floats, y: Floats) -> tuple[Corrected, HeldOut, Ga
     whole.factor = widening(z, fitted)
     inside = [abs(z[k]) <= Z_95 * widening(np.delete(z, k), fitted) for k in range(len(z))]
     by_better = _held_out(x, y, lambda a, b: likeliest(a, b, alone))[0]
-    share, error = float(np.mean(inside)), _rms(y - predicted)
+    share, error = float(np.mean(inside)), rms(y - predicted)
     held = HeldOut(predicted, whole.factor * deviation, whole.factor, share, error, float(np.std(y)))
-    return whole, held, Gain(_rms(y - fast.mean_at(x)), _rms(y - by_better))
+    return whole, held, Gain(rms(y - fast.mean_at(x)), rms(y - by_better))
 
 
 def widening(z: Floats, fitted: int) -> float:
@@ -106,7 +107,3 @@ def _corrected(fast: Process, x: Floats, y: Floats, start: Corrected | None) -> 
         rho = float(np.linalg.lstsq(matrix, right, rcond=None)[0][1])
         delta = likeliest(x, y - rho * known, delta)
     return Corrected(fast, rho, delta)
-
-
-def _rms(errors: Floats) -> float:
-    return float(np.sqrt(np.mean(errors**2)))
