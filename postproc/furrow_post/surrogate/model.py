@@ -163,10 +163,11 @@ def fit(
     def scaled(runs: Training) -> Floats:
         return np.column_stack([one.scaled(runs.inputs[:, k]) for k, one in enumerate(inputs)])
 
+    x = scaled(training)
     processes: dict[str, Process | Corrected] = {}
     held_out, gains = {}, {}
     for name, y in training.quantities.items():
-        process, held_out[name] = fit_process(scaled(training), y)
+        process, held_out[name] = fit_process(x, y)
         require_calibrated(name, held_out[name])
         processes[name] = process
         if better:
