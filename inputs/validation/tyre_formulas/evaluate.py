@@ -23,10 +23,13 @@ TYRES = {
     "18.4R38": (20000, 100),
     "31x15.50-15": (6000, 80),
     "22x11.00-10": (2000, 50),
+    "18x8.50-8": (1200, 50),
+    "13x5.00-6": (600, 100),
 }
 SOILS = ("sand_loose", "sand_medium", "sand_firm", "clay_soft", "clay_medium", "clay_stiff")  # in inputs/materials
-ON_CLAY = "265/70R17"  # the tyre that runs on clay too
+LOAM = "sandy_loam"  # for the tyre of the curve
 SLIP = 0.2  # of the driven tyres
+CURVE = ("265/70R17", ("sand_medium", "clay_medium"), (0.05, 0.1, 0.2, 0.3, 0.4))  # tyre, soils and slips of a curve
 CELL, DEPTH, TRAVEL = 0.15, 1.3, 3.7  # over the radius of the belt
 
 
@@ -48,19 +51,30 @@ def tyre_text(size: str) -> str:
     return estimate(size).text
 
 
+def keys_of(size: str, soil: str, motion: str) -> dict[str, Any]:
+    load, pressure = TYRES[size]
+    radius = estimate(size).radius
+    lengths = {"cell": CELL * radius, "depth": DEPTH * radius, "fine_depth": 0.5 * radius, "distance": TRAVEL * radius}
+    return {
+        "tyre": size.replace("/", "_"), "size": size, "soil": soil, "motion": motion, "load": load, "pressure": 1e3 * pressure,
+        "radius": f"{radius:.4f}", **{name: f"{value:.4f}" for name, value in lengths.items()},
+    }  # fmt: skip
+
+
 def combinations() -> Iterator[dict[str, Any]]:
-    """Every tyre on every sand and one on every clay, towed and driven."""
-    for size, (load, pressure) in TYRES.items():
-        radius = estimate(size).radius
-        lengths = {"cell": CELL * radius, "depth": DEPTH * radius, "fine_depth": 0.5 * radius, "distance": TRAVEL * radius}
-        for soil in SOILS:
-            if soil_named(soil).kind == "clay" and size != ON_CLAY:
-                continue
-            for drive, motion in (("towed", "mode towed"), ("driven", f"mode slip slip {SLIP}")):
-                yield {
-                    "tyre": size.replace("/", "_"), "size": size, "soil": soil, "drive": drive, "motion": motion, "load": load,
-                    "pressure": 1e3 * pressure, "radius": f"{radius:.4f}", **{name: f"{value:.4f}" for name, value in lengths.items()},
-                }  # fmt: skip
+    """Every tyre on every soil, towed and driven."""
+    for size in TYRES:
+        for soil in (*SOILS, LOAM) if size == CURVE[0] else SOILS:
+            yield {"drive": "towed", **keys_of(size, soil, "mode towed")}
+            yield {"drive": "driven", **keys_of(size, soil, f"mode slip slip {SLIP}")}
+
+
+def curve() -> Iterator[dict[str, Any]]:
+    """One tyre at further slips."""
+    size, soils, slips = CURVE
+    for soil in soils:
+        for slip in slips:
+            yield {"slip": slip, **keys_of(size, soil, f"mode slip slip {slip}")}
 
 
 @cache
@@ -75,13 +89,25 @@ def compared_with_formulas(run: Run) -> list[dict[str, Any]]:
     soil, _, name = run.name.partition("/")
     size, _, drive = name.rpartition("_")
     size = size.replace("_", "/")
-    needed = {"rut_depth", "resistance_coefficient" if drive == "towed" else "net_traction_coefficient"}
-    if missing := needed - Summary(run.folder).quantities.keys():
-        raise ResultsError(f"{run.folder}: its summary has no {' and '.join(sorted(missing))}; repeat the run")
+    _require(run, {"rut_depth", "resistance_coefficient" if drive == "towed" else "net_traction_coefficient"})
     rows = compared(run.folder, formulas(size, soil), drive == "towed")
     if soil_named(soil).kind == "clay" and drive == "towed":
         rows += _resistance_on_clay(run, size, soil)
     return [{"size": size, "soil": soil, "drive": drive, **row._asdict()} for row in rows]
+
+
+def pull_at_slip(run: Run) -> dict[str, Any]:
+    """Net traction of a run of the curve, with its whole error, and that of the formulas."""
+    _, soil, slip = run.name.split("/")
+    _require(run, {"net_traction_coefficient"})
+    rows = compared(run.folder, formulas(CURVE[0], soil, float(slip)), towed=False)
+    pull = next(row for row in rows if row.quantity == "net_traction_coefficient")
+    return {"soil": soil, "slip": float(slip), **pull._asdict()}
+
+
+def _require(run: Run, needed: set[str]) -> None:
+    if missing := needed - Summary(run.folder).quantities.keys():
+        raise ResultsError(f"{run.folder}: its summary has no {' and '.join(sorted(missing))}; repeat the run")
 
 
 def _resistance_on_clay(run: Run, size: str, soil: str) -> list[Compared]:
