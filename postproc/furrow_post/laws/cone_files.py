@@ -38,10 +38,14 @@ class Soil:
 def soil_of(material: Path) -> Soil | None:
     """Soil of a material file; None where it has no cone index, or no sand or fine-grained soil. @raises ResultsError"""
     content = parse_json(answer([find_program("furrow-point"), "show", material, "--json"]))
-    index, kind = content.get("cone_index"), KINDS.get(content["law"])
-    if kind == "sand" and cohesion(content["sections"]["law"]) > COHESIVE:
-        kind = "clay"
+    index, kind = content.get("cone_index"), kind_of(content["law"], content["sections"]["law"])
     return Soil(kind, float(index)) if kind and index is not None else None
+
+
+def kind_of(law: str, values: Mapping[str, Any]) -> str | None:
+    """Kind of soil of a law with its values; a sand without friction, or with much cohesion, is fine-grained soil."""
+    kind = KINDS.get(law)
+    return "clay" if kind == "sand" and (values.get("beta") == 0.0 or cohesion(values) > COHESIVE) else kind
 
 
 def cohesion(law: Mapping[str, Any]) -> float:

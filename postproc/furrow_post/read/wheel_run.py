@@ -302,18 +302,24 @@ def _read_values(run: WheelRun, reference: Grains | None) -> None:
         _require_mean(run, name, float(columns[name][inside].mean()))
     v, spin = (float(columns[name][inside].mean()) for name in ("velocity_x", "spin_rate"))
     run.rolling_radius = v / spin if spin else float("nan")
-    rim = float(columns["rim_speed"][inside].mean()) if "rim_speed" in columns else run.radius * spin
     if run.text("travel") == "free":  # an answer of the ground
         run.conditions["speed"] = Condition(v, "m/s")
-    run.conditions["slip"] = Condition(float(run.values["slip"].mean))
-    by_speed = (rim - v) / v if v else float("nan")
-    run.conditions["slip_by_vehicle_speed"] = Condition(by_speed)
+    slip = float(run.values["slip"].mean)
+    run.conditions["slip"] = Condition(slip)
+    run.conditions["slip_by_vehicle_speed"] = Condition(slip_by_vehicle_speed(slip))
     # The rig counts the hub drop from ground_level, which may differ from the top of the ground
     if reference is not None and np.isfinite(reference.bed_level):
         shift = float(reference.bed_level - run.ground_level)
         hub_drop = run.values["hub_drop"]
         run.values["hub_drop"] = replace(hub_drop, mean=hub_drop.mean + shift)
         run.conditions["datum_shift"] = Condition(shift, "m")
+
+
+def slip_by_vehicle_speed(slip: float) -> float:
+    """(v_rim - v)/v of a wheel that moves forward, from (v_rim - v)/max(|v_rim|, |v|); NaN where it does not move."""
+    if slip < 0.0:  # the vehicle is the faster one
+        return slip
+    return slip / (1.0 - slip) if slip < 1.0 else float("nan")
 
 
 def _require_mean(run: WheelRun, name: str, mean: float) -> None:

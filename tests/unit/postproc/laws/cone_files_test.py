@@ -4,7 +4,7 @@
 import math
 import unittest
 
-from furrow_post.laws.cone_files import COHESIVE, Soil, cohesion, formula_tyre, soil_of
+from furrow_post.laws.cone_files import COHESIVE, Soil, cohesion, formula_tyre, kind_of, soil_of
 from furrow_post.laws.terrain_values import terrains
 from furrow_post.soil.make import Strength
 from support.command import SOURCE
@@ -20,6 +20,12 @@ class ConeFilesTest(unittest.TestCase):
         self.assertEqual(soil_of(MATERIALS / "sandy_loam.yaml"), Soil("clay", 202e3))
         self.assertIsNone(soil_of(MATERIALS / "moist_sand.yaml"))  # no formula has moist sand
         self.assertIsNone(soil_of(MATERIALS / "fresh_snow.yaml"))
+
+    def test_soil_without_friction_is_fine_grained(self) -> None:
+        self.assertEqual(kind_of("drucker_prager", {"d": 2000.0, "beta": 0.0}), "clay")
+        self.assertEqual(kind_of("drucker_prager", {"d": 2000.0, "beta": 50.0}), "sand")
+        self.assertEqual(kind_of("norsand", {"M": 1.2}), "sand")
+        self.assertIsNone(kind_of("crushable_foam", {}))
 
     def test_cohesion_of_a_law_is_that_of_mohr_coulomb(self) -> None:
         made = Strength(1720.0, 29.0)

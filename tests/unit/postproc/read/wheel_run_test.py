@@ -9,9 +9,9 @@ import numpy as np
 from furrow_post.analyse.density import ground_points
 from furrow_post.errors import ResultsError
 from furrow_post.read.results import Grains, Results, Styles, Surface
-from furrow_post.read.wheel_run import read_wheel_run
+from furrow_post.read.wheel_run import read_wheel_run, slip_by_vehicle_speed
 from support.folder import FolderTest
-from support.runs import RADIUS, rig, rigid_wheel, style, write_grains, write_run
+from support.runs import RADIUS, rig, rigid_wheel, style, write_grains, write_run, write_summary
 
 TYRE = style("wheel", "tyre/modal", "wheel", pressure=2.4e5, modes=12, half=True)
 
@@ -48,6 +48,17 @@ class WheelRunTest(FolderTest):
                 wheel["options"].update(grousers=[24], grouser_height=[height])
             write_run(self.folder, styles=[wheel, driven])
             self.assertAlmostEqual(read_wheel_run(self.folder).slip_radius, radius)
+
+    def test_both_slips_have_the_radius_of_the_rig(self) -> None:
+        write_run(self.folder)
+        write_summary(self.folder, 0.05, 1000.0, slip=0.3)  # by the tips of grousers; the channel rim_speed is that of 0.2
+        run = read_wheel_run(self.folder)
+        self.assertAlmostEqual(run.number("slip_by_vehicle_speed"), 3 / 7, places=12)
+
+    def test_braked_wheel_has_equal_slips(self) -> None:
+        for slip, by_speed in ((-0.5, -0.5), (0.0, 0.0), (0.5, 1.0)):
+            self.assertAlmostEqual(slip_by_vehicle_speed(slip), by_speed)
+        self.assertTrue(np.isnan(slip_by_vehicle_speed(1.0)))
 
     def test_fix_can_have_the_name_of_a_keyword(self) -> None:
         write_run(self.folder, styles=[rigid_wheel("speed"), rig(identity="load_force")])
