@@ -75,6 +75,9 @@ TEST(PlateMesh, ConeHasTheExactBaseAreaAndVolume) {
 
 TEST(PlateMesh, ImpossibleShapesAreRefused) {
   PlateGeometry geometry = plate(PlateShape::circle);
+  geometry.thickness = 0.0;
+  EXPECT_THAT(error_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
+              HasSubstr("keyword 'thickness' is 0; allowed: a number > 0 [m]"));
   geometry.thickness = 1e-5;
   EXPECT_THAT(error_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
               HasSubstr("makes slivers at the edge"));

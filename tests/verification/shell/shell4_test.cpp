@@ -471,6 +471,15 @@ TEST(Shell4, InvalidShellsAreRefused) {
   bad.nu12 = 1.5;
   EXPECT_THROW(ShellSection(bad, 1.0), InputError);
   EXPECT_THROW(ShellSection(belt(), 0.0), InputError);
+  const OrthotropicWall wall{1e6, 1e6, 4e5, 1.0, 1.0};
+  EXPECT_NO_THROW(ShellSection(wall, 1.0));
+  for (double OrthotropicWall::*stiffness :
+       {&OrthotropicWall::stretch1, &OrthotropicWall::stretch2, &OrthotropicWall::shear,
+        &OrthotropicWall::bending1, &OrthotropicWall::bending2}) {
+    OrthotropicWall slack = wall;
+    slack.*stiffness = 0.0;
+    EXPECT_THROW(ShellSection(slack, 1.0), InputError);
+  }
 
   ShellModel model = mapped_shell(
       2, 2, [](double s, double t) { return Vector3(s, t, 0); }, section, along_y);
