@@ -93,7 +93,7 @@ def compared_with_formulas(run: Run) -> list[dict[str, Any]]:
     rows = compared(run.folder, formulas(size, soil), drive == "towed")
     if soil_named(soil).kind == "clay" and drive == "towed":
         rows += _resistance_on_clay(run, size, soil)
-    return [{"size": size, "soil": soil, "drive": drive, **row._asdict()} for row in rows]
+    return [{"size": size, "soil": soil, "drive": drive, **row._asdict(), "steady": _steady(run, row.quantity)} for row in rows]
 
 
 def pull_at_slip(run: Run) -> dict[str, Any]:
@@ -102,7 +102,11 @@ def pull_at_slip(run: Run) -> dict[str, Any]:
     _require(run, {"net_traction_coefficient"})
     rows = compared(run.folder, formulas(CURVE[0], soil, float(slip)), towed=False)
     pull = next(row for row in rows if row.quantity == "net_traction_coefficient")
-    return {"soil": soil, "slip": float(slip), **pull._asdict()}
+    return {"soil": soil, "slip": float(slip), **pull._asdict(), "steady": _steady(run, pull.quantity)}
+
+
+def _steady(run: Run, quantity: str) -> str:
+    return "yes" if Summary(run.folder).quantities[quantity]["steady"] else "no"
 
 
 def _require(run: Run, needed: set[str]) -> None:
