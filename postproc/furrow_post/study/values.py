@@ -135,7 +135,7 @@ class StudyValue:
     what: str = ""
     quantity: str = ""
     reference: float | Stored | None = None
-    reference_error: float = 0.0  # standard error; of a mean of tests it follows from their scatter
+    reference_error: float | Stored = 0.0  # standard error; of a mean of tests it follows from their scatter
     reference_scatter: float = 0.0  # standard deviation of one test
     reference_tests: int = 1  # number of tests in the mean of the reference
     reference_of: str = ""
@@ -178,8 +178,9 @@ class StudyValue:
 
     def expected_error(self) -> float:
         """Standard error of the reference."""
+        error = self.reference_error
         of_tests = self.reference_scatter / math.sqrt(self.reference_tests)
-        return math.hypot(self.reference_error, of_tests)
+        return math.hypot(error.read() if isinstance(error, Stored) else error, of_tests)
 
     def verdict(self, folder: Path | None = None) -> str:
         value, expected = self.computed(folder), self.expected()
@@ -314,7 +315,7 @@ def _value(folder: Path, entry: Mapping[str, Any]) -> StudyValue:
     own = {k: entry[k] for k in STORED_KEYS if k in entry}
     stored = _stored(folder, own, None, where) if "column" in entry else None
     given |= {"id": f"{folder.name}.{entry['id']}", "stored": stored, "error": _error(folder, given, stored, where)}
-    for key in ("over", "reference", "cost"):
+    for key in ("over", "reference", "reference_error", "cost"):
         if key in given and not isinstance(given[key], (int, float)):
             one = _stored(folder, given[key], stored, f"{where}: {key}")
             # a cost is in seconds and has no scale

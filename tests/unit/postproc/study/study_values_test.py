@@ -130,6 +130,13 @@ class EntryTest(unittest.TestCase):
         self.assertAlmostEqual(value.expected() or 0, 13.0)
         self.assertEqual(value.verdict(), "met")
 
+    def test_error_of_a_reference_can_be_a_stored_value(self) -> None:
+        more = ", error: 0, reference: 14, reference_error: {}, reference_of: ours"
+        for error, expected, verdict in (("0.31", 0.31, "near"), ("{column: e, scale: 300}", 0.93, "agrees")):
+            value = self.value(more.format(error))
+            self.assertAlmostEqual(value.expected_error(), expected)
+            self.assertEqual(value.verdict(), verdict)
+
     def test_mistakes_are_refused(self) -> None:
         for more, run, message in (
             ("", "c", "2 rows have"),
