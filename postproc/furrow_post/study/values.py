@@ -35,7 +35,7 @@ AGREE, MET, CLOSE, DIFFERS, MISSED = "agrees", "met", "near", "differs", "missed
 INCONCLUSIVE, NOTHING = "inconclusive", "nothing to compare"
 NOT_DONE, OUTSIDE = "not done", "outside"
 VERDICTS = (AGREE, MET, CLOSE, DIFFERS, MISSED, INCONCLUSIVE, NOTHING, NOT_DONE, OUTSIDE)
-NEED_REASON = (CLOSE, DIFFERS, MISSED, NOT_DONE, OUTSIDE)
+NEED_REASON = (CLOSE, DIFFERS, MISSED, NOTHING, NOT_DONE, OUTSIDE)
 
 
 def verdict_of(value: float, error: float, reference: float, reference_error: float = 0.0) -> str:
@@ -122,7 +122,8 @@ class StudyValue:
     """A number of a study, and what it is compared with.
 
     reference: a number, or another stored one; limit: "upper" or "lower" where the reference is
-    one; without: verdict of an entry that nothing was computed for.
+    one; without: verdict of an entry that nothing was computed for; reason: of a verdict of
+    NEED_REASON, for "nothing to compare" what a comparison needs.
     """
 
     id: str

@@ -202,7 +202,7 @@ class StoredTest(unittest.TestCase):
         self.assertGreater(len(list(from_studies)), 200)
         write_pages(SOURCE, check=True)
 
-    def test_disagreeing_values_have_a_reason(self) -> None:
+    def test_values_that_need_a_reason_have_one(self) -> None:
         for value in Registry.of(SOURCE):
             if value.verdict() in NEED_REASON:
                 with self.subTest(value.id):
