@@ -16,9 +16,10 @@ HEAD = (
     "# (measured value known before the model was fixed), held out (in a source that this project has,",
     "# kept apart), blind (nobody here has it), scored (predicted after a score). verdict: agrees, within",
     "# 10 % or twice the error of the reference; near, within 25 %; differs; met or missed; inconclusive,",
-    "# where twice the errors decide, allow more than 25 %, or are not estimated. program: commit of the",
-    "# source tree that made the runs, + with uncommitted changes. audit: items of report_items.csv that",
-    "# the value answers. Written by furrow-post study --pages.",
+    "# where twice the errors decide, allow more than 25 %, or are not estimated. reason: of the verdict; for",
+    "# nothing to compare, what a comparison needs. program: commit of the source tree that made the runs, +",
+    "# with uncommitted changes. audit: items of report_items.csv that the value answers. Written by",
+    "# furrow-post study --pages.",
 )
 
 

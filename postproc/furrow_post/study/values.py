@@ -35,7 +35,7 @@ AGREE, MET, CLOSE, DIFFERS, MISSED = "agrees", "met", "near", "differs", "missed
 INCONCLUSIVE, NOTHING = "inconclusive", "nothing to compare"
 NOT_DONE, OUTSIDE = "not done", "outside"
 VERDICTS = (AGREE, MET, CLOSE, DIFFERS, MISSED, INCONCLUSIVE, NOTHING, NOT_DONE, OUTSIDE)
-NEED_REASON = (CLOSE, DIFFERS, MISSED, NOT_DONE, OUTSIDE)
+NEED_REASON = (CLOSE, DIFFERS, MISSED, NOTHING, NOT_DONE, OUTSIDE)
 
 
 def verdict_of(value: float, error: float, reference: float, reference_error: float = 0.0) -> str:
@@ -122,7 +122,8 @@ class StudyValue:
     """A number of a study, and what it is compared with.
 
     reference: a number, or another stored one; limit: "upper" or "lower" where the reference is
-    one; without: verdict of an entry that nothing was computed for.
+    one; without: verdict of an entry that nothing was computed for; reason: of a verdict of
+    NEED_REASON, for "nothing to compare" what a comparison needs.
     """
 
     id: str
@@ -135,7 +136,7 @@ class StudyValue:
     what: str = ""
     quantity: str = ""
     reference: float | Stored | None = None
-    reference_error: float = 0.0  # standard error; of a mean of tests it follows from their scatter
+    reference_error: float | Stored = 0.0  # standard error; of a mean of tests it follows from their scatter
     reference_scatter: float = 0.0  # standard deviation of one test
     reference_tests: int = 1  # number of tests in the mean of the reference
     reference_of: str = ""
@@ -178,8 +179,9 @@ class StudyValue:
 
     def expected_error(self) -> float:
         """Standard error of the reference."""
+        error = self.reference_error
         of_tests = self.reference_scatter / math.sqrt(self.reference_tests)
-        return math.hypot(self.reference_error, of_tests)
+        return math.hypot(error.read() if isinstance(error, Stored) else error, of_tests)
 
     def verdict(self, folder: Path | None = None) -> str:
         value, expected = self.computed(folder), self.expected()
@@ -314,7 +316,7 @@ def _value(folder: Path, entry: Mapping[str, Any]) -> StudyValue:
     own = {k: entry[k] for k in STORED_KEYS if k in entry}
     stored = _stored(folder, own, None, where) if "column" in entry else None
     given |= {"id": f"{folder.name}.{entry['id']}", "stored": stored, "error": _error(folder, given, stored, where)}
-    for key in ("over", "reference", "cost"):
+    for key in ("over", "reference", "reference_error", "cost"):
         if key in given and not isinstance(given[key], (int, float)):
             one = _stored(folder, given[key], stored, f"{where}: {key}")
             # a cost is in seconds and has no scale
