@@ -40,8 +40,7 @@ constexpr double aligned = 0.7, covered_share = 0.05, behind = 0.5;
 // Size of terrain under a wheel, in lengths of the wheel.
 constexpr double longest_window = 30.0, longest_track = 200.0, widest_terrain = 30.0,
                  deepest_terrain = 10.0;
-constexpr double largest_pull = 1.0;    // over the vertical force: sand of 45 degrees
-constexpr double cells_of_a_lug = 2.5;  // in height and spacing of grousers
+constexpr double largest_pull = 1.0;  // over the vertical force: sand of 45 degrees
 // Largest vertical part of a tool's direction, and radial part of a grouser's normal
 constexpr double sideways = 0.5;
 constexpr double beyond_rim = 1.01;  // distance of a grouser's corner from the axle, in radii
@@ -347,22 +346,19 @@ CheckResult cells_show_the_grousers(const Scene&, FixGroundContact& contact) {
   const FixBody& body = contact.body_fix();
   const Options& ground = contact.ground().line();
   const auto* wheel = dynamic_cast<const WheelHub*>(&body.body());
-  if (!wheel || !body.options().has("grousers") || !contact.needs_fine_cells()) return {};
+  if (!wheel || !contact.needs_fine_cells()) return {};
   const Vector3 cell = contact.ground().shortest_cell();
-  const auto count = static_cast<double>(body.options().integer("grousers"));
-  const double high = wheel->tip_radius() - wheel->nominal_radius(),
-               apart = 2.0 * pi * wheel->nominal_radius() / count;
-  if (count == 0.0 || high <= 0.0 ||
-      (high >= cells_of_a_lug * cell.z() && apart >= cells_of_a_lug * cell.x()))
-    return {};
+  const WheelDetails details = details_of(*wheel);
+  const double high = details.grouser_height, apart = details.grouser_spacing;
+  if (high >= cells_of_a_grouser * cell.z() && apart >= cells_of_a_grouser * cell.x()) return {};
   return warning(fmt::format(
       "{} is {:.4g} m, and the grousers of '{}' are {:.3g} m high and {:.3g} m apart: the ground "
       "does not resolve them; write at most 'cell {:.2g}' ({:g} cells in height and spacing), or "
       "compare with a wheel without grousers",
       ground.where("cell"), ground.number("cell"), body.id, high, apart,
-      std::min(high / cells_of_a_lug * ground.number("cell") / cell.z(),
-               apart / cells_of_a_lug * ground.number("cell") / cell.x()),
-      cells_of_a_lug));
+      std::min(high / cells_of_a_grouser * ground.number("cell") / cell.z(),
+               apart / cells_of_a_grouser * ground.number("cell") / cell.x()),
+      cells_of_a_grouser));
 }
 
 /// Blades, and grousers: ground reaches both sides of no other part.

@@ -42,10 +42,13 @@ std::optional<GroundSize> size_by_wheel(LAMMPS_NS::LAMMPS& lammps, const Options
   const auto* wheel = dynamic_cast<const WheelHub*>(
       &find_fix<FixBody>(lammps, options, "follow", followable).body());
   if (!wheel) return {};
-  const double cell = options.number("cell");
-  GroundSize size =
-      ground_under_wheel(wheel->nominal_radius(), wheel->nominal_width(), options.number("depth"));
-  if (options.given("width") || options.flag("surface_mesh"))
+  const double depth = options.number("depth");
+  const bool carries_grains = options.flag("surface_mesh");
+  GroundSize size = ground_under_wheel(wheel->nominal_radius(), wheel->nominal_width(), depth);
+  if (!options.given("cell") && !carries_grains)
+    choose_cell(size, details_of(*wheel), depth, options.flag("thin_parts"));
+  const double cell = options.given("cell") ? options.number("cell") : size.cell;
+  if (options.given("width") || carries_grains)
     size.fine_width = 0.0;  // the whole ground has fine cells
   else                      // whole cells on either side, as long as they were asked for
     size.fine_width = 2.0 * cell * std::ceil(0.5 * size.fine_width / cell * (1.0 - same_length));
@@ -109,12 +112,21 @@ std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& opt
     warn(lammps, fmt::format("{}: {}", options.subject(), warning));
   if (const std::string note = parameters.relief.note(); !note.empty())
     warn(lammps, fmt::format("{}: {}", options.where("heightmap"), note));
-  if (const double particles = size_of(parameters).particles; particles > many_particles)
+  if (const double particles = size_of(parameters).particles; particles > many_particles) {
+    if (!options.given("cell"))
+      throw InputError(
+          options.where("cell"),
+          fmt::format("is missing, and cells of {} m by {} make about {:.2g} particles",
+                      options.number("cell"), size_by_wheel(lammps, options)->cell_by, particles),
+          "a number > 0 [m]",
+          fmt::format("write 'cell {}' to compute that many, or longer cells",
+                      options.number("cell")));
     warn(lammps,
          fmt::format("{} has about {:.2g} particles: a step takes about {:.1g} s on one core; if "
                      "length {:.4g} m, width {:.4g} m or depth {:.4g} m is in another unit, give m",
                      options.subject(), particles, seconds_of_particle * particles,
                      options.number("length"), options.number("width"), options.number("depth")));
+  }
   if (options.given("slabs")) parameters.slabs = static_cast<std::size_t>(options.integer("slabs"));
   return std::make_unique<ContinuumTerrain>(parameters, Communicator(&lammps.world),
                                             options.subject());
@@ -230,6 +242,16 @@ void FixTerrainContinuum::report() {
                options().given("width") ? "" : " by the wheel's width and the depth",
                grid.axis(0).cells(), grid.axis(1).cells(), grid.axis(2).cells(),
                grid.shortest_cell(), particles, step, blocks);
+  if (comm->me == 0 && screen && !options().given("cell")) {
+    const GroundKind kind = ground_kind(*terrain().parameters().layers.front().material);
+    const std::optional<CellError> error = cell_error(kind);
+    fmt::print(screen, "Cells of {} m by {}; their error for a driven smooth wheel on {}{}\n",
+               options().number("cell"), size_by_wheel(*lmp, options())->cell_by, name_of(kind),
+               error ? fmt::format(": hub drop {:.2g} %, pull {:.2g} of the load "
+                                   "(inputs/guide/howto/cell_and_grain_size.md)",
+                                   100.0 * error->hub_drop, error->pull)
+                     : " is not known");
+  }
   warn_of_extremes();
   const double scale = options().number("modulus_scale");
   if (scale != 1.0)

@@ -4,6 +4,7 @@
 /// prescribed. Rigid wheels and the rims of tyres derive from it, and a rig drives both through it.
 
 #include <array>
+#include <limits>
 #include <string>
 
 #include "furrow/bodies/body.h"
@@ -107,6 +108,8 @@ class WheelHub : public Body {
   virtual double tip_radius() const { return nominal_radius(); }
   /// number of equal sectors of the wheel, each with a grouser; 0 for a smooth one
   virtual int grousers() const { return 0; }
+  /// width of the narrowest groove or rib of the tread [m]; infinite where none is known
+  virtual double narrowest_groove() const { return std::numeric_limits<double>::infinity(); }
   /// Width [m] of the part that rolls on the ground, unloaded: of a tyre its tread or carcass.
   virtual double nominal_width() const = 0;
   /// Lowest z of the unloaded shape without grousers [m]; defines the hub drop.

@@ -252,7 +252,7 @@ AxisLayout vertical_layout(const Options& options) {
   const double surface = options.number("surface"), depth = options.number("depth"),
                cell = options.number("cell");
   const double fine =
-      options.given("fine_depth") ? std::min(depth, options.number("fine_depth")) : depth;
+      options.has("fine_depth") ? std::min(depth, options.number("fine_depth")) : depth;
   const double own_cell = fine / std::max(1.0, std::round(fine / cell));
   const double clearance = options.given("clearance_above")
                                ? options.number("clearance_above")
@@ -283,7 +283,12 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
       .optional();
   if (size) schema.by_default(size->width);
   schema.number("depth", "m", Range::positive(), "depth of the terrain");
-  schema.number("cell", "m", Range::positive(), "edge of the cells in the fine part");
+  schema
+      .number("cell", "m", Range::positive(),
+              "edge of the cells in the fine part; by default from the wheel and the depth, with "
+              "`follow`")
+      .optional();
+  if (size && size->cell > 0.0) schema.by_default(size->cell);
   schema.numbers("centre", 2, "m", Range::any(), "x y of the middle")
       .by_default(std::vector<double>{0.0, 0.0});
   schema.number("surface", "m", Range::any(), "z of the undisturbed surface").by_default(0.0);
@@ -306,8 +311,10 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
   if (size && size->fine_width > 0.0) schema.by_default(size->fine_width);
   schema
       .number("fine_depth", "m", Range::positive(),
-              "depth below the surface with cells of size `cell`; by default all")
+              "depth below the surface with cells of size `cell`; by default all, or from the "
+              "wheel's width if `cell` is")
       .optional();
+  if (size && size->fine_depth > 0.0) schema.by_default(size->fine_depth);
   schema
       .number("growth", "", Range::closed(1.0, 1.5),
               "size ratio of neighbouring cells outside the fine part")
@@ -391,7 +398,7 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
 }
 
 TerrainParameters read_terrain(const Options& options, const std::string& folder) {
-  for (const char* key : {"length", "width"})
+  for (const char* key : {"length", "width", "cell"})
     if (!options.has(key))
       throw InputError(options.where(key), "is missing", "a number > 0 [m]",
                        "only ground that follows one wheel can do without");

@@ -46,8 +46,8 @@ GroundKind ground_kind(const Material& material) {
   const std::vector<Vector2> surface = material.yield_surface(state);
   const auto top = std::max_element(surface.begin(), surface.end(),
                                     [](const Vector2& a, const Vector2& b) { return a[1] < b[1]; });
-  return top != surface.end() && (*top)[1] > frictional * (*top)[0] ? GroundKind::sand
-                                                                    : GroundKind::clay;
+  return top != surface.end() && (*top)[1] > frictional * std::abs((*top)[0]) ? GroundKind::sand
+                                                                              : GroundKind::clay;
 }
 
 const char* name_of(GroundKind kind) {

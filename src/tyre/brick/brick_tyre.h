@@ -3,6 +3,7 @@
 /// A tyre with a tread of rubber, after the modal-analysis models of [Shoop2001]: a carcass of
 /// shells from bead to bead, on it a tread of bricks, smooth, ribbed or lugged.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,10 @@ class BrickTyre : public NodalTyre {
   // WheelHub
   double nominal_radius() const override { return tyre_.radius(); }
   double nominal_width() const override { return tyre_.width(); }
+  double narrowest_groove() const override {
+    return std::min(tyre_.tread.narrowest_void(tyre_.radius()),
+                    tyre_.tread.narrowest_rib(tyre_.radius()));
+  }
 
   // Tyre
   const TreadGrid& tread_grid() const override { return mesh_.grid; }

@@ -30,7 +30,9 @@ TEST(GroundKind, CompactionAndFrictionSetTheKind) {
   for (const char* sand : {"dry_sand", "dry_sand_smooth", "grc1", "norsand_loose", "norsand_dry",
                            "norsand_dense", "mccormick_sand"})
     EXPECT_EQ(kind_of(fmt::format("materials/{}.yaml", sand)), GroundKind::sand) << sand;
-  EXPECT_EQ(kind_of("validation/ground_size/clay.yaml"), GroundKind::clay);
+  for (const char* clay : {"validation/ground_size/clay", "materials/clay_soft",
+                           "materials/clay_medium", "materials/clay_stiff"})
+    EXPECT_EQ(kind_of(fmt::format("{}.yaml", clay)), GroundKind::clay) << clay;
   EXPECT_EQ(kind_of("materials/compacted_sand_elastic.yaml"), GroundKind::clay);
 }
 
