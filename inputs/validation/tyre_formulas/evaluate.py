@@ -70,7 +70,7 @@ def combinations() -> Iterator[dict[str, Any]]:
 
 
 def curve() -> Iterator[dict[str, Any]]:
-    """One tyre at further slips."""
+    """One tyre over slip."""
     size, soils, slips = CURVE
     for soil in soils:
         for slip in slips:
